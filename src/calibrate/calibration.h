@@ -1,0 +1,69 @@
+// Laws fitted to all rows of a campaign, and how well they predict experiments they have not seen.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "job/job.h"
+#include "models/law.h"
+
+namespace frictab {
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+// Errors of prediction: residual = tau_meas - tau_pred (the paper's sign). 95 % intervals by
+// resampling whole experiments.
+struct Metrics {
+  double mae_MPa = 0;
+  double rmse_MPa = 0;
+  double bias_MPa = 0; // mean residual
+  Interval mae_interval;
+  Interval rmse_interval;
+  Interval bias_interval;
+  std::size_t n_rows = 0;
+  std::size_t n_experiments = 0;
+};
+
+struct ModelFit {
+  Model model;
+  std::vector<double> std_error; // per parameter; NaN where the data do not determine it
+  std::string std_error_method;
+  std::string termination; // why the solver stopped
+  std::size_t evaluations = 0;
+  double seconds = 0;               // wall time; kept out of files that must be reproducible
+  std::vector<std::string> remarks; // a bound that was hit, a parameter the data do not determine
+  Metrics training;
+  Metrics validation;
+};
+
+struct Calibration {
+  std::vector<ModelFit> fits; // ranked by validation MAE
+  std::vector<std::string>
+      left_out; // "levanov: needs sigma_f_MPa" for laws the columns do not allow
+  Loss loss = Loss::l2;
+  std::uint64_t seed = 1;
+  bool synthetic = false; // the data say they are
+  std::string data_hash;  // 16 hex digits, training and validation
+};
+
+struct CalibrationInput {
+  const Dataset& training;
+  const Dataset& validation;
+  ModelOptions models;
+  CalibrationOptions options;
+};
+
+// Throws InputError where no law can be used, or a law asked for by name lacks columns.
+Calibration calibrate(const CalibrationInput& input);
+
+// tau_R in MPa of every row. The data must have inputs(law).
+std::vector<double> predict(const Model& model, const Dataset& data);
+
+// The data's own word: a column `origin` that says "synthetic".
+bool is_synthetic(const Dataset& data);
+
+} // namespace frictab

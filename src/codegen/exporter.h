@@ -1,0 +1,55 @@
+// A target: one FE code's friction routine. How it is filled, compiled and called is one folder in
+// exporters/; what it looks like is the folder of the same name in templates/.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/registry.h"
+#include "table/table.h"
+
+namespace frictab {
+
+// Files by path relative to export/<target>/, in memory until everything succeeded.
+using SourceBundle = std::map<std::string, std::string>;
+
+struct ExportRequest {
+  const Table& table;
+  std::string units = "mm-t-s";              // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
+  std::map<std::string, std::string> inputs; // job's [export.inputs]; checked by the exporter
+};
+
+// One way to compile a bundle so that it can be driven here: the shared library that results is
+// passed to `drive`.
+struct BuildVariant {
+  std::string name;                 // "c99", "double", "single"
+  std::vector<std::string> command; // argv; "@{out}" is the library to write, "@{dir}" the bundle
+  SourceBundle extra;               // stand-ins for files of the solver (includes)
+  double eps = 0; // unit roundoff of its real type: the drift that precision alone explains
+};
+
+struct Exporter {
+  std::string name;
+  int order = 0;
+  std::string title;
+  std::string
+      signature_source; // where the argument list comes from, "verified: ..." / "recalled: ..."
+  std::string notes;    // traps and limits, for `explain`
+
+  // All files with recipe.json. Throws InputError where the request cannot be met.
+  SourceBundle (*generate)(const ExportRequest&) = nullptr;
+  std::vector<BuildVariant> (*variants)(const ExportRequest&) = nullptr;
+  // Calls the routine as its solver would, for rows of states in canonical units (columns in the
+  // order of request.table.inputs()), and gives tau_R in MPa. `library` is a dlopen handle.
+  void (*drive)(void* library, const BuildVariant&, const ExportRequest&, std::size_t rows,
+                std::span<const double* const> columns, std::span<double> tau) = nullptr;
+};
+
+const std::vector<Exporter>& all_exporters();
+const Exporter* find_exporter(std::string_view name);
+
+} // namespace frictab

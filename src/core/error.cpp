@@ -1,0 +1,43 @@
+// Formats faults; every message a user sees goes through here.
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+namespace frictab {
+
+std::string format_place(const Place& place) {
+  if (place.line == 0) return place.file;
+  if (place.column == 0) return fmt::format("{}:{}", place.file, place.line);
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string format_faults(const std::vector<Fault>& faults) {
+  std::string text;
+  for (std::size_t i = 0; i < faults.size() && i < FaultList::shown; ++i) {
+    const Fault& fault = faults[i];
+    const std::string place = format_place(fault.place);
+    if (!text.empty()) text += '\n';
+    text += place.empty() ? "error: " : place + ": error: ";
+    text += fault.what;
+    if (!fault.hint.empty()) text += "\n  hint: " + fault.hint;
+  }
+  if (faults.size() > FaultList::shown)
+    text += fmt::format("\n... and {} more faults", faults.size() - FaultList::shown);
+  return text;
+}
+
+InputError::InputError(std::vector<Fault> faults)
+    : faults_(std::move(faults)), text_(format_faults(faults_)) {}
+
+InputError::InputError(Place place, std::string what, std::string hint)
+    : InputError(std::vector<Fault>{{std::move(place), std::move(what), std::move(hint)}}) {}
+
+void FaultList::add(Place place, std::string what, std::string hint) {
+  faults_.push_back({std::move(place), std::move(what), std::move(hint)});
+}
+
+void FaultList::throw_if_any() const {
+  if (!faults_.empty()) throw InputError(faults_);
+}
+
+} // namespace frictab

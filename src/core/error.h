@@ -1,0 +1,58 @@
+// The one error type: what is wrong, where (file:line:col), how to mend it.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace frictab {
+
+// A place in a user's file; line and column count from 1, 0 = unknown.
+struct Place {
+  std::string file;
+  std::size_t line = 0;
+  std::size_t column = 0;
+};
+
+// "file:line:col", leaving out what is unknown.
+std::string format_place(const Place& place);
+
+// One fault of the input. `hint` says how to mend it and may be empty.
+struct Fault {
+  Place place;
+  std::string what;
+  std::string hint;
+};
+
+// Thrown for everything the user can mend (exit code 2). Holds every fault found in one go.
+class InputError : public std::exception {
+public:
+  explicit InputError(std::vector<Fault> faults);
+  InputError(Place place, std::string what, std::string hint = "");
+  const char* what() const noexcept override { return text_.c_str(); }
+  const std::vector<Fault>& faults() const { return faults_; }
+
+private:
+  std::vector<Fault> faults_;
+  std::string text_;
+};
+
+// Collects faults so that a file's faults are reported together: the first 20 in full, the rest
+// counted.
+class FaultList {
+public:
+  static constexpr std::size_t shown = 20;
+  void add(Place place, std::string what, std::string hint = "");
+  bool empty() const { return faults_.empty(); }
+  std::size_t size() const { return faults_.size(); }
+  void throw_if_any() const;
+
+private:
+  std::vector<Fault> faults_;
+};
+
+// "place: error: what\n  hint: ..." a fault; the text `InputError::what()` returns.
+std::string format_faults(const std::vector<Fault>& faults);
+
+} // namespace frictab

@@ -1,0 +1,43 @@
+// Things that describe themselves as data (laws, effects, targets) and are found because they
+// exist. A file adds one with a file-scope `const Registered<T> registered{make};`; it links
+// because the library is a CMake OBJECT library.
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace frictab {
+
+// T has `std::string name` and `int order` (the place in listings).
+template <class T> class Registry {
+public:
+  static Registry& instance() {
+    static Registry registry;
+    return registry;
+  }
+
+  void add(T item) {
+    const auto later = [](const T& a, const T& b) {
+      return a.order != b.order ? a.order < b.order : a.name < b.name;
+    };
+    items_.insert(std::upper_bound(items_.begin(), items_.end(), item, later), std::move(item));
+  }
+
+  const std::vector<T>& all() const { return items_; }
+
+  const T* find(std::string_view name) const {
+    for (const T& item : items_)
+      if (item.name == name) return &item;
+    return nullptr;
+  }
+
+private:
+  std::vector<T> items_;
+};
+
+template <class T> struct Registered {
+  explicit Registered(T (*make)()) { Registry<T>::instance().add(make()); }
+};
+
+} // namespace frictab

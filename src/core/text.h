@@ -1,0 +1,29 @@
+// Small text helpers shared by messages, tables and generated code.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frictab {
+
+// The candidate with the smallest edit distance (transpositions count 1), or "" where none is near
+// enough to be a typing error (distance > 1 + a third of the length).
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+// "did you mean 'x'?" where one is near; otherwise "known: a, b, c".
+std::string suggest(std::string_view name, std::span<const std::string> candidates);
+
+std::string join(std::span<const std::string> parts, std::string_view separator);
+
+// Shortest text that reads back to the same bits: 0.1, 1e-20, nan, inf.
+std::string shortest(double value);
+
+// 44550 -> "44,550".
+std::string thousands(std::size_t value);
+
+// 1536 -> "1.5 KiB".
+std::string human_bytes(double bytes);
+
+} // namespace frictab

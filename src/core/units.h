@@ -1,0 +1,24 @@
+// Unit conversion for mapped columns and for the unit systems of generated routines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frictab {
+
+// canonical = factor * value + offset
+struct Conversion {
+  double factor = 1;
+  double offset = 0;
+  double operator()(double value) const { return factor * value + offset; }
+};
+
+// nullopt where either unit is unknown or they do not measure the same thing.
+std::optional<Conversion> convert(std::string_view from, std::string_view to);
+
+// Every unit that can be named, for messages.
+std::vector<std::string> known_units();
+
+} // namespace frictab

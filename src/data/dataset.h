@@ -1,0 +1,55 @@
+// A tribometer campaign in canonical units: columns of rows, cut into experiments.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frictab {
+
+struct Column {
+  std::string name;                // canonical name, or the file's own for a bystander
+  std::string unit;                // canonical unit; empty for a bystander
+  std::vector<double> values;      // one per row; the level's index where categorical
+  std::vector<std::string> levels; // not empty: a text column; sorted
+};
+
+// Rows of one experiment are contiguous and in time order; an experiment is never split.
+class Dataset {
+public:
+  std::vector<Column> columns;
+  std::vector<std::string> experiments;  // names, in order of first appearance
+  std::vector<std::size_t> first_row{0}; // experiments.size() + 1 entries
+  std::vector<std::string> sources;      // files read, as named by the user
+  std::uint64_t hash = 0;                // of all values and names: the data's fingerprint
+  struct Dropped {
+    std::string rule; // "tau_R_MPa below 0.1"
+    std::size_t rows;
+  };
+  std::vector<Dropped> dropped;   // rows left out at the user's word
+  std::vector<std::string> notes; // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
+
+  std::size_t rows() const { return first_row.back(); }
+  const Column* find(std::string_view name) const;
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+  // Throws std::logic_error where the column is absent: ask has() first.
+  std::span<const double> values(std::string_view name) const;
+
+  // The experiments listed in `keep` (indices, ascending), whole.
+  Dataset subset(std::span<const std::size_t> keep) const;
+};
+
+// Sets `hash` from names, values and experiments.
+void fingerprint(Dataset& data);
+
+// Splits off round(share * experiments) whole experiments (at least 1, leaving at least 1), drawn
+// by seed. Throws InputError where there are fewer than 2 experiments.
+struct Split {
+  Dataset training;
+  Dataset validation;
+};
+Split hold_out(const Dataset& data, double share, std::uint64_t seed);
+
+} // namespace frictab

@@ -1,0 +1,59 @@
+// What each operation of a formula does to numbers: the one definition used for folding constants
+// and for evaluation.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "expr/expr.h"
+
+namespace frictab {
+
+inline double min_nan(double a, double b) {
+  return (b < a || std::isnan(b)) ? b : a;
+}
+inline double max_nan(double a, double b) {
+  return (b > a || std::isnan(b)) ? b : a;
+}
+
+inline double apply(Op op, double a, double b, double c, double d) {
+  switch (op) {
+  case Op::negate:
+    return -a;
+  case Op::add:
+    return a + b;
+  case Op::subtract:
+    return a - b;
+  case Op::multiply:
+    return a * b;
+  case Op::divide:
+    return a / b;
+  case Op::power:
+    return std::pow(a, b);
+  case Op::exp:
+    return std::exp(a);
+  case Op::log:
+    return std::log(a);
+  case Op::sqrt:
+    return std::sqrt(a);
+  case Op::sin:
+    return std::sin(a);
+  case Op::tanh:
+    return std::tanh(a);
+  case Op::acos:
+    return std::acos(a);
+  case Op::minimum:
+    return min_nan(a, b);
+  case Op::maximum:
+    return max_nan(a, b);
+  case Op::where_le:
+    if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::quiet_NaN();
+    return a <= b ? c : d;
+  case Op::constant:
+  case Op::symbol:
+    break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace frictab

@@ -1,0 +1,168 @@
+// Formula nodes, with the simplifications that keep generated code short (x*1, x+0, constants).
+#include "expr/expr.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "expr/arithmetic.h"
+
+namespace frictab {
+
+struct Expr::Node {
+  Op op;
+  double value;
+  std::string name;
+  std::vector<Expr> operands;
+};
+
+Expr::Expr(double value) : node_(std::make_shared<Node>(Node{Op::constant, value, "", {}})) {}
+
+Expr Expr::symbol(std::string name) {
+  return Expr(std::make_shared<Node>(Node{Op::symbol, 0, std::move(name), {}}));
+}
+
+Expr Expr::make(Op op, std::initializer_list<Expr> operands) {
+  std::vector<Expr> list(operands);
+  double values[4] = {};
+  bool all_constant = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    all_constant = all_constant && list[i].op() == Op::constant;
+    if (all_constant) values[i] = list[i].value();
+  }
+  if (all_constant) return Expr(apply(op, values[0], values[1], values[2], values[3]));
+  return Expr(std::make_shared<Node>(Node{op, 0, "", std::move(list)}));
+}
+
+Op Expr::op() const {
+  return node_->op;
+}
+double Expr::value() const {
+  return node_->value;
+}
+const std::string& Expr::name() const {
+  return node_->name;
+}
+const std::vector<Expr>& Expr::operands() const {
+  return node_->operands;
+}
+bool Expr::is_constant(double value) const {
+  return op() == Op::constant && node_->value == value;
+}
+
+Expr operator-(const Expr& a) {
+  return Expr::make(Op::negate, {a});
+}
+
+Expr operator+(const Expr& a, const Expr& b) {
+  if (a.is_constant(0)) return b;
+  if (b.is_constant(0)) return a;
+  return Expr::make(Op::add, {a, b});
+}
+
+Expr operator-(const Expr& a, const Expr& b) {
+  if (b.is_constant(0)) return a;
+  return Expr::make(Op::subtract, {a, b});
+}
+
+Expr operator*(const Expr& a, const Expr& b) {
+  if (a.is_constant(1)) return b;
+  if (b.is_constant(1)) return a;
+  return Expr::make(Op::multiply, {a, b});
+}
+
+Expr operator/(const Expr& a, const Expr& b) {
+  if (b.is_constant(1)) return a;
+  return Expr::make(Op::divide, {a, b});
+}
+
+Expr pow(const Expr& a, const Expr& b) {
+  return Expr::make(Op::power, {a, b});
+}
+Expr exp(const Expr& a) {
+  return Expr::make(Op::exp, {a});
+}
+Expr log(const Expr& a) {
+  return Expr::make(Op::log, {a});
+}
+Expr sqrt(const Expr& a) {
+  return Expr::make(Op::sqrt, {a});
+}
+Expr sin(const Expr& a) {
+  return Expr::make(Op::sin, {a});
+}
+Expr tanh(const Expr& a) {
+  return Expr::make(Op::tanh, {a});
+}
+Expr acos(const Expr& a) {
+  return Expr::make(Op::acos, {a});
+}
+Expr minimum(const Expr& a, const Expr& b) {
+  return Expr::make(Op::minimum, {a, b});
+}
+Expr maximum(const Expr& a, const Expr& b) {
+  return Expr::make(Op::maximum, {a, b});
+}
+
+Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y) {
+  return Expr::make(Op::where_le, {a, b, x, y});
+}
+
+namespace {
+
+void collect(const Expr& e, std::set<std::string>& names, std::set<const Expr::Node*>& seen) {
+  if (!seen.insert(e.id()).second) return;
+  if (e.op() == Op::symbol) names.insert(e.name());
+  for (const Expr& operand : e.operands())
+    collect(operand, names, seen);
+}
+
+using Replaced = std::unordered_map<const Expr::Node*, Expr>;
+
+Expr rebuild(Op op, const std::vector<Expr>& a) {
+  switch (op) { // through the operators, so that the simplifications apply again
+  case Op::add:
+    return a[0] + a[1];
+  case Op::subtract:
+    return a[0] - a[1];
+  case Op::multiply:
+    return a[0] * a[1];
+  case Op::divide:
+    return a[0] / a[1];
+  default:
+    break;
+  }
+  if (a.size() == 1) return Expr::make(op, {a[0]});
+  if (a.size() == 2) return Expr::make(op, {a[0], a[1]});
+  return Expr::make(op, {a[0], a[1], a[2], a[3]});
+}
+
+Expr replace(const Expr& e, const std::map<std::string, Expr>& with, Replaced& done) {
+  if (const auto found = done.find(e.id()); found != done.end()) return found->second;
+  Expr result = e;
+  if (e.op() == Op::symbol) {
+    if (const auto found = with.find(e.name()); found != with.end()) result = found->second;
+  } else if (!e.operands().empty()) {
+    std::vector<Expr> operands;
+    for (const Expr& operand : e.operands())
+      operands.push_back(replace(operand, with, done));
+    result = rebuild(e.op(), operands);
+  }
+  done.emplace(e.id(), result);
+  return result;
+}
+
+} // namespace
+
+std::set<std::string> symbols(const Expr& formula) {
+  std::set<std::string> names;
+  std::set<const Expr::Node*> seen;
+  collect(formula, names, seen);
+  return names;
+}
+
+Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements) {
+  Replaced done;
+  return replace(formula, replacements, done);
+}
+
+} // namespace frictab

@@ -1,0 +1,102 @@
+// Formulas as data. A friction law is written once as an Expr; from it come its value, its
+// derivatives (parameters and state), the text in C, Fortran and Python, and later its bounds.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frictab {
+
+enum class Op {
+  constant,
+  symbol,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  exp,
+  log,
+  sqrt,
+  sin,
+  tanh,
+  acos,
+  minimum, // NaN in either operand gives NaN
+  maximum,
+  where_le // operands a, b, x, y: x where a <= b, else y
+};
+
+// An immutable formula over named symbols. Cheap to copy; shared subformulas are stored once.
+class Expr {
+public:
+  struct Node;
+
+  Expr(double value = 0.0); // NOLINT: numbers mix freely with formulas
+  static Expr symbol(std::string name);
+  static Expr make(Op op, std::initializer_list<Expr> operands);
+
+  Op op() const;
+  double value() const;            // of a constant
+  const std::string& name() const; // of a symbol
+  const std::vector<Expr>& operands() const;
+  const Node* id() const { return node_.get(); } // equal for shared subformulas
+
+  bool is_constant(double value) const;
+
+private:
+  explicit Expr(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+  std::shared_ptr<const Node> node_;
+};
+
+Expr operator-(const Expr& a);
+Expr operator+(const Expr& a, const Expr& b);
+Expr operator-(const Expr& a, const Expr& b);
+Expr operator*(const Expr& a, const Expr& b);
+Expr operator/(const Expr& a, const Expr& b);
+Expr pow(const Expr& a, const Expr& b);
+Expr exp(const Expr& a);
+Expr log(const Expr& a);
+Expr sqrt(const Expr& a);
+Expr sin(const Expr& a);
+Expr tanh(const Expr& a);
+Expr acos(const Expr& a);
+Expr minimum(const Expr& a, const Expr& b);
+Expr maximum(const Expr& a, const Expr& b);
+Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y);
+
+// Names of all symbols in the formula, sorted.
+std::set<std::string> symbols(const Expr& formula);
+
+// The formula with some symbols replaced.
+Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements);
+
+// Text in Python/numpy spelling (minimum, maximum, where, exp, log, sqrt, sin, tanh, arccos, **);
+// parse_expr reads it back to a formula with the same bits. Constants round-trip.
+std::string to_text(const Expr& formula);
+
+// Reads what to_text writes, and anything a person would write in that grammar. Throws InputError
+// with the column of the fault; `file` and `line` are only for its message.
+Expr parse_expr(std::string_view text, std::string_view file = "formula");
+
+// Straight-line code: one assignment per operation, so that generated lines stay short and every
+// shared subformula is computed once.
+struct Statements {
+  std::vector<std::string> lines; // "t1 = sigma_n_MPa*mu" without declarations or terminators
+  std::vector<std::string> temporaries;
+  std::string result; // a symbol, a literal or the last temporary
+};
+enum class Language { c, fortran };
+
+// Symbols appear under `rename` where given. C calls exp, log, pow, ... and the helpers ft_min,
+// ft_max; Fortran calls the intrinsics and ftmin, ftmax (double precision helpers of the
+// templates, with the NaN rule above). Temporaries are prefix1, prefix2, ...
+Statements to_statements(const Expr& formula, Language language,
+                         const std::map<std::string, std::string>& rename = {},
+                         std::string_view prefix = "t");
+
+} // namespace frictab

@@ -1,0 +1,171 @@
+// Reads formulas in Python spelling: + - * / ** ( ) numbers, names and the functions of expr.h.
+#include <charconv>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "expr/expr.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr int max_depth = 200; // nested brackets; deeper is no formula a person wrote
+
+class Parser {
+public:
+  Parser(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+
+  Expr parse() {
+    Expr e = sum();
+    if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_[at_]));
+    return e;
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
+    throw InputError({std::string(file_), 1, at_ + 1},
+                     what + " in the formula '" + std::string(text_) + "'", hint);
+  }
+
+  void skip() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t'))
+      ++at_;
+  }
+
+  bool accept(std::string_view token) {
+    skip();
+    if (text_.substr(at_, token.size()) != token) return false;
+    at_ += token.size();
+    skip();
+    return true;
+  }
+
+  void expect(std::string_view token) {
+    if (!accept(token)) fail(fmt::format("expected '{}'", token));
+  }
+
+  Expr sum() {
+    Expr e = product();
+    for (;;) {
+      if (accept("+"))
+        e = e + product();
+      else if (accept("-"))
+        e = e - product();
+      else
+        return e;
+    }
+  }
+
+  Expr product() {
+    Expr e = unary();
+    for (;;) {
+      if (text_.substr(at_, 2) == "**") fail("unexpected '**'");
+      if (accept("*"))
+        e = e * unary();
+      else if (accept("/"))
+        e = e / unary();
+      else
+        return e;
+    }
+  }
+
+  Expr unary() {
+    if (++depth_ > max_depth) fail("too many nested terms");
+    Expr e = accept("-") ? -unary() : power();
+    --depth_;
+    return e;
+  }
+
+  Expr power() {
+    const Expr base = atom();
+    if (accept("**")) return pow(base, unary());
+    return base;
+  }
+
+  Expr atom() {
+    skip();
+    if (at_ >= text_.size()) fail("the formula ends too early");
+    if (accept("(")) {
+      Expr e = sum();
+      expect(")");
+      return e;
+    }
+    const char c = text_[at_];
+    if ((c >= '0' && c <= '9') || c == '.') return number();
+    if (is_name(c)) return name();
+    fail(fmt::format("unexpected '{}'", c));
+  }
+
+  static bool is_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  }
+
+  Expr number() {
+    double value = 0;
+    const auto [end, code] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (code != std::errc()) fail("not a number");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    skip();
+    return value;
+  }
+
+  Expr name() {
+    std::size_t end = at_;
+    while (end < text_.size() && (is_name(text_[end]) || (text_[end] >= '0' && text_[end] <= '9')))
+      ++end;
+    const std::string name(text_.substr(at_, end - at_));
+    at_ = end;
+    skip();
+    if (at_ < text_.size() && text_[at_] == '(') return call(name);
+    return Expr::symbol(name);
+  }
+
+  Expr call(const std::string& name) {
+    static const std::map<std::string, Op> one = {{"exp", Op::exp},   {"log", Op::log},
+                                                  {"sqrt", Op::sqrt}, {"sin", Op::sin},
+                                                  {"tanh", Op::tanh}, {"arccos", Op::acos}};
+    static const std::map<std::string, Op> two = {{"minimum", Op::minimum},
+                                                  {"maximum", Op::maximum}};
+    const bool is_where = name == "where";
+    if (!is_where && !one.count(name) && !two.count(name)) {
+      const std::vector<std::string> known = {"arccos", "exp",  "log",  "maximum", "minimum",
+                                              "sin",    "sqrt", "tanh", "where"};
+      fail(fmt::format("unknown function '{}'", name), suggest(name, known));
+    }
+    expect("(");
+    const Expr a = sum();
+    if (const auto found = one.find(name); found != one.end()) {
+      expect(")");
+      return Expr::make(found->second, {a});
+    }
+    expect(is_where ? "<=" : ",");
+    const Expr b = sum();
+    if (!is_where) {
+      expect(")");
+      return Expr::make(two.at(name), {a, b});
+    }
+    expect(",");
+    const Expr x = sum();
+    expect(",");
+    const Expr y = sum();
+    expect(")");
+    return where_le(a, b, x, y);
+  }
+
+  std::string_view text_;
+  std::string_view file_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
+
+} // namespace
+
+Expr parse_expr(std::string_view text, std::string_view file) {
+  return Parser(text, file).parse();
+}
+
+} // namespace frictab

@@ -1,0 +1,361 @@
+// Compiles a formula to a list of instructions and sweeps it over blocks of rows.
+#include "expr/program.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+#include "core/parallel.h"
+#include "expr/arithmetic.h"
+
+namespace frictab {
+
+namespace {
+
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// Derivative of an operation by operand `which`, given operand values and the result.
+double partial(Op op, std::size_t which, const double* v, double result) {
+  switch (op) {
+  case Op::negate:
+    return -1;
+  case Op::add:
+    return 1;
+  case Op::subtract:
+    return which == 0 ? 1 : -1;
+  case Op::multiply:
+    return which == 0 ? v[1] : v[0];
+  case Op::divide:
+    return which == 0 ? 1 / v[1] : -result / v[1];
+  case Op::power:
+    if (which == 0) return v[0] == 0 ? (v[1] == 1 ? 1 : 0) : v[1] * result / v[0];
+    return v[0] > 0 ? result * std::log(v[0]) : 0;
+  case Op::exp:
+    return result;
+  case Op::log:
+    return 1 / v[0];
+  case Op::sqrt:
+    return 0.5 / result;
+  case Op::sin:
+    return std::cos(v[0]);
+  case Op::tanh:
+    return 1 - result * result;
+  case Op::acos:
+    return -1 / std::sqrt(1 - v[0] * v[0]);
+  case Op::minimum:
+    return (v[1] < v[0]) == (which == 1) ? 1 : 0;
+  case Op::maximum:
+    return (v[1] > v[0]) == (which == 1) ? 1 : 0;
+  case Op::where_le:
+    return which >= 2 && (v[0] <= v[1]) == (which == 2) ? 1 : 0;
+  case Op::constant:
+  case Op::symbol:
+    break;
+  }
+  return 0;
+}
+
+// A register holds one value per row of the block, or one value for all rows (stride 0).
+struct Register {
+  const double* data = nullptr;
+  std::size_t stride = 0;
+  double operator[](std::size_t i) const { return data[i * stride]; }
+};
+
+template <class F> void unary(std::size_t n, Register a, double* out, F f) {
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = f(a[i]);
+}
+
+template <class F> void binary(std::size_t n, Register a, Register b, double* out, F f) {
+  if (a.stride == 1 && b.stride == 1)
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = f(a.data[i], b.data[i]);
+  else if (a.stride == 1)
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = f(a.data[i], *b.data);
+  else
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = f(*a.data, b[i]);
+}
+
+void run(Op op, std::size_t n, const Register* r, double* out) {
+  switch (op) { // the cheap operations get loops the compiler vectorises
+  case Op::add:
+    return binary(n, r[0], r[1], out, [](double a, double b) { return a + b; });
+  case Op::subtract:
+    return binary(n, r[0], r[1], out, [](double a, double b) { return a - b; });
+  case Op::multiply:
+    return binary(n, r[0], r[1], out, [](double a, double b) { return a * b; });
+  case Op::divide:
+    return binary(n, r[0], r[1], out, [](double a, double b) { return a / b; });
+  case Op::minimum:
+    return binary(n, r[0], r[1], out, min_nan);
+  case Op::maximum:
+    return binary(n, r[0], r[1], out, max_nan);
+  case Op::negate:
+    return unary(n, r[0], out, [](double a) { return -a; });
+  default:
+    break;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = apply(op, r[0][i], r[1][i], r[2][i], r[3][i]);
+}
+
+const double zero = 0;
+
+} // namespace
+
+Program::Program(const Expr& formula, std::vector<std::string> columns,
+                 std::vector<std::string> scalars)
+    : columns_(std::move(columns)), scalars_(std::move(scalars)) {
+  std::vector<std::pair<const Expr::Node*, std::size_t>> seen;
+  add(formula, seen);
+}
+
+std::size_t Program::add(const Expr& e,
+                         std::vector<std::pair<const Expr::Node*, std::size_t>>& seen) {
+  for (const auto& [node, index] : seen)
+    if (node == e.id()) return index;
+  Instruction next{.op = e.op(), .kind = Kind::scalar};
+  if (e.op() == Op::constant) next.value = e.value();
+  if (e.op() == Op::symbol) {
+    const std::size_t column = index_of(columns_, e.name());
+    const std::size_t scalar = index_of(scalars_, e.name());
+    if (column == columns_.size() && scalar == scalars_.size())
+      throw std::logic_error("formula has the unknown symbol '" + e.name() + "'");
+    next.kind = column < columns_.size() ? Kind::data : Kind::scalar;
+    next.index = column < columns_.size() ? column : scalar;
+  }
+  bool on_scalars = false, on_columns = false;
+  for (const Expr& operand : e.operands()) {
+    const std::size_t index = add(operand, seen);
+    const Instruction& from = code_[index];
+    on_columns = on_columns || from.kind != Kind::scalar;
+    on_scalars = on_scalars || from.kind == Kind::row ||
+                 (from.kind == Kind::scalar && from.op != Op::constant);
+    next.a[next.operands++] = index;
+  }
+  if (on_columns) next.kind = on_scalars ? Kind::row : Kind::data;
+  for (std::size_t i = 0; i < code_.size(); ++i) { // the same operation on the same operands
+    const Instruction& other = code_[i];
+    if (other.op == next.op && other.kind == next.kind && other.index == next.index &&
+        std::equal(other.a, other.a + 4, next.a) && other.operands == next.operands &&
+        (next.op != Op::constant ||
+         (other.value == next.value && std::signbit(other.value) == std::signbit(next.value)))) {
+      seen.emplace_back(e.id(), i);
+      return i;
+    }
+  }
+  code_.push_back(next);
+  seen.emplace_back(e.id(), code_.size() - 1);
+  return code_.size() - 1;
+}
+
+double Program::operator()(std::span<const double> row, std::span<const double> scalars) const {
+  double small[64];
+  std::vector<double> large(code_.size() > 64 ? code_.size() : 0);
+  double* v = large.empty() ? small : large.data();
+  for (std::size_t i = 0; i < code_.size(); ++i) {
+    const Instruction& in = code_[i];
+    if (in.op == Op::constant)
+      v[i] = in.value;
+    else if (in.op == Op::symbol)
+      v[i] = in.kind == Kind::data ? row[in.index] : scalars[in.index];
+    else
+      v[i] = apply(in.op, v[in.a[0]], v[in.a[1]], v[in.a[2]], v[in.a[3]]);
+  }
+  return v[code_.size() - 1];
+}
+
+namespace {
+
+// Registers of one block; scalars are filled by the caller.
+struct Workspace {
+  std::vector<Register> registers;
+  std::vector<double> storage;
+  explicit Workspace(std::size_t size) : registers(size), storage(size * Program::block) {}
+  double* slot(std::size_t i) { return storage.data() + i * Program::block; }
+};
+
+} // namespace
+
+void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
+                       std::span<const double> scalars, double* out) const {
+  const std::size_t blocks = (rows + block - 1) / block;
+  constexpr std::size_t per_task = 32;
+  parallel_for((blocks + per_task - 1) / per_task, [&](std::size_t task) {
+    Workspace work(code_.size());
+    for (std::size_t b = task * per_task; b < std::min(blocks, (task + 1) * per_task); ++b) {
+      const std::size_t first = b * block;
+      const std::size_t n = std::min(block, rows - first);
+      for (std::size_t i = 0; i < code_.size(); ++i) {
+        const Instruction& in = code_[i];
+        Register& target = work.registers[i];
+        if (in.op == Op::constant)
+          target = {&in.value, 0};
+        else if (in.op == Op::symbol)
+          target = in.kind == Kind::data ? Register{columns[in.index] + first, 1}
+                                         : Register{&scalars[in.index], 0};
+        else {
+          Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+          for (std::size_t k = 0; k < in.operands; ++k)
+            operands[k] = work.registers[in.a[k]];
+          const std::size_t count = in.kind == Kind::scalar ? 1 : n;
+          run(in.op, count, operands, work.slot(i));
+          target = {work.slot(i), in.kind == Kind::scalar ? std::size_t{0} : std::size_t{1}};
+        }
+      }
+      const Register result = work.registers.back();
+      for (std::size_t i = 0; i < n; ++i)
+        out[first + i] = result[i];
+    }
+  });
+}
+
+BoundProgram::BoundProgram(const Program& program, std::size_t rows,
+                           std::span<const double* const> columns)
+    : program_(program), rows_(rows), columns_(columns.begin(), columns.end()),
+      cached_(program.code_.size()) {
+  using Kind = Program::Kind;
+  std::vector<bool> wanted(program.code_.size(), false);
+  for (const auto& in : program.code_)
+    if (in.kind == Kind::row)
+      for (std::size_t k = 0; k < in.operands; ++k)
+        wanted[in.a[k]] = program.code_[in.a[k]].kind == Kind::data || wanted[in.a[k]];
+  wanted.back() = program.code_.back().kind == Kind::data || wanted.back();
+  for (std::size_t i = program.code_.size(); i-- > 0;) // what the wanted nodes are made of
+    if (wanted[i])
+      for (std::size_t k = 0; k < program.code_[i].operands; ++k)
+        wanted[program.code_[i].a[k]] = true;
+  for (std::size_t i = 0; i < program.code_.size(); ++i) {
+    const auto& in = program.code_[i];
+    if (!wanted[i] || in.kind != Kind::data || in.op == Op::symbol) continue;
+    Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+    for (std::size_t k = 0; k < in.operands; ++k) {
+      const auto& from = program.code_[in.a[k]];
+      if (from.op == Op::constant)
+        operands[k] = {&from.value, 0};
+      else if (from.op == Op::symbol)
+        operands[k] = {columns_[from.index], 1};
+      else
+        operands[k] = {cached_[in.a[k]].data(), 1};
+    }
+    cached_[i].resize(rows);
+    run(in.op, rows, operands, cached_[i].data());
+  }
+}
+
+void BoundProgram::sweep(std::span<const double> scalars, bool derivatives,
+                         const std::function<void(const Block&)>& take) const {
+  using Kind = Program::Kind;
+  const auto& code = program_.code_;
+  const std::size_t size = code.size();
+  const std::size_t parameters = program_.scalars_.size();
+  constexpr std::size_t block = Program::block;
+  Workspace work(size);
+  // Scalar nodes once, with their derivatives by each parameter (forward mode).
+  std::vector<double> value(size), slope(size * parameters);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto& in = code[i];
+    if (in.op == Op::constant) value[i] = in.value;
+    if (in.kind != Kind::scalar || in.op == Op::constant) continue;
+    if (in.op == Op::symbol) {
+      value[i] = scalars[in.index];
+      slope[i * parameters + in.index] = 1;
+      continue;
+    }
+    double v[4] = {};
+    for (std::size_t k = 0; k < in.operands; ++k)
+      v[k] = value[in.a[k]];
+    value[i] = apply(in.op, v[0], v[1], v[2], v[3]);
+    for (std::size_t k = 0; k < in.operands; ++k)
+      for (std::size_t p = 0; p < parameters; ++p)
+        if (const double s = slope[in.a[k] * parameters + p]; s != 0)
+          slope[i * parameters + p] += partial(in.op, k, v, value[i]) * s;
+  }
+  std::vector<double> adjoint(derivatives ? size * block : 0);
+  std::vector<double> gradient(derivatives ? parameters * block : 0);
+  std::vector<char> touched(size);
+  for (std::size_t first = 0; first < rows_; first += block) {
+    const std::size_t n = std::min(block, rows_ - first);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto& in = code[i];
+      Register& target = work.registers[i];
+      if (in.kind == Kind::scalar)
+        target = {&value[i], 0};
+      else if (in.op == Op::symbol)
+        target = {columns_[in.index] + first, 1};
+      else if (in.kind == Kind::data)
+        target = {cached_[i].empty() ? nullptr : cached_[i].data() + first, 1};
+      else {
+        Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+        for (std::size_t k = 0; k < in.operands; ++k)
+          operands[k] = work.registers[in.a[k]];
+        run(in.op, n, operands, work.slot(i));
+        target = {work.slot(i), 1};
+      }
+    }
+    const std::size_t last = size - 1;
+    if (work.registers[last].stride == 0) // a formula without columns
+      std::fill_n(work.slot(last), n, value[last]);
+    Block result{first,
+                 n,
+                 work.registers[last].stride == 0 ? work.slot(last) : work.registers[last].data,
+                 {}};
+    if (derivatives) {
+      std::fill(gradient.begin(), gradient.end(), 0.0);
+      std::fill(touched.begin(), touched.end(), 0);
+      std::fill_n(adjoint.data() + last * block, n, 1.0);
+      touched[last] = 1;
+      for (std::size_t i = size; i-- > 0;) {
+        const auto& in = code[i];
+        if (!touched[i] || in.kind == Kind::data) continue;
+        const double* a = adjoint.data() + i * block;
+        if (in.kind == Kind::scalar) {
+          for (std::size_t p = 0; p < parameters; ++p)
+            if (const double s = slope[i * parameters + p]; s != 0)
+              for (std::size_t j = 0; j < n; ++j)
+                gradient[p * block + j] += a[j] * s;
+          continue;
+        }
+        for (std::size_t k = 0; k < in.operands; ++k) {
+          const std::size_t to = in.a[k];
+          if (code[to].kind == Kind::data || code[to].op == Op::constant) continue;
+          double* b = adjoint.data() + to * block;
+          if (!touched[to]) std::fill_n(b, n, 0.0);
+          touched[to] = 1;
+          const Register r0 = work.registers[in.a[0]], r1 = work.registers[in.a[1]],
+                         r2 = work.registers[in.a[2]], r3 = work.registers[in.a[3]];
+          const double* out = work.registers[i].data;
+          if (in.op == Op::add || (in.op == Op::subtract && k == 0)) {
+            for (std::size_t j = 0; j < n; ++j)
+              b[j] += a[j];
+          } else if (in.op == Op::multiply) {
+            const Register other = k == 0 ? r1 : r0;
+            if (other.stride == 1)
+              for (std::size_t j = 0; j < n; ++j)
+                b[j] += a[j] * other.data[j];
+            else
+              for (std::size_t j = 0; j < n; ++j)
+                b[j] += a[j] * *other.data;
+          } else {
+            for (std::size_t j = 0; j < n; ++j) {
+              if (a[j] == 0) continue; // keeps an infinite slope of a branch not taken out
+              const double v[4] = {r0[j], in.operands > 1 ? r1[j] : 0, in.operands > 2 ? r2[j] : 0,
+                                   in.operands > 3 ? r3[j] : 0};
+              b[j] += a[j] * partial(in.op, k, v, out[j]);
+            }
+          }
+        }
+      }
+      for (std::size_t p = 0; p < parameters; ++p)
+        result.derivative.push_back(gradient.data() + p * block);
+    }
+    take(result);
+  }
+}
+
+} // namespace frictab

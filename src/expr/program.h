@@ -1,0 +1,78 @@
+// A formula compiled for many rows: values and derivatives by one reverse sweep per block of rows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expr/expr.h"
+
+namespace frictab {
+
+// Symbols are either `columns` (one value per row) or `scalars` (one value for all rows).
+class Program {
+public:
+  static constexpr std::size_t block = 256; // rows per sweep: the working set stays in L2
+
+  // Throws std::logic_error where the formula has a symbol that is in neither list.
+  Program(const Expr& formula, std::vector<std::string> columns, std::vector<std::string> scalars);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  const std::vector<std::string>& scalars() const { return scalars_; }
+
+  // One row. `row` and `scalars` are in the order of the lists above.
+  double operator()(std::span<const double> row, std::span<const double> scalars) const;
+
+  // All rows: out[i] for i < rows; columns[c][i]. Parallel and independent of the thread count.
+  void evaluate(std::size_t rows, std::span<const double* const> columns,
+                std::span<const double> scalars, double* out) const;
+
+private:
+  friend class BoundProgram;
+  enum class Kind : std::uint8_t { scalar, data, row }; // depends on: scalars only, columns, both
+  struct Instruction {
+    Op op;
+    Kind kind;
+    double value = 0;      // of a constant
+    std::size_t index = 0; // of a symbol, in its list
+    std::size_t a[4] = {}; // operands
+    std::size_t operands = 0;
+  };
+  std::size_t add(const Expr& e, std::vector<std::pair<const Expr::Node*, std::size_t>>& seen);
+
+  std::vector<Instruction> code_;
+  std::vector<std::string> columns_;
+  std::vector<std::string> scalars_;
+};
+
+// A program tied to columns that stay alive: what depends on the columns alone (logarithms of
+// pressures, ...) is computed once, so that each calibration step pays only for what changes.
+class BoundProgram {
+public:
+  BoundProgram(const Program& program, std::size_t rows, std::span<const double* const> columns);
+
+  std::size_t rows() const { return rows_; }
+
+  // Called once per block in row order: rows first .. first+count-1, their values and, per scalar,
+  // their derivatives (derivative[s][i]).
+  struct Block {
+    std::size_t first;
+    std::size_t count;
+    const double* value;
+    std::vector<const double*> derivative;
+  };
+  void sweep(std::span<const double> scalars, bool derivatives,
+             const std::function<void(const Block&)>& take) const;
+
+private:
+  const Program& program_;
+  std::size_t rows_;
+  std::vector<const double*> columns_;
+  std::vector<std::vector<double>>
+      cached_; // per instruction; filled for data nodes that row nodes use
+};
+
+} // namespace frictab

@@ -1,0 +1,43 @@
+// Formulas every law shares: k, the shear limit, the composition of piece and combination.
+#include "models/law.h"
+
+#include "data/quantity.h"
+
+namespace frictab {
+
+Expr shear_yield_stress(const Conventions& conventions) {
+  return Expr(conventions.k_over_sigma_f) * Expr::symbol("sigma_f_MPa");
+}
+
+Expr limited_combine(const Law& law, const Conventions& conventions) {
+  const Expr tau = maximum(law.build(conventions).combine, 0.0);
+  return conventions.shear_limit ? minimum(tau, shear_yield_stress(conventions)) : tau;
+}
+
+Expr tau_formula(const Law& law, const Conventions& conventions) {
+  return substitute(limited_combine(law, conventions), {{"value", law.build(conventions).value}});
+}
+
+std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
+  const auto used = symbols(tau_formula(law, conventions));
+  std::vector<std::string> names;
+  for (const Quantity& quantity : quantities())
+    if (quantity.state && used.count(quantity.name)) names.push_back(quantity.name);
+  return names;
+}
+
+std::vector<std::string> parameter_names(const Law& law) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : law.parameters)
+    names.push_back(parameter.name);
+  return names;
+}
+
+const std::vector<Law>& all_laws() {
+  return Registry<Law>::instance().all();
+}
+const Law* find_law(std::string_view name) {
+  return Registry<Law>::instance().find(name);
+}
+
+} // namespace frictab

@@ -1,0 +1,86 @@
+// A friction law as data: what it is called, what it needs, its parameters and its formula. From
+// the formula come calibration, tables, generated code and bounds; nothing else knows the law.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/registry.h"
+#include "expr/expr.h"
+
+namespace frictab {
+
+// What k and the shear limit mean in this job.
+struct Conventions {
+  std::string shear_yield = "mises";           // mises | tresca | flow_stress
+  double k_over_sigma_f = 0.57735026918962584; // 1/sqrt(3) | 1/2 | 1
+  bool shear_limit = true; // 0 <= tau_R <= k; off where the data have no flow stress
+};
+
+struct Parameter {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  double start; // default start value, or the value of a fixed law
+  double lower;
+  double upper;
+};
+
+// tau_R = combine(value, state, parameters), value = value(state, parameters).
+// `value` is the smooth piece that is tabulated; kinks belong into `combine`, which is evaluated
+// exactly after interpolation. Symbols: canonical state names (sigma_n_MPa, psi, v_rel_mm_s,
+// T_contact_C, s_mm, sigma_f_MPa), parameter names and, in `combine`, "value".
+struct Formula {
+  Expr value;
+  Expr combine;
+};
+
+enum class Calibrated {
+  fixed, // constants of the literature
+  mean,  // means of mu_meas and m_meas over the training rows (the paper's way)
+  fit    // by the loss of the job
+};
+
+struct Law {
+  std::string name;
+  int order = 0; // place in listings
+  std::string title;
+  std::string formula; // for people
+  std::string
+      reference; // where formula and constants come from; says "ours" where it is our choice
+  Calibrated calibrated = Calibrated::fit;
+  std::vector<Parameter> parameters;
+  std::string quantity = "mu";          // of the tabulated piece: mu | tau_R
+  bool log_value = false;               // tabulate ln(value): straight for products of powers
+  std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
+  std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
+  Formula (*build)(const Conventions&) = nullptr;
+};
+
+// Shear yield stress k as a formula of the flow stress.
+Expr shear_yield_stress(const Conventions& conventions);
+
+// State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa).
+std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
+
+// combine, limited: minimum(maximum(combine, 0), k).
+Expr limited_combine(const Law& law, const Conventions& conventions);
+
+// tau_R in MPa as one formula of state and parameters.
+Expr tau_formula(const Law& law, const Conventions& conventions);
+
+std::vector<std::string> parameter_names(const Law& law);
+
+// One calibrated law: with this, and nothing else, tau_R can be predicted.
+struct Model {
+  const Law* law = nullptr;
+  Conventions conventions;
+  std::vector<double> parameters; // in the law's order
+};
+
+const std::vector<Law>& all_laws();
+const Law* find_law(std::string_view name);
+
+} // namespace frictab

@@ -1,0 +1,31 @@
+// report.html and benchmark.md: what a run found, as pages to read. Only renders values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/calibration.h"
+#include "table/table.h"
+#include "verify/verification.h"
+
+namespace frictab {
+
+struct ReportInput {
+  std::string title; // the job file's name
+  const Calibration& calibration;
+  const Dataset& training;
+  const Dataset& validation;
+  std::vector<std::vector<double>> predicted; // per calibration.fits entry: validation rows, MPa
+  const std::vector<Table>& tables;
+  const Verification& verification;
+  std::vector<std::string> files; // written, relative to the output directory
+};
+
+// One self-contained page that opens offline: ranking, measured against predicted and residual
+// against measured tau_R with density per law (inline SVG), parameters, tables, drift.
+std::string report_html(const ReportInput& input);
+
+// The ranking as a Markdown table, the paper's published figures beside it, marked as such.
+std::string benchmark_md(const Calibration& calibration);
+
+} // namespace frictab

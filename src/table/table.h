@@ -1,0 +1,77 @@
+// A friction law on a dense grid. Self-contained: axes, values, how to combine them to tau_R. What
+// reads a table needs no law.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expr/expr.h"
+
+namespace frictab {
+
+struct TableAxis {
+  std::string name;          // canonical
+  std::string unit;          // canonical
+  std::string long_name;     // meaning
+  bool log = false;          // interpolate in ln x
+  std::vector<double> nodes; // ascending, canonical unit, >= 2
+
+  std::vector<double> coordinates() const; // x, or ln x
+  double
+  per_step() const; // 1/step where the coordinates are evenly spaced (1e-9 of a step), else 0
+};
+
+// Drift as it is written into a table and into verify.json. All in MPa.
+struct Drift {
+  double max_abs = 0;
+  double mean_abs = 0;
+  double rms = 0;
+  double p99 = 0;
+};
+
+struct Table {
+  std::string model;           // law name
+  std::vector<TableAxis> axes; // none: the value is one constant
+  std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value
+  std::string quantity = "mu"; // mu | tau_R
+  bool log_value = false;
+  std::string interpolation = "linear";
+  Expr combine;                            // tau_R_MPa of "value", state names and constants
+  std::map<std::string, double> constants; // of combine
+  // Root attributes: tool_version, model, data_hash, data_origin, tolerance_MPa, worst_case_MPa,
+  // refinement, training range per axis, ...
+  std::map<std::string, std::string> text_attributes;
+  std::map<std::string, double> number_attributes;
+
+  // States the table needs, canonical order: axes and the states of combine.
+  std::vector<std::string> inputs() const;
+  std::size_t nodes() const { return value.size(); }
+  std::size_t bytes() const; // values and nodes as doubles
+};
+
+// Evaluates a table by the kernel that the generated sources contain.
+class TableFunction {
+public:
+  explicit TableFunction(const Table& table);
+  ~TableFunction();
+  TableFunction(const TableFunction&) = delete;
+  TableFunction& operator=(const TableFunction&) = delete;
+
+  const std::vector<std::string>& inputs() const;
+
+  // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: axis d was clamped.
+  double operator()(std::span<const double> state, unsigned* outside = nullptr) const;
+
+  // For all rows; columns in the order of inputs(); outside may be empty. Parallel.
+  void evaluate(std::size_t rows, std::span<const double* const> columns, std::span<double> tau,
+                std::span<unsigned> outside = {}) const;
+
+private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+} // namespace frictab
