@@ -1,0 +1,43 @@
+// One subcommand = one file in src/cli/ that registers itself. Declaring options touches no file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/registry.h"
+
+namespace CLI {
+class App;
+}
+
+namespace frictab {
+
+// Options every command has.
+struct CommonOptions {
+  std::string output; // -o DIR; empty: the job's
+  bool force = false;
+  unsigned threads = 0; // -j N, 0 = all cores
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set; // --set key=value
+  std::optional<bool> progress; // --[no-]progress; absent: on a terminal only
+};
+
+struct Command {
+  std::string name;
+  int order = 0;
+  std::string title; // one line for the command list
+  // Adds the command's own options to `app` and returns what runs it: exit code 0 or 1; faults are
+  // thrown. Results go to stdout or files; notes to stderr through note() below.
+  std::function<int()> (*declare)(CLI::App& app, const CommonOptions& common) = nullptr;
+};
+
+// A line to stderr, unless -q.
+void note(const CommonOptions& common, const std::string& line);
+
+} // namespace frictab
