@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,15 +20,19 @@ public:
   void write(const std::string& path, std::string_view content);
   // A place to write one file by other means (HDF5); committed like the others.
   std::filesystem::path stage(const std::string& path);
-  // Throws InputError (exit 2) where a file exists and `force` is not set and it was not written by
-  // frictab before (see commit), std::runtime_error where the disk refuses.
+  // Replaces what is there file by file, each by a rename; throws std::runtime_error where the disk
+  // refuses.
   void commit();
+  // True where a staged file already exists in the directory with other content: what a command
+  // that must not overwrite asks before commit().
+  bool would_change() const;
   std::vector<std::string> paths() const; // staged so far, sorted
 
 private:
   std::filesystem::path directory_;
   std::filesystem::path staging_;
   std::vector<std::string> paths_;
+  bool created_ = false; // the directory is ours to remove again
 };
 
 // The whole file; throws InputError where it cannot be read.

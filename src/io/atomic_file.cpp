@@ -1,0 +1,83 @@
+// Writes a command's files into a staging directory beside the target and renames them at the end.
+#include "io/atomic_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace frictab {
+
+namespace fs = std::filesystem;
+
+OutputFiles::OutputFiles(fs::path directory)
+    : directory_(std::move(directory)),
+      staging_(directory_ / fmt::format(".frictab-{}", static_cast<long>(::getpid()))) {
+  created_ = !fs::exists(directory_);
+  std::error_code error;
+  fs::create_directories(staging_, error);
+  if (error)
+    throw InputError({directory_.string(), 0, 0}, "cannot write here: " + error.message(),
+                     "choose another directory with -o DIR");
+}
+
+OutputFiles::~OutputFiles() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+  if (created_) fs::remove(directory_, ignored); // only where it is empty
+}
+
+void OutputFiles::write(const std::string& path, std::string_view content) {
+  const fs::path file = stage(path);
+  std::ofstream out(file, std::ios::binary);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + (directory_ / path).string());
+}
+
+fs::path OutputFiles::stage(const std::string& path) {
+  if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
+  const fs::path file = staging_ / path;
+  fs::create_directories(file.parent_path());
+  return file;
+}
+
+void OutputFiles::commit() {
+  for (const std::string& path : paths_) {
+    const fs::path target = directory_ / path;
+    fs::create_directories(target.parent_path());
+    fs::rename(staging_ / path, target);
+  }
+  fs::remove_all(staging_);
+  created_ = false;
+}
+
+bool OutputFiles::would_change() const {
+  return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& path) {
+    const fs::path target = directory_ / path;
+    return fs::exists(target) && read_file(target) != read_file(staging_ / path);
+  });
+}
+
+std::vector<std::string> OutputFiles::paths() const {
+  std::vector<std::string> sorted = paths_;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+std::string read_file(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw InputError({file.string(), 0, 0}, "is a directory, a file is needed");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({file.string(), 0, 0}, "cannot be read",
+                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+} // namespace frictab
