@@ -1,0 +1,48 @@
+// Wanheim and Bay: the general friction model with the real contact area from slip-line theory.
+#include <cmath>
+#include <numbers>
+
+#include "models/symbols.h"
+
+namespace frictab {
+
+namespace {
+
+Formula build(const Conventions& conventions) {
+  const Expr f = Expr::symbol("f");
+  const Expr q = state::sigma_n() / state::sigma_f();
+  // t1: tau/k at the proportional limit q1; C1 there; tau -> f k for large q.
+  const Expr root = sqrt(1.0 - f);
+  const Expr t1 = 1.0 - root;
+  const Expr q1 =
+      (1.0 + std::numbers::pi / 2 + acos(f) + sqrt(1.0 - f * f)) / (std::sqrt(3.0) * (1.0 + root));
+  const Expr line = t1 * q / q1;
+  // Below q1 the exponent is held at 0, so that the branch not taken stays finite.
+  const Expr beyond = minimum(1.0 - q / q1, 0.0);
+  const Expr curve = t1 + (f - t1) * (1.0 - exp(beyond * t1 / (f - t1)));
+  const Expr tau = shear_yield_stress(conventions) * where_le(q, q1, line, curve);
+  return {tau, state::value()};
+}
+
+Law wanheim_bay() {
+  Law law;
+  law.name = "wanheim_bay";
+  law.order = 24;
+  law.title = "Wanheim-Bay general friction model";
+  law.formula = "q = sigma_N/sigma_f; tau_R/k = t1 q/q1 for q <= q1, "
+                "t1 + (f-t1)(1-exp((1-q/q1) t1/(f-t1))) beyond; t1 = 1-sqrt(1-f), "
+                "q1 = (1+pi/2+acos f+sqrt(1-f^2))/(sqrt3 (1+sqrt(1-f)))";
+  law.reference = "Wanheim and Bay 1976; recalled, its initial slope agrees to 4 digits with the "
+                  "published equivalent mu = f/(1+pi/2+acos f+sqrt(1-f^2))";
+  law.parameters = {{"f", "1", "friction factor", 0.3, 1e-4, 0.9999}};
+  law.quantity = "tau_R";
+  law.log_value = true;
+  law.build = build;
+  return law;
+}
+
+const Registered<Law> registered{wanheim_bay};
+
+} // namespace
+
+} // namespace frictab
