@@ -10,6 +10,7 @@
 #include "calibrate/fit.h"
 #include "calibrate/metrics.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "data/quantity.h"
 
@@ -220,8 +221,10 @@ Calibration calibrate(const CalibrationInput& input) {
   calibration.data_hash =
       fmt::format("{:016x}", input.training.hash ^ (input.validation.hash * 0x9e3779b97f4a7c15ULL));
   calibration.fits.resize(selection.laws.size());
+  Progress progress("calibrating laws", selection.laws.size());
   parallel_for(selection.laws.size(), [&](std::size_t i) {
     calibration.fits[i] = fit_law(*selection.laws[i], conventions, input);
+    progress.tick();
   });
   std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
