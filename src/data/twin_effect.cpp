@@ -17,7 +17,8 @@ namespace frictab {
 
 namespace {
 
-constexpr unsigned latent_stream = 16; // + index of the effect
+constexpr unsigned latent_stream = 16;
+constexpr double most_amplitude = 1000; // beyond it a larger amplitude changes nothing that matters
 
 // --- quantities ---------------------------------------------------------------------------------
 
@@ -211,23 +212,26 @@ private:
   std::size_t levels_;
 };
 
-// Amplitude of the given sign that reaches the strength, or NaN; `largest` = strongest seen.
+// Amplitude of the given sign that reaches the strength, or NaN; `largest` = strongest that keeps
+// friction positive. Doubling finds the bracket; its upper end reaches the target or is forbidden.
 double solve(const Trial& trial, double target, double sign, double& largest) {
+  const auto enough = [&](double amplitude) {
+    const double reached = trial.strength(sign * amplitude);
+    if (!std::isnan(reached)) largest = std::max(largest, reached);
+    return std::isnan(reached) || reached >= target;
+  };
   double low = 0;
   double high = 1e-3;
-  while (true) {
-    const double reached = trial.strength(sign * high);
-    if (!(reached >= 0 || reached < 0) || high > 1e3) return std::nan("");
-    largest = std::max(largest, reached);
-    if (reached >= target) break;
+  while (!enough(high) && high < most_amplitude) {
     low = high;
-    high *= 1.25; // small steps: positive factors end not far behind what is reachable
+    high *= 2;
   }
-  for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
+  while (high - low > 1e-9 * high) {
     const double middle = 0.5 * (low + high);
-    (trial.strength(sign * middle) >= target ? high : low) = middle;
+    (enough(middle) ? high : low) = middle;
   }
-  return sign * high;
+  const double reached = trial.strength(sign * high);
+  return reached >= target ? sign * high : std::nan("");
 }
 
 void solve_amplitude(const TwinOptions& options, const TwinDraft& draft, const Resolved& rows,
