@@ -8,96 +8,17 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/random.h"
 #include "core/text.h"
-#include "data/derived.h"
+#include "data/twin_quantity.h"
 #include "expr/program.h"
 
 namespace frictab {
 
 namespace {
 
-constexpr unsigned latent_stream = 16;
+constexpr double least_factor = 0.02;   // on mu and m: friction stays friction
+constexpr double least_tau_MPa = 0.01;  // with additive effects
 constexpr double most_amplitude = 1000; // beyond it a larger amplitude changes nothing that matters
-
-// --- quantities ---------------------------------------------------------------------------------
-
-// One value per place in the order of tests.
-std::vector<double> latent_by_order(const std::string& kind, Random& random, std::size_t tests) {
-  std::vector<double> values(tests);
-  const std::size_t batch = std::max<std::size_t>(1, tests / 8);
-  double level = 0;
-  for (std::size_t i = 0; i < tests; ++i) {
-    if (kind == "drift")
-      values[i] = static_cast<double>(i) / static_cast<double>(tests);
-    else if (kind == "groups")
-      values[i] = random.uniform() < 0.5 ? 0 : 1;
-    else if (kind == "order")
-      values[i] = level += random.normal();
-    else if (kind == "batch")
-      values[i] = level = i % batch == 0 ? random.normal() : level;
-    else
-      values[i] = random.normal();
-  }
-  return values;
-}
-
-std::vector<double> latent(const TwinOptions& options, std::size_t effect, std::size_t tests,
-                           const TwinDraft& draft) {
-  Random random(options.seed, twin_stream(2, effect, latent_stream));
-  const auto values = latent_by_order(options.effects[effect].latent, random, tests);
-  std::vector<double> rows;
-  rows.reserve(draft.data.rows());
-  for (const TwinExperiment& experiment : draft.plan)
-    rows.insert(rows.end(), options.design->points, values[experiment.run_order - 1]);
-  return rows;
-}
-
-std::vector<double> base_tau(const TwinDraft& draft) {
-  std::vector<double> tau(draft.tau0.size());
-  for (std::size_t i = 0; i < tau.size(); ++i)
-    tau[i] = twin_tau(draft.tau0[i], draft.limit[i]);
-  return tau;
-}
-
-std::vector<std::string> known_columns(const TwinDraft& draft) {
-  std::vector<std::string> names;
-  for (const Column& column : draft.data.columns)
-    if (column.name != "tau_R_MPa") names.push_back(column.name);
-  for (const DerivedQuantity& quantity : derived_quantities())
-    names.push_back(quantity.name);
-  names.push_back("latent");
-  return names;
-}
-
-// Column, derived quantity or latent, one value per row. Histories follow the law without effects.
-std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect,
-                                  const std::string& name, std::size_t tests,
-                                  const TwinDraft& draft) {
-  if (name == "latent") return latent(options, effect, tests, draft);
-  if (const Column* column = find_column(draft.data, name)) return column->values;
-  return derive(*find_derived(name), draft.data, base_tau(draft));
-}
-
-void check_column(const EffectSpec& spec, const std::string& name, const TwinDraft& draft,
-                  FaultList& faults) {
-  const auto known = known_columns(draft);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    faults.add({"--effect"}, "unknown column '" + name + "'", suggest(name, known));
-    return;
-  }
-  const Column* column = find_column(draft.data, name);
-  const bool text = column != nullptr && !column->levels.empty();
-  const bool categorical = find_effect(spec.form)->categorical;
-  if (text && !categorical)
-    faults.add({"--effect"},
-               fmt::format("column '{}' holds text, form '{}' needs numbers", name, spec.form),
-               "use form=category");
-  if (!text && categorical && name != "latent")
-    faults.add({"--effect"},
-               fmt::format("column '{}' holds numbers, form 'category' needs text", name),
-               "use column=tool, or another form");
-}
 
 // --- factors ------------------------------------------------------------------------------------
 
@@ -178,45 +99,68 @@ double recalibrated_mae(const std::vector<double>& law, const std::vector<double
   return sum / static_cast<double>(law.size());
 }
 
-// The training part with one effect of varying amplitude.
+// One part of the campaign with one effect of varying amplitude.
 class Trial {
 public:
-  Trial(const TwinDraft& draft, PlantedEffect& effect, const Resolved& rows)
-      : draft_(draft), effect_(effect), rows_(rows), base_(base_tau(draft)), scale_(mean_of(base_)),
+  Trial(const TwinDraft& draft, PlantedEffect& effect, Resolved rows, double tau_scale)
+      : draft_(draft), effect_(effect), rows_(std::move(rows)), scale_(tau_scale),
         levels_(level_count(effect, draft)) {}
 
-  // Share by which the law without the effect errs more than the law with it; NaN where the
-  // amplitude would turn mu, the limit or tau negative.
-  double strength(double amplitude) const {
+  // Noise-free tau; empty where the amplitude would turn mu, the limit or tau negative, or nearly.
+  std::vector<double> truth(double amplitude) const {
     std::vector<double> parameters = effect_.parameters;
     parameters[0] = amplitude;
     const auto factor = factors(effect_, rows_, parameters, levels_);
-    if (*std::min_element(factor.begin(), factor.end()) < least_) return std::nan("");
+    const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
+    if (effect_.spec.on != "tau" && std::any_of(factor.begin(), factor.end(), below(least_factor)))
+      return {};
     Pieces pieces = pieces_of(draft_);
     apply(effect_, factor, scale_, pieces);
-    const auto truth = tau_of(pieces);
-    if (*std::min_element(truth.begin(), truth.end()) <= 0) return std::nan("");
-    std::vector<double> measured(truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      measured[i] = truth[i] * draft_.noise[i];
-    return recalibrated_mae(base_, measured) / recalibrated_mae(truth, measured) - 1;
+    auto tau = tau_of(pieces);
+    if (std::any_of(tau.begin(), tau.end(), below(least_tau_MPa))) return {};
+    return tau;
   }
 
 private:
-  static constexpr double least_ = 0.02;
   const TwinDraft& draft_;
   const PlantedEffect& effect_;
-  const Resolved& rows_;
-  std::vector<double> base_;
+  Resolved rows_;
   double scale_;
   std::size_t levels_;
 };
 
+// Share by which the law without the effect errs more than the law with it on the training part;
+// NaN where either part forbids the amplitude.
+class Strength {
+public:
+  Strength(const TwinDraft& training, const Trial& on_training, const Trial& on_validation,
+           bool has_validation)
+      : training_(training), base_(base_tau(training)), on_training_(on_training),
+        on_validation_(on_validation), has_validation_(has_validation) {}
+
+  double operator()(double amplitude) const {
+    const auto truth = on_training_.truth(amplitude);
+    if (truth.empty() || (has_validation_ && on_validation_.truth(amplitude).empty()))
+      return std::nan("");
+    std::vector<double> measured(truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      measured[i] = truth[i] * training_.noise[i];
+    return recalibrated_mae(base_, measured) / recalibrated_mae(truth, measured) - 1;
+  }
+
+private:
+  const TwinDraft& training_;
+  std::vector<double> base_;
+  const Trial& on_training_;
+  const Trial& on_validation_;
+  bool has_validation_;
+};
+
 // Amplitude of the given sign that reaches the strength, or NaN; `largest` = strongest that keeps
 // friction positive. Doubling finds the bracket; its upper end reaches the target or is forbidden.
-double solve(const Trial& trial, double target, double sign, double& largest) {
+double solve(const Strength& strength, double target, double sign, double& largest) {
   const auto enough = [&](double amplitude) {
-    const double reached = trial.strength(sign * amplitude);
+    const double reached = strength(sign * amplitude);
     if (!std::isnan(reached)) largest = std::max(largest, reached);
     return std::isnan(reached) || reached >= target;
   };
@@ -230,50 +174,59 @@ double solve(const Trial& trial, double target, double sign, double& largest) {
     const double middle = 0.5 * (low + high);
     (enough(middle) ? high : low) = middle;
   }
-  const double reached = trial.strength(sign * high);
+  const double reached = strength(sign * high);
   return reached >= target ? sign * high : std::nan("");
 }
 
-void solve_amplitude(const TwinOptions& options, const TwinDraft& draft, const Resolved& rows,
-                     PlantedEffect& effect) {
-  const Trial trial(draft, effect, rows);
-  const double target = *effect.spec.strength;
-  if (target == 0) return;
-  if (options.noise_scale == 0)
+double solved_amplitude(const EffectSpec& spec, double noise_scale, const Strength& strength) {
+  const double target = *spec.strength;
+  if (target == 0) return 0;
+  if (noise_scale == 0)
     throw InputError({"--effect"}, "strength is relative to the noise, and there is none",
                      "give amplitude=... with --noise-scale 0");
   double largest = 0;
-  double amplitude = std::nan("");
-  for (const int sign : {1, -1})
-    if (std::isnan(amplitude) && (effect.spec.sign == 0 || effect.spec.sign == sign))
-      amplitude = solve(trial, target, sign, largest);
-  if (std::isnan(amplitude))
-    throw InputError({"--effect"},
-                     fmt::format("form '{}' of '{}' on {} cannot reach strength {}",
-                                 effect.spec.form, effect.spec.column, effect.spec.on,
-                                 shortest(target)),
-                     fmt::format("the strongest that keeps friction positive is {:.3g}; other "
-                                 "shape parameters or another sign may reach more",
-                                 largest));
-  effect.parameters[0] = amplitude;
+  for (const int sign : {1, -1}) {
+    if (spec.sign == -sign) continue;
+    const double amplitude = solve(strength, target, sign, largest);
+    if (!std::isnan(amplitude)) return amplitude;
+  }
+  throw InputError({"--effect"},
+                   fmt::format("form '{}' of '{}' on {} cannot reach strength {}", spec.form,
+                               spec.column, spec.on, shortest(target)),
+                   fmt::format("the strongest that keeps friction positive is {:.3g}; other shape "
+                               "parameters or another sign may reach more",
+                               largest));
 }
 
-PlantedEffect plant(const TwinOptions& options, std::size_t index, std::size_t tests,
-                    const TwinDraft& training) {
-  const EffectSpec& spec = options.effects[index];
-  PlantedEffect effect{spec, find_effect(spec.form), {}, 0};
-  const Resolved rows = resolve(options, index, tests, training);
+void set_shapes(const EffectSpec& spec, const Resolved& rows, PlantedEffect& effect) {
   effect.parameters = start_values(*effect.form, spread_of(rows.x), spread_of(rows.x2));
   for (std::size_t i = 1; i < effect.parameters.size(); ++i)
     if (const auto given = spec.shapes.find(effect.form->parameters[i].name);
         given != spec.shapes.end())
       effect.parameters[i] = given->second;
-  if (spec.amplitude)
-    effect.parameters[0] = *spec.amplitude;
-  else
-    solve_amplitude(options, training, rows, effect);
-  if (options.noise_scale > 0)
-    effect.strength = Trial(training, effect, rows).strength(effect.parameters[0]);
+}
+
+PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDraft& training,
+                    const TwinDraft& validation) {
+  const EffectSpec& spec = options.effects[index];
+  const std::size_t tests = training.plan.size() + validation.plan.size();
+  PlantedEffect effect{spec, find_effect(spec.form), {}, 0};
+  Resolved rows = resolve(options, index, tests, training);
+  set_shapes(spec, rows, effect);
+  const double tau_scale = mean_of(base_tau(training));
+  const Trial on_training(training, effect, std::move(rows), tau_scale);
+  const Trial on_validation(validation, effect, resolve(options, index, tests, validation),
+                            tau_scale);
+  const Strength strength(training, on_training, on_validation, !validation.plan.empty());
+  const double amplitude =
+      spec.amplitude ? *spec.amplitude : solved_amplitude(spec, options.noise_scale, strength);
+  const double reached = strength(amplitude);
+  if (std::isnan(reached) && options.noise_scale > 0)
+    throw InputError({"--effect"},
+                     fmt::format("amplitude {} turns friction negative", shortest(amplitude)),
+                     "give strength=... and let the twin find the amplitude");
+  effect.parameters[0] = amplitude;
+  effect.strength = options.noise_scale > 0 ? reached : 0;
   return effect;
 }
 
@@ -292,10 +245,9 @@ std::vector<PlantedEffect> plant_effects(const TwinOptions& options, const TwinD
     if (!spec.column2.empty()) check_column(spec, spec.column2, training, faults);
   }
   faults.throw_if_any();
-  const std::size_t tests = training.plan.size() + validation.plan.size();
   std::vector<PlantedEffect> effects;
   for (std::size_t i = 0; i < options.effects.size(); ++i)
-    effects.push_back(plant(options, i, tests, training));
+    effects.push_back(plant(options, i, training, validation));
   return effects;
 }
 
