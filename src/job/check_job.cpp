@@ -42,7 +42,7 @@ void check_unit(JobReader& reader, const std::string& name, const ColumnSource& 
     reader.fault(
         reader.place_of(path + ".unit"),
         fmt::format("{}.unit = {} does not convert to {}", path, toml_quoted(source.unit), target),
-        suggest(source.unit, known_units()));
+        suggest(source.unit, units_like(target)));
 }
 
 void check_column(JobReader& reader, const std::string& name, ColumnSource& source) {

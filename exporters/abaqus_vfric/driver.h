@@ -1,0 +1,11 @@
+// Calls VFRIC as Abaqus/Explicit does, with blocks of contact points.
+#pragma once
+
+#include "codegen/exporter.h"
+
+namespace frictab::abaqus_vfric {
+
+void drive(void* library, const BuildVariant& variant, const ExportRequest& request,
+           std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+
+} // namespace frictab::abaqus_vfric

@@ -1,0 +1,163 @@
+// Target `abaqus_vfric`: Abaqus/Explicit, contact pairs. What it is called, how it is compiled and
+// how the input deck refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/recipe.h"
+#include "core/text.h"
+#include "driver.h"
+#include "inputs.h"
+#include "source.h"
+
+namespace frictab::abaqus_vfric {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string value_text(const VfricInput& input) {
+  if (!input.fallback) return "<" + input.argument.argument + ">";
+  return fmt::format("{:.6g}", input.argument.solver.from_canonical(*input.fallback));
+}
+
+// The lines of the deck, with the values that the routine falls back to.
+std::string input_deck(const std::vector<VfricInput>& inputs) {
+  std::vector<std::string> values;
+  for (const VfricInput& input : inputs)
+    if (input.property) values.push_back(value_text(input));
+  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, user, depvar=3";
+  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
+  deck += "\n";
+  for (std::size_t i = 0; i < values.size(); ++i)
+    deck +=
+        (i % 8 == 0 ? " " : ", ") + values[i] + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+  return deck + "*Contact Pair, interaction=FRICTAB, cpset=<name>\n <secondary>, <main>\n";
+}
+
+json argument_list(const std::vector<VfricInput>& inputs) {
+  json out = json::array();
+  for (const VfricInput& input : inputs)
+    out.push_back({{"quantity", input.argument.name},
+                   {"unit", input.argument.solver.name},
+                   {"meaning", input.argument.meaning},
+                   {"source", source_text(input)}});
+  return out;
+}
+
+json properties(const std::vector<VfricInput>& inputs) {
+  json out = json::array();
+  for (const VfricInput& input : inputs) {
+    if (!input.property) continue;
+    json one = {{"number", input.property},
+                {"quantity", input.argument.name},
+                {"unit", input.argument.solver.name},
+                {"meaning", input.argument.meaning},
+                {"used_when", input.source == Source::temperature ? "nTemp = 0" : "always"},
+                {"where_absent", nullptr}};
+    if (input.fallback) one["where_absent"] = input.argument.solver.from_canonical(*input.fallback);
+    out.push_back(one);
+  }
+  return out;
+}
+
+json state_variables(std::string_view units) {
+  const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
+  const auto one = [](int number, const std::string& unit, const char* meaning) {
+    return json{{"number", number}, {"unit", unit}, {"meaning", meaning}};
+  };
+  return {one(1, length, "accumulated slip while under pressure"),
+          one(2, stress + "*" + length, "friction work per area"), one(3, stress, "peak pressure")};
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<VfricInput>& inputs,
+                   const SourceBundle& files) {
+  json out = recipe_head(*find_exporter("abaqus_vfric"), request, "vfric", files);
+  out["arguments"] = argument_list(inputs);
+  out["arguments_note"] = "VFRIC's own 42 arguments; listed is where each state comes from";
+  out["result"] = {{"name", "fTangential(1,k)"},
+                   {"meaning", "-min(tau_R*area, max(fStickForce, 0)); other components 0"}};
+  out["state_variables_by"] = "surface node";
+  out["state_variables"] = state_variables(request.units);
+  out["properties"] = properties(inputs);
+  out["compile"] = {"abaqus job=<job> user=frictab_vfric.f double=explicit",
+                    "abaqus job=<job> user=frictab_vfric.f",
+                    "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
+                    "frictab_vfric.f"};
+  out["compile_note"] = "the last line only checks the source, beside a vaba_param.inc of your own";
+  out["input_deck"] = input_deck(inputs);
+  out["table"] = recipe_table(request);
+  return recipe_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_table(request.table);
+  const std::vector<VfricInput> inputs = vfric_inputs(request);
+  SourceBundle files;
+  files["frictab_vfric.f"] = vfric_source(request, inputs);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+BuildVariant variant(const std::string& name, const std::string& real, int dimension, double eps) {
+  BuildVariant out;
+  out.name = name;
+  out.command = {"gfortran",
+                 "-O2",
+                 "-std=legacy",
+                 "-ffixed-line-length-72",
+                 "-ffp-contract=off",
+                 "-fPIC",
+                 "-shared",
+                 "-I@{dir}",
+                 "-o",
+                 "@{out}",
+                 "@{dir}/frictab_vfric.f"};
+  out.extra["vaba_param.inc"] =
+      fmt::format("C     Stand-in for the solver's include, for tests outside the solver.\n"
+                  "      implicit {} (a-h,o-z)\n"
+                  "      parameter (j_sys_Dimension={}, n_vec_Length=136)\n"
+                  "      parameter (maxblk=n_vec_Length)\n",
+                  real, dimension);
+  out.eps = eps;
+  return out;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest&) {
+  return {variant("double", "real*8", 2, 0x1p-53), variant("single", "real", 1, 0x1p-24)};
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "abaqus_vfric";
+  out.order = 20;
+  out.title = "Abaqus/Explicit VFRIC, contact pairs";
+  out.signature_source =
+      "verified: full text of the argument list in a public copy of the manual page, names as in "
+      "the "
+      "v2024 reference; order and count the same in older releases. Recalled, check against your "
+      "release: nTemp = 1 where temperatures exist, numDefTfv = 1 for an analytical rigid surface, "
+      "negative fStickForce, area 1 of node-based surfaces";
+  out.notes =
+      "For contact PAIRS with *FRICTION, USER; general contact needs another routine. Pressure is "
+      "fNormal/areaSec of the surface node, speed |dSlipFric|/dTimCur (0 where dTimCur = 0). A "
+      "node "
+      "without area or normal force gets no friction. Surface expansion and flow stress are not "
+      "known to the solver: [export.inputs] says per state constant:VALUE, property or field:N; a "
+      "property or field the deck does not give takes the mean of the training data or the middle "
+      "of the axis, as the header of the source says. DEPVAR=3: accumulated slip, friction work "
+      "per "
+      "area, peak pressure, each by surface node. Works with the single- and the double-precision "
+      "solver; table and arithmetic are double in both.";
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::abaqus_vfric

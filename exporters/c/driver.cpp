@@ -1,0 +1,58 @@
+// Calls frictab_tau_R through its own argument list, one state at a time.
+#include "driver.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "codegen/compile.h"
+#include "codegen/fill.h"
+
+namespace frictab::c_target {
+
+namespace {
+
+// At most this many arguments behind the contract's six.
+constexpr std::size_t most_arguments = 14;
+
+template <std::size_t> using Number = double;
+
+template <std::size_t... I>
+double call(void* function, const std::vector<double>& x, std::index_sequence<I...>) {
+  return reinterpret_cast<double (*)(Number<I>...)>(function)(x[I]...);
+}
+
+using Call = double (*)(void*, const std::vector<double>&);
+
+template <std::size_t N> double call_with(void* function, const std::vector<double>& x) {
+  return call(function, x, std::make_index_sequence<N>{});
+}
+
+template <std::size_t... N>
+constexpr std::array<Call, sizeof...(N)> all_calls(std::index_sequence<N...>) {
+  return {call_with<N>...};
+}
+
+} // namespace
+
+void drive(void* library, const BuildVariant&, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  const std::vector<std::string> needed = request.table.inputs();
+  if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
+  void* function = Library::address(library, "frictab_tau_R");
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  std::vector<double> x(inputs.size(), 0.0);
+  std::vector<std::size_t> argument_of(needed.size());
+  for (std::size_t c = 0; c < needed.size(); ++c)
+    while (inputs[argument_of[c]].name != needed[c])
+      ++argument_of[c];
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t c = 0; c < needed.size(); ++c)
+      x[argument_of[c]] = inputs[argument_of[c]].solver.from_canonical(columns[c][row]);
+    tau[row] = stress.to_canonical(calls[inputs.size()](function, x));
+  }
+}
+
+} // namespace frictab::c_target

@@ -1,0 +1,11 @@
+// Calls the generated C function for rows of states.
+#pragma once
+
+#include "codegen/exporter.h"
+
+namespace frictab::c_target {
+
+void drive(void* library, const BuildVariant& variant, const ExportRequest& request,
+           std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+
+} // namespace frictab::c_target

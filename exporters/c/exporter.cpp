@@ -1,0 +1,271 @@
+// Target `c`: the law as a C99 function. Fills templates/c.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/fill.h"
+#include "codegen/recipe.h"
+#include "codegen/template.h"
+#include "core/text.h"
+#include "driver.h"
+
+namespace frictab::c_target {
+
+namespace {
+
+using Lines = std::vector<TemplateValues>;
+
+TemplateValues item(std::string text) {
+  TemplateValues values;
+  values.text["text"] = std::move(text);
+  return values;
+}
+
+Lines items(const std::vector<std::string>& texts) {
+  Lines lines;
+  for (const std::string& text : texts)
+    lines.push_back(item(text));
+  return lines;
+}
+
+// "double a, double b", one piece per argument, broken like the rest of the file.
+std::string parameters(const std::vector<InputArgument>& inputs, std::string_view type) {
+  std::vector<std::string> pieces;
+  for (const InputArgument& input : inputs)
+    pieces.push_back(fmt::format("{} {}", type, input.argument));
+  return join(pieces, ", ");
+}
+
+std::string canonical(const InputArgument& input) {
+  if (input.solver.times != 1)
+    return fmt::format("{} * {}", input.argument, c_number(input.solver.times));
+  if (input.solver.over != 1)
+    return fmt::format("{} / {}", input.argument, c_number(input.solver.over));
+  return input.argument;
+}
+
+std::vector<std::string> about(const ExportRequest& request) {
+  const Table& table = request.table;
+  std::vector<std::string> lines = {
+      fmt::format("Law: {}", comment_text(table.model)),
+      fmt::format("Data: {}", comment_text(origin_text(table))),
+      fmt::format("Units: {} (stress in {}, speed in {}, length in {}, temperature in degC)",
+                  request.units, solver_unit("MPa", request.units).name,
+                  solver_unit("mm/s", request.units).name, solver_unit("mm", request.units).name),
+      fmt::format("Worst drift from the law: {}", drift_text(table))};
+  for (const std::string& line : wrap_text("tau_R_MPa = " + to_text(table.combine), 92))
+    lines.push_back(comment_text(line));
+  return lines;
+}
+
+Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> lines;
+  for (const InputArgument& input : inputs) {
+    std::string range = input.used ? "no axis, any value" : "not used by this law";
+    if (input.axis) range = range_text(input, request.table.axes[*input.axis]);
+    lines.push_back(comment_text(
+        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range)));
+  }
+  return items(lines);
+}
+
+std::string bits(const Table& table) {
+  std::vector<std::string> names;
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    names.push_back(fmt::format("{}u {}", 1u << a, comment_text(table.axes[a].name)));
+  return names.empty() ? "none, the table has no axes" : join(names, ", ");
+}
+
+std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+  TemplateValues values;
+  values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
+                 {"version", FRICTAB_VERSION},
+                 {"bits", bits(request.table)},
+                 {"parameters", parameters(inputs, "double")},
+                 {"arrays", parameters(inputs, "const double*")}};
+  values.lists["about"] = items(about(request));
+  values.lists["inputs"] = input_lines(request, inputs);
+  values.lists["notes"] = items(
+      {"Outside the range the table's value at the nearest edge is used, while stress and flow",
+       "stress enter the formula above unchanged; frictab_outside tells which axes are concerned.",
+       "NaN in an argument that is used gives NaN. Thread-safe."});
+  return render_template("c/frictab_tau_R.h", values);
+}
+
+std::map<std::string, std::string> symbol_names(const Table& table,
+                                                const std::vector<InputArgument>& inputs) {
+  std::map<std::string, std::string> rename{{"value", "value"}};
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    rename[inputs[i].name] = fmt::format("x{}", i + 1);
+  std::size_t c = 0;
+  for (const auto& [name, value] : table.constants)
+    rename[name] = fmt::format("c{}", ++c);
+  return rename;
+}
+
+TemplateValues axis_values(const TableAxis& axis, std::size_t index, const std::string& variable) {
+  std::vector<std::string> numbers;
+  for (const double u : axis.coordinates())
+    numbers.push_back(c_number(u));
+  TemplateValues values;
+  values.text = {{"comment", comment_text(fmt::format("axis {}: {}{}", index, axis.log ? "ln " : "",
+                                                      axis.name))},
+                 {"index", std::to_string(index)},
+                 {"nodes", std::to_string(numbers.size())},
+                 {"values", number_lines(numbers, 98, "    ")},
+                 {"per_step", c_number(axis.per_step())},
+                 {"coordinate", axis.log ? "ft_log(" + variable + ")" : variable}};
+  return values;
+}
+
+// Arguments, constants and helpers of the kernel that this law leaves alone: said to the compiler.
+std::vector<std::string> unused(const Table& table, const std::vector<InputArgument>& inputs,
+                                const Statements& code) {
+  std::vector<std::string> names;
+  for (const InputArgument& input : inputs)
+    if (!input.used) names.push_back(input.argument);
+  const std::set<std::string> in_formula = symbols(table.combine);
+  const std::string text = join(code.lines, "\n");
+  for (const char* helper : {"ft_min", "ft_max", "ft_where_le"})
+    if (text.find(std::string(helper) + "(") == std::string::npos) names.push_back(helper);
+  bool logarithm = false;
+  for (const TableAxis& axis : table.axes)
+    logarithm = logarithm || axis.log;
+  if (!logarithm) names.push_back("ft_log");
+  if (table.axes.empty()) names.push_back("ft_interpolate");
+  std::size_t c = 0;
+  for (const auto& [name, value] : table.constants)
+    if (++c; !in_formula.count(name)) names.push_back(fmt::format("c{}", c));
+  return names;
+}
+
+void add_state(TemplateValues& values, const Table& table,
+               const std::vector<InputArgument>& inputs) {
+  Lines used, constants, axes;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!inputs[i].used) continue;
+    TemplateValues input;
+    input.text = {{"index", std::to_string(i + 1)},
+                  {"canonical", canonical(inputs[i])},
+                  {"name", comment_text(inputs[i].name)}};
+    used.push_back(input);
+  }
+  for (const auto& [name, number] : table.constants) {
+    TemplateValues constant;
+    constant.text = {{"index", std::to_string(constants.size() + 1)},
+                     {"value", c_number(number)},
+                     {"name", comment_text(name)}};
+    constants.push_back(constant);
+  }
+  const auto rename = symbol_names(table, inputs);
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    axes.push_back(axis_values(table.axes[a], a, rename.at(table.axes[a].name)));
+  values.lists["used"] = used;
+  values.lists["constants"] = constants;
+  values.lists["axes"] = axes;
+}
+
+std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+  const Table& table = request.table;
+  const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  std::vector<std::string> numbers, names, arrays, unused_arrays;
+  for (const double value : table.value)
+    numbers.push_back(c_number(value));
+  for (const InputArgument& input : inputs) {
+    names.push_back(input.argument);
+    arrays.push_back(input.used ? input.argument + "[i]" : "0.0");
+    if (!input.used) unused_arrays.push_back(input.argument);
+  }
+  TemplateValues values;
+  values.text = {
+      {"model", comment_text(table.model)},
+      {"version", FRICTAB_VERSION},
+      {"kernel", std::string(embedded_template("frictab_kernel.h"))},
+      {"n_axes", std::to_string(table.axes.size())},
+      {"value_comment", comment_text(fmt::format("{}{}, last axis fastest",
+                                                 table.log_value ? "ln " : "", table.quantity))},
+      {"n_values", std::to_string(numbers.size())},
+      {"values", number_lines(numbers, 98, "    ")},
+      {"formula", comment_text(to_text(table.combine))},
+      {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
+      {"parameters", parameters(inputs, "double")},
+      {"arrays", parameters(inputs, "const double*")},
+      {"names", join(names, ", ")},
+      {"items", join(arrays, ", ")}};
+  values.flags = {{"has_axes", !table.axes.empty()}, {"log_value", table.log_value}};
+  add_state(values, table, inputs);
+  values.lists["unused"] = items(unused(table, inputs, code));
+  if (!symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
+  values.lists["unused_arrays"] = items(unused_arrays);
+  values.lists["statements"] = items(code.lines);
+  return render_template("c/frictab_tau_R.c", values);
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
+                   const SourceBundle& files) {
+  nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
+  out["prototypes"] = {"double frictab_tau_R(" + parameters(inputs, "double") + ")",
+                       "unsigned frictab_outside(" + parameters(inputs, "double") + ")",
+                       "void frictab_tau_R_batch(size_t n, " + parameters(inputs, "const double*") +
+                           ", double* tau)"};
+  out["arguments"] = nlohmann::ordered_json::array();
+  for (const InputArgument& input : inputs)
+    out["arguments"].push_back({{"name", input.argument},
+                                {"quantity", input.name},
+                                {"unit", input.solver.name},
+                                {"meaning", input.meaning},
+                                {"used", input.used}});
+  out["result"] = {{"unit", solver_unit("MPa", request.units).name},
+                   {"meaning", "frictional shear stress tau_R"}};
+  out["state_variables"] = nlohmann::ordered_json::array();
+  out["properties"] = nlohmann::ordered_json::array();
+  out["compile"] = {"gcc -O2 -std=c99 -ffp-contract=off -c frictab_tau_R.c",
+                    "gcc -O2 -std=c99 -ffp-contract=off -fPIC -shared -o libfrictab_tau_R.so "
+                    "frictab_tau_R.c -lm"};
+  out["input_deck"] = nullptr;
+  out["table"] = recipe_table(request);
+  return recipe_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_table(request.table);
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  SourceBundle files;
+  files["frictab_tau_R.h"] = header(request, inputs);
+  files["frictab_tau_R.c"] = source(request, inputs);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest&) {
+  BuildVariant c99;
+  c99.name = "c99";
+  c99.command = {"gcc",     "-O2", "-std=c99", "-ffp-contract=off",      "-fPIC",
+                 "-shared", "-o",  "@{out}",   "@{dir}/frictab_tau_R.c", "-lm"};
+  c99.eps = 0x1p-53;
+  return {c99};
+}
+
+Exporter exporter() {
+  Exporter c;
+  c.name = "c";
+  c.order = 10;
+  c.title = "C99 function";
+  c.signature_source = "verified: ours, fixed by frictab's contract";
+  c.notes =
+      "One .c and one .h file, no allocation, no input or output, safe from any thread. "
+      "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
+      "-ffast-math: otherwise the bits that were verified are not the bits that run.";
+  c.generate = generate;
+  c.variants = variants;
+  c.drive = drive;
+  return c;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::c_target

@@ -1,0 +1,52 @@
+// Compiles a bundle into a shared library and loads it: how generated code is proven.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "codegen/exporter.h"
+
+namespace frictab {
+
+// True where a program of this name is on PATH (or is a path that can be executed).
+bool have_program(const std::string& name);
+
+// Writes bundle and extra files below `work_dir`, runs the variant's command there without a shell
+// and gives the library's path. Throws std::runtime_error with the compiler's output where it
+// fails.
+std::filesystem::path compile_library(const SourceBundle& bundle, const BuildVariant& variant,
+                                      const std::filesystem::path& work_dir);
+
+// A loaded shared library; closed at the end of its life.
+class Library {
+public:
+  explicit Library(const std::filesystem::path& file); // throws std::runtime_error
+  ~Library();
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+  void* handle() const { return handle_; }
+  // Throws std::runtime_error where the library does not hold it.
+  template <class Function> Function* find(const std::string& symbol) const {
+    return reinterpret_cast<Function*>(address(handle_, symbol));
+  }
+  static void* address(void* handle, const std::string& symbol);
+
+private:
+  void* handle_;
+};
+
+// A directory of our own below the system's temporary directory, removed with everything in it.
+class TemporaryDirectory {
+public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+} // namespace frictab

@@ -1,0 +1,209 @@
+// Inputs, units, numbers and texts that the templates of every target are filled with.
+#include "codegen/fill.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "table/frictab_kernel.h"
+
+namespace frictab {
+
+namespace {
+
+// The entry's arguments, in the order every C and Fortran caller relies on.
+const char* const contract_order[] = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
+                                      "T_contact_C", "s_mm", "sigma_f_MPa"};
+
+std::string replace_ending(const std::string& name, std::string_view from, std::string_view to) {
+  if (name.size() <= from.size() || name.substr(name.size() - from.size()) != from) return name;
+  return name.substr(0, name.size() - from.size()) + std::string(to);
+}
+
+// A column's own name may hold anything; the prefix keeps it off keywords and generated names.
+std::string identifier(const std::string& name) {
+  std::string text = find_quantity(name) ? "" : "in_";
+  for (const char c : name)
+    text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return text;
+}
+
+std::string argument_name(const InputArgument& input) {
+  const std::string name = identifier(input.name);
+  if (input.solver.same()) return name;
+  if (input.unit == "MPa") return replace_ending(name, "_MPa", "_Pa");
+  if (input.unit == "mm/s") return replace_ending(name, "_mm_s", "_m_s");
+  return replace_ending(name, "_mm", "_m");
+}
+
+InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
+  InputArgument input;
+  input.name = name;
+  input.unit = "1";
+  input.meaning = "as recorded";
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    if (table.axes[a].name != name) continue;
+    input.axis = a;
+    input.unit = table.axes[a].unit;
+    if (!table.axes[a].long_name.empty()) input.meaning = table.axes[a].long_name;
+  }
+  if (const Quantity* known = find_quantity(name)) {
+    input.unit = known->unit;
+    input.meaning = known->meaning;
+  }
+  input.solver = solver_unit(input.unit, units);
+  input.argument = argument_name(input);
+  return input;
+}
+
+} // namespace
+
+SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) {
+  if (units != "mm-t-s" && units != "m-kg-s")
+    throw InputError({}, fmt::format("unknown unit system '{}' in export.units", units),
+                     "known: mm-t-s (MPa, mm/s, mm, N), m-kg-s (Pa, m/s, m, N)");
+  if (units == "m-kg-s") {
+    if (canonical_unit == "MPa") return {"Pa", 1, 1e6};
+    if (canonical_unit == "mm/s") return {"m/s", 1e3, 1};
+    if (canonical_unit == "mm") return {"m", 1e3, 1};
+  }
+  return {std::string(canonical_unit), 1, 1};
+}
+
+std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units) {
+  std::vector<InputArgument> arguments;
+  std::set<std::string> taken;
+  const std::vector<std::string> needed = table.inputs();
+  for (const char* name : contract_order)
+    arguments.push_back(argument(table, name, units));
+  for (const std::string& name : needed) {
+    const auto same = [&](const InputArgument& a) { return a.name == name; };
+    const auto found = std::find_if(arguments.begin(), arguments.end(), same);
+    if (found == arguments.end())
+      arguments.push_back(argument(table, name, units)), arguments.back().used = true;
+    else
+      found->used = true;
+  }
+  for (InputArgument& a : arguments)
+    while (!taken.insert(a.argument).second)
+      a.argument += "_";
+  return arguments;
+}
+
+std::optional<double> typical_value(const Table& table, const std::string& name) {
+  const auto known = table.number_attributes.find("training_mean_" + name);
+  if (known != table.number_attributes.end() && std::isfinite(known->second)) return known->second;
+  for (const TableAxis& axis : table.axes) {
+    if (axis.name != name) continue;
+    const double low = axis.nodes.front(), high = axis.nodes.back();
+    return axis.log ? std::sqrt(low * high) : 0.5 * (low + high);
+  }
+  return std::nullopt;
+}
+
+void check_table(const Table& table) {
+  FaultList faults;
+  std::size_t nodes = 1;
+  for (const TableAxis& axis : table.axes) {
+    nodes *= axis.nodes.size();
+    for (std::size_t i = 0; i < axis.nodes.size(); ++i)
+      if (!std::isfinite(axis.nodes[i]) || (i > 0 && axis.nodes[i] <= axis.nodes[i - 1]) ||
+          (axis.log && axis.nodes[i] <= 0))
+        faults.add({}, fmt::format("the nodes of the table's axis '{}' do not ascend", axis.name));
+    if (axis.nodes.size() < 2)
+      faults.add({}, fmt::format("the table's axis '{}' has fewer than two nodes", axis.name));
+  }
+  if (table.axes.size() > FT_MAX_AXES)
+    faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
+                               table.axes.size(), FT_MAX_AXES));
+  if (nodes != table.value.size())
+    faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
+  if (!std::all_of(table.value.begin(), table.value.end(),
+                   [](double v) { return std::isfinite(v); }))
+    faults.add({}, "the table holds values that are not finite");
+  if (table.interpolation != "linear")
+    faults.add({},
+               fmt::format("no source is generated for '{}' interpolation", table.interpolation),
+               "set table.interpolation = \"linear\"");
+  faults.throw_if_any();
+}
+
+std::string comment_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '/' && !out.empty() && out.back() == '*') out += ' ';
+    out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  }
+  return out;
+}
+
+std::string c_number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string fortran_number(double value) {
+  std::string text = fmt::format("{}", value);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text + (text.find('.') == std::string::npos ? ".0D0" : "D0");
+  std::string mantissa = text.substr(0, e), exponent = text.substr(e + 1);
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  if (exponent[0] == '+') exponent.erase(0, 1);
+  return mantissa + "D" + exponent;
+}
+
+std::string range_text(const InputArgument& input, const TableAxis& axis) {
+  return fmt::format("{:.6g} .. {:.6g} {}", input.solver.from_canonical(axis.nodes.front()),
+                     input.solver.from_canonical(axis.nodes.back()), input.solver.name);
+}
+
+std::string drift_text(const Table& table) {
+  const auto worst = table.number_attributes.find("worst_case_MPa");
+  if (worst == table.number_attributes.end())
+    return "not measured here; see verify.json of the run that wrote this file";
+  return fmt::format("{:.3g} MPa, the largest found over the whole range", worst->second);
+}
+
+std::string origin_text(const Table& table) {
+  const auto origin = table.text_attributes.find("data_origin");
+  return origin == table.text_attributes.end() || origin->second.empty() ? "not stated"
+                                                                         : origin->second;
+}
+
+std::string number_lines(const std::vector<std::string>& numbers, std::size_t width,
+                         const std::string& indent) {
+  std::string out, line = indent;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::string item = numbers[i] + (i + 1 < numbers.size() ? "," : "");
+    const bool first = line.size() == indent.size();
+    if (!first && line.size() + 1 + item.size() > width) {
+      out += line + "\n";
+      line = indent + item;
+    } else {
+      line += (first ? "" : " ") + item;
+    }
+  }
+  return out + line;
+}
+
+std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines(1);
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find(' ', i), text.size());
+    const std::string word(text.substr(i, end - i));
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width)
+      lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+    i = end + 1;
+  }
+  return lines;
+}
+
+} // namespace frictab

@@ -1,0 +1,83 @@
+// What every target needs to fill its templates: inputs with their units in the solver's system,
+// numbers that round-trip, lists broken into lines.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "expr/expr.h"
+#include "table/table.h"
+
+namespace frictab {
+
+// A unit of the solver: canonical = value * times / over (one of the two is 1, so that every
+// conversion is one correctly rounded operation).
+struct SolverUnit {
+  std::string name;
+  double times = 1;
+  double over = 1;
+  double to_canonical(double value) const { return value * times / over; }
+  double from_canonical(double value) const { return value / times * over; }
+  bool same() const { return times == 1 && over == 1; }
+};
+
+// `units` is mm-t-s or m-kg-s; throws InputError for another one. Units without a counterpart
+// (degC, 1, a traced column's) stay as they are.
+SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units);
+
+// One state of the law as an argument of generated code.
+struct InputArgument {
+  std::string name;     // canonical
+  std::string argument; // with the solver's unit: sigma_n_Pa; an identifier in C and Fortran
+  std::string meaning;
+  std::string unit; // canonical
+  SolverUnit solver;
+  bool used = false;               // the table needs it
+  std::optional<std::size_t> axis; // where it is an axis
+};
+
+// sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa as the contract lists them, then the
+// table's further inputs.
+std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units);
+
+// The value an input has where the solver gives none: what the table says is typical (number
+// attribute "training_mean_<name>"), or the middle of its axis; nullopt where neither is known.
+std::optional<double> typical_value(const Table& table, const std::string& name);
+
+// Throws InputError where a table cannot be made into code: values that are not finite, sizes that
+// do not fit, more axes than the kernel holds, an interpolation the kernel does not have.
+void check_table(const Table& table);
+
+// Text from outside (names, attributes) that stays inside a comment of C or Fortran.
+std::string comment_text(std::string_view text);
+
+// 17 significant digits at most, reads back to the same bits. C: 1.0, 1e-20. Fortran: 1.0D0.
+std::string c_number(double value);
+std::string fortran_number(double value);
+
+// "500 .. 2750 MPa" in the solver's unit.
+std::string range_text(const InputArgument& input, const TableAxis& axis);
+
+// "worst drift ..., measured in verification" or "not known"; from the table's attributes.
+std::string drift_text(const Table& table);
+std::string origin_text(const Table& table);
+
+// Numbers broken into lines of at most `width` columns behind `indent`.
+std::string number_lines(const std::vector<std::string>& numbers, std::size_t width,
+                         const std::string& indent);
+
+// Text broken at blanks into lines of at most `width` columns.
+std::vector<std::string> wrap_text(std::string_view text, std::size_t width);
+
+// A Fortran statement in fixed form: columns 7..72, continuation lines marked in column 6. Throws
+// std::logic_error where it would need more than 19 of them.
+std::string fixed_form(const std::string& statement);
+
+// DATA statements for name(1..n), each within 72 columns and 19 continuation lines.
+std::string fixed_form_data(const std::string& name, std::span<const double> values);
+std::string fixed_form_data(const std::string& name, const std::vector<int>& values);
+
+} // namespace frictab

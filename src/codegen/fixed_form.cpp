@@ -1,0 +1,85 @@
+// Fortran in fixed form: statements and DATA within columns 7 to 72 and 19 continuation lines.
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "codegen/fill.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t columns = 66; // 7..72
+constexpr std::size_t continuations = 19;
+
+// Where to cut: behind the last blank or comma that fits, or anywhere (blanks mean nothing).
+std::size_t cut(std::string_view text) {
+  if (text.size() <= columns) return text.size();
+  const std::size_t at = text.find_last_of(" ,", columns - 1);
+  return at == std::string_view::npos || at == 0 ? columns : at + 1;
+}
+
+std::string data_statement(const std::string& head, const std::vector<std::string>& lines) {
+  std::string out = "      " + head;
+  for (const std::string& line : lines)
+    out += "\n     & " + line;
+  return out + "/\n";
+}
+
+std::string data(const std::string& name, const std::vector<std::string>& numbers) {
+  std::string out;
+  std::vector<std::string> lines;
+  std::size_t first = 0;
+  const auto finish = [&](std::size_t next) {
+    lines.back().pop_back(); // the comma
+    out += data_statement(fmt::format("data ({}(i),i={},{})/", name, first + 1, next), lines);
+    lines.clear();
+    first = next;
+  };
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::string item = numbers[i] + ",";
+    // One column less than there is: the last line ends with a slash instead of a comma.
+    if (!lines.empty() && lines.back().size() + item.size() <= columns - 1) {
+      lines.back() += item;
+    } else {
+      if (lines.size() == continuations) finish(i);
+      lines.push_back(item);
+    }
+  }
+  if (!lines.empty()) finish(numbers.size());
+  if (!out.empty()) out.pop_back(); // the template ends the line
+  return out;
+}
+
+} // namespace
+
+std::string fixed_form(const std::string& statement) {
+  std::string_view rest = statement;
+  std::string out;
+  for (std::size_t line = 0; !rest.empty(); ++line) {
+    if (line > continuations) throw std::logic_error("Fortran statement too long: " + statement);
+    const std::size_t end = cut(rest);
+    std::string piece(rest.substr(0, end));
+    while (!piece.empty() && piece.back() == ' ')
+      piece.pop_back();
+    out += (line == 0 ? "      " : "\n     &") + piece;
+    rest.remove_prefix(end);
+  }
+  return out;
+}
+
+std::string fixed_form_data(const std::string& name, std::span<const double> values) {
+  std::vector<std::string> numbers;
+  for (const double value : values)
+    numbers.push_back(fortran_number(value));
+  return data(name, numbers);
+}
+
+std::string fixed_form_data(const std::string& name, const std::vector<int>& values) {
+  std::vector<std::string> numbers;
+  for (const int value : values)
+    numbers.push_back(std::to_string(value));
+  return data(name, numbers);
+}
+
+} // namespace frictab

@@ -1,0 +1,77 @@
+// The parts of recipe.json that do not depend on the target.
+#include "codegen/recipe.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace frictab {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json unit_names(std::string_view units) {
+  return {{"system", units},
+          {"stress", solver_unit("MPa", units).name},
+          {"speed", solver_unit("mm/s", units).name},
+          {"length", solver_unit("mm", units).name},
+          {"temperature", "degC"}};
+}
+
+json axis_json(const TableAxis& axis, std::size_t bit, const InputArgument& input) {
+  return {{"name", axis.name},          {"unit", axis.unit},
+          {"meaning", input.meaning},   {"range", {axis.nodes.front(), axis.nodes.back()}},
+          {"nodes", axis.nodes.size()}, {"transform", axis.log ? "log" : "linear"},
+          {"outside_bit", bit}};
+}
+
+} // namespace
+
+json recipe_head(const Exporter& exporter, const ExportRequest& request, const std::string& entry,
+                 const SourceBundle& files) {
+  json names = json::array();
+  for (const auto& [path, content] : files)
+    names.push_back(path);
+  names.push_back("recipe.json");
+  return {{"schema", "frictab/recipe/1"},
+          {"target", exporter.name},
+          {"title", exporter.title},
+          {"tool_version", FRICTAB_VERSION},
+          {"model", request.table.model},
+          {"data_origin", origin_text(request.table)},
+          {"units", unit_names(request.units)},
+          {"entry", entry},
+          {"files", names},
+          {"signature_source", exporter.signature_source}};
+}
+
+json recipe_table(const ExportRequest& request) {
+  const Table& table = request.table;
+  const std::vector<InputArgument> inputs = entry_arguments(table, request.units);
+  json axes = json::array();
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    const auto input = std::find_if(inputs.begin(), inputs.end(),
+                                    [&](const InputArgument& i) { return i.axis && *i.axis == a; });
+    axes.push_back(axis_json(table.axes[a], a, *input));
+  }
+  json out = {{"axes", axes},
+              {"quantity", table.quantity},
+              {"transform", table.log_value ? "log" : "linear"},
+              {"interpolation", table.interpolation},
+              {"combine", to_text(table.combine)},
+              {"constants", table.constants},
+              {"worst_case_MPa", nullptr},
+              {"outside",
+               "the value at the nearest edge of the table; stress and flow stress enter "
+               "the formula unchanged"}};
+  const auto worst = table.number_attributes.find("worst_case_MPa");
+  if (worst != table.number_attributes.end()) out["worst_case_MPa"] = worst->second;
+  return out;
+}
+
+std::string recipe_text(const json& recipe) {
+  return recipe.dump(2) + "\n";
+}
+
+} // namespace frictab

@@ -1,0 +1,23 @@
+// recipe.json: the parts every target has in common.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "codegen/exporter.h"
+#include "codegen/fill.h"
+
+namespace frictab {
+
+// schema, target, model, data_origin, units, entry, files, signature_source.
+nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest& request,
+                                   const std::string& entry, const SourceBundle& files);
+
+// The table's axes with ranges, how the value becomes tau_R, and the drift it is known for.
+nlohmann::ordered_json recipe_table(const ExportRequest& request);
+
+// Two blanks of indentation, a line feed at the end.
+std::string recipe_text(const nlohmann::ordered_json& recipe);
+
+} // namespace frictab

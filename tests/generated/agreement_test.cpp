@@ -1,0 +1,71 @@
+// Every target, every way to compile it, every sample table: the generated routine, called as its
+// solver calls it, gives what frictab's own evaluation gives.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "codegen/compile.h"
+#include "codegen/exporter.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+// log, exp and pow come from the same libm on both sides; what is left is the order of operations.
+constexpr double double_bound = 1e-13;
+// Each input is rounded to 24 bits before it is looked up, and the steepest sample table changes by
+// a factor of 10 within 30 % of an axis: 2^-24 * (10 per 0.3) * 6 inputs, and the result's own
+// rounding.
+constexpr double single_bound = 2e-5;
+
+struct Case {
+  std::string target;
+  std::string units;
+};
+
+class Agreement : public testing::TestWithParam<Case> {};
+
+void compare(const Exporter& exporter, const ExportRequest& request, std::size_t rows,
+             const std::map<std::string, double>& fixed) {
+  const test::States states(request.table, rows, 11, 0.1, fixed);
+  const std::vector<double> truth = test::expected(request.table, states);
+  const SourceBundle bundle = exporter.generate(request);
+  for (const BuildVariant& variant : exporter.variants(request)) {
+    if (!have_program(variant.command[0]))
+      GTEST_SKIP() << variant.command[0] << " is not installed";
+    const TemporaryDirectory work;
+    const Library library(compile_library(bundle, variant, work.path()));
+    std::vector<double> tau(rows, -1);
+    exporter.drive(library.handle(), variant, request, rows, states.columns(), tau);
+    const double bound = variant.eps < 1e-10 ? double_bound : single_bound;
+    EXPECT_LE(test::worst_relative(tau, truth), bound) << exporter.name << "/" << variant.name;
+  }
+}
+
+TEST_P(Agreement, OfTheRoutineWithFrictabItselfOverAMillionPoints) {
+  const Exporter& exporter = *find_exporter(GetParam().target);
+  for (const test::NamedTable& sample : test::sample_tables()) {
+    SCOPED_TRACE(sample.name);
+    const ExportRequest request{sample.table, GetParam().units, {}};
+    // Properties are constants of a call: most points share them, as in a solver.
+    const std::map<std::string, double> fixed = {
+        {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};
+    compare(exporter, request, 200000, fixed);
+    compare(exporter, request, 2000, {});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Agreement,
+                         testing::Values(Case{"c", "mm-t-s"}, Case{"c", "m-kg-s"},
+                                         Case{"abaqus_vfric", "mm-t-s"},
+                                         Case{"abaqus_vfric", "m-kg-s"}),
+                         [](const testing::TestParamInfo<Case>& given) {
+                           std::string name = given.param.target + "_" + given.param.units;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,164 @@
+// Tables for the tests of generated code, and states to ask them at.
+#include "support/sample_tables.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+#include "data/quantity.h"
+
+namespace frictab::test {
+
+namespace {
+
+TableAxis axis(const std::string& name, bool log, std::vector<double> nodes) {
+  TableAxis out;
+  out.name = name;
+  out.log = log;
+  out.nodes = std::move(nodes);
+  const Quantity* known = find_quantity(name);
+  out.unit = known ? known->unit : "1";
+  out.long_name = known ? known->meaning : "a recorded column";
+  return out;
+}
+
+std::vector<double> even(double low, double high, int count, bool log) {
+  std::vector<double> nodes;
+  for (int i = 0; i < count; ++i) {
+    const double w = double(i) / (count - 1);
+    nodes.push_back(log ? low * std::pow(high / low, w) : low + (high - low) * w);
+  }
+  return nodes;
+}
+
+// Rough values, so that a wrong corner or weight shows.
+void fill(Table& table, double low, double high) {
+  std::size_t count = 1;
+  for (const TableAxis& a : table.axes)
+    count *= a.nodes.size();
+  Random random(7);
+  for (std::size_t i = 0; i < count; ++i)
+    table.value.push_back(table.log_value ? std::log(random.uniform(low, high))
+                                          : random.uniform(low, high));
+}
+
+Expr shear_limit(const Expr& tau) {
+  return minimum(maximum(tau, 0.0),
+                 Expr::symbol("m") * (0.5773502691896258 * Expr::symbol("sigma_f_MPa")));
+}
+
+} // namespace
+
+Table constant_table() {
+  Table table;
+  table.model = "coulomb";
+  table.value = {0.08};
+  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
+  return table;
+}
+
+Table one_axis_table() {
+  Table table;
+  table.model = "one_axis";
+  table.quantity = "tau_R";
+  table.axes = {axis("psi", false, even(1, 20, 5, false))};
+  fill(table, 10, 90);
+  table.combine = Expr::symbol("value");
+  table.number_attributes = {{"worst_case_MPa", 0.25}};
+  return table;
+}
+
+Table four_axis_table() {
+  Table table;
+  table.model = "log_coulomb";
+  table.log_value = true;
+  table.axes = {axis("sigma_n_MPa", true, {500, 700, 1300, 2000, 2750}),
+                axis("psi", true, even(1, 20, 4, true)),
+                axis("v_rel_mm_s", true, even(5, 500, 6, true)),
+                axis("T_contact_C", false, {20, 35, 90, 200})};
+  fill(table, 0.03, 0.3);
+  table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
+  table.constants = {{"m", 0.8}};
+  table.text_attributes = {{"data_origin", "synthetic (frictab twin)"}};
+  table.number_attributes = {{"worst_case_MPa", 0.31}, {"training_mean_sigma_f_MPa", 480}};
+  return table;
+}
+
+Table branching_table() {
+  Table table;
+  table.model = "branching";
+  table.axes = {axis("v_rel_mm_s", false, {0, 1, 4, 50}),
+                axis("s_mm", false, even(0, 40, 9, false))};
+  fill(table, 0.02, 0.2);
+  const Expr n = Expr::symbol("n"), sigma = Expr::symbol("sigma_n_MPa");
+  const Expr k = Expr::symbol("sigma_f_MPa") / 2;
+  const Expr u = maximum(Expr::symbol("value") * sigma / k, 1e-9);
+  const Expr soft = k * u / pow(1 + pow(u, n), 1 / n);
+  const Expr hard = k * (1 - exp(-(u * Expr::symbol("shape number")))) + tanh(u) - sqrt(u);
+  table.combine = minimum(where_le(u, 0.4, soft, hard), k);
+  table.constants = {{"n", 1.8}, {"shape number", 1.25}};
+  return table;
+}
+
+Table traced_table() {
+  Table table;
+  table.model = "traced";
+  table.axes = {axis("sigma_n_MPa", true, even(500, 2750, 3, true)),
+                axis("psi", true, {1, 3, 20}),
+                axis("v_rel_mm_s", true, even(5, 500, 3, true)),
+                axis("T_contact_C", false, even(20, 200, 2, false)),
+                axis("s_mm", false, {0, 5, 40}),
+                axis("humidity %, room", false, {20, 30, 80})};
+  fill(table, 0.03, 0.3);
+  table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
+  table.constants = {{"m", 1.0}};
+  return table;
+}
+
+const std::vector<NamedTable>& sample_tables() {
+  static const std::vector<NamedTable> tables = {{"constant", constant_table()},
+                                                 {"one_axis", one_axis_table()},
+                                                 {"four_axes", four_axis_table()},
+                                                 {"branching", branching_table()},
+                                                 {"traced", traced_table()}};
+  return tables;
+}
+
+States::States(const Table& table, std::size_t rows, std::uint64_t seed, double spread,
+               const std::map<std::string, double>& fixed)
+    : rows_(rows) {
+  Random random(seed);
+  for (const std::string& name : table.inputs()) {
+    double low = 100, high = 1000;
+    for (const TableAxis& a : table.axes) {
+      if (a.name != name) continue;
+      const double beyond = spread * (a.nodes.back() - a.nodes.front());
+      low = std::max(a.nodes.front() - beyond, a.log ? a.nodes.front() * (1 - spread) : 0.0);
+      high = a.nodes.back() + beyond;
+    }
+    std::vector<double> values(rows);
+    for (double& value : values)
+      value = fixed.count(name) ? fixed.at(name) : random.uniform(low, high);
+    values_.push_back(std::move(values));
+  }
+  for (const auto& values : values_)
+    pointers_.push_back(values.data());
+}
+
+std::vector<double> expected(const Table& table, const States& states) {
+  std::vector<double> tau(states.rows());
+  TableFunction(table).evaluate(states.rows(), states.columns(), tau);
+  return tau;
+}
+
+double worst_relative(const std::vector<double>& a, const std::vector<double>& b, double floor) {
+  double worst = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (std::isnan(a[i]) != std::isnan(b[i])) return std::numeric_limits<double>::infinity();
+    if (std::isnan(b[i])) continue;
+    worst = std::max(worst, std::abs(a[i] - b[i]) / std::max(std::abs(b[i]), floor));
+  }
+  return worst;
+}
+
+} // namespace frictab::test

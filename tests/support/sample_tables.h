@@ -1,0 +1,48 @@
+// Small tables made by hand, one per way a table can differ; no law is needed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "table/table.h"
+
+namespace frictab::test {
+
+Table constant_table();  // no axis: mu = 0.08, tau = mu sigma_N
+Table one_axis_table();  // psi, even nodes; the table is tau_R itself
+Table four_axis_table(); // log and linear, even and uneven nodes; ln value; shear limit
+Table branching_table(); // sliding distance; where, minimum, maximum, power, exp, constants
+Table traced_table();    // six axes, one of them a column that is not canonical
+
+struct NamedTable {
+  std::string name;
+  Table table;
+};
+const std::vector<NamedTable>& sample_tables();
+
+// Rows of states, column-wise in the order of table.inputs(), `spread` (0.1 = 10 %) beyond every
+// end of its axes; states that are no axis lie in 100 .. 1000. States in `fixed` (name, value) keep
+// that value.
+class States {
+public:
+  States(const Table& table, std::size_t rows, std::uint64_t seed, double spread = 0.1,
+         const std::map<std::string, double>& fixed = {});
+  std::size_t rows() const { return rows_; }
+  const std::vector<const double*>& columns() const { return pointers_; }
+  std::vector<double>& column(std::size_t c) { return values_[c]; }
+
+private:
+  std::size_t rows_;
+  std::vector<std::vector<double>> values_;
+  std::vector<const double*> pointers_;
+};
+
+// tau_R by frictab itself, through the shared kernel.
+std::vector<double> expected(const Table& table, const States& states);
+
+// Largest |a-b| / max(|b|, floor); infinite where one is NaN and the other is not.
+double worst_relative(const std::vector<double>& a, const std::vector<double>& b,
+                      double floor = 1e-3);
+
+} // namespace frictab::test
