@@ -85,7 +85,9 @@ TEST(Calibration, OrowanFindsTheBestOfItsSeveralMinima) {
   const Dataset data = test::sample_data(test::plausible_model(law), options);
   const ModelFit fit = fit_of("orowan", data);
   const auto cost = [&](double mu, double m) {
-    const std::vector<double> tau = predict({&law, {}, {mu, m}}, data);
+    Model trial = test::plausible_model(law);
+    trial.parameters = {mu, m};
+    const std::vector<double> tau = predict(trial, data);
     double sum = 0;
     for (std::size_t i = 0; i < tau.size(); ++i)
       sum += std::pow(data.values("tau_R_MPa")[i] - tau[i], 2);
