@@ -57,6 +57,9 @@ struct CalibrationInput {
   CalibrationOptions options;
 };
 
+// The job's conventions, with the shear limit off where the data have no flow stress.
+Conventions conventions_of(const ModelOptions& models, const Dataset& data);
+
 // Throws InputError where no law can be used, or a law asked for by name lacks columns.
 Calibration calibrate(const CalibrationInput& input);
 

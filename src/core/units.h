@@ -18,7 +18,7 @@ struct Conversion {
 // nullopt where either unit is unknown or they do not measure the same thing.
 std::optional<Conversion> convert(std::string_view from, std::string_view to);
 
-// Every unit that can be named, for messages.
-std::vector<std::string> known_units();
+// The units that convert to `unit`, for messages.
+std::vector<std::string> units_like(std::string_view unit);
 
 } // namespace frictab

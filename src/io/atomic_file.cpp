@@ -46,9 +46,20 @@ fs::path OutputFiles::stage(const std::string& path) {
   return file;
 }
 
+void OutputFiles::replace_directory(const std::string& subdirectory) {
+  replaced_.push_back(subdirectory);
+}
+
 void OutputFiles::commit() {
+  for (const std::string& subdirectory : replaced_) {
+    if (fs::exists(directory_ / subdirectory))
+      fs::rename(directory_ / subdirectory, staging_ / ("old-" + subdirectory));
+    if (fs::exists(staging_ / subdirectory))
+      fs::rename(staging_ / subdirectory, directory_ / subdirectory);
+  }
   for (const std::string& path : paths_) {
     const fs::path target = directory_ / path;
+    if (!fs::exists(staging_ / path)) continue; // moved with its directory
     fs::create_directories(target.parent_path());
     fs::rename(staging_ / path, target);
   }

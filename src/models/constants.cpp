@@ -10,7 +10,7 @@ Formula coulomb(const Conventions&) {
 }
 
 Formula shear(const Conventions& conventions) {
-  return {Expr::symbol("m"), state::value() * shear_yield_stress(conventions)};
+  return {Expr::symbol("m") * shear_yield_stress(conventions), state::value()};
 }
 
 Law constant(int order, const char* name, const char* symbol, double value, const char* source) {
@@ -24,7 +24,8 @@ Law constant(int order, const char* name, const char* symbol, double value, cons
   law.calibrated = Calibrated::fixed;
   law.parameters = {{symbol, "1", is_mu ? "friction coefficient" : "friction factor", value, 0, 1}};
   law.build = is_mu ? coulomb : shear;
-  law.quantity = is_mu ? "mu" : "m";
+  law.quantity = is_mu ? "mu" : "tau_R";
+  law.log_value = !is_mu;
   return law;
 }
 

@@ -52,7 +52,7 @@ struct Law {
       reference; // where formula and constants come from; says "ours" where it is our choice
   Calibrated calibrated = Calibrated::fit;
   std::vector<Parameter> parameters;
-  std::string quantity = "mu";          // of the tabulated piece: mu | m | tau_R
+  std::string quantity = "mu";          // of the tabulated piece: mu | tau_R
   bool log_value = false;               // tabulate ln(value): straight for products of powers
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each

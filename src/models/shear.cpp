@@ -6,7 +6,7 @@ namespace frictab {
 namespace {
 
 Formula build(const Conventions& conventions) {
-  return {Expr::symbol("m"), state::value() * shear_yield_stress(conventions)};
+  return {Expr::symbol("m") * shear_yield_stress(conventions), state::value()};
 }
 
 Law shear() {
@@ -18,7 +18,8 @@ Law shear() {
   law.reference =
       "the field's standard law at high contact normal stress; k by [models] shear_yield";
   law.parameters = {{"m", "1", "friction factor", 0.12, 0, 1}};
-  law.quantity = "m";
+  law.quantity = "tau_R";
+  law.log_value = true;
   law.build = build;
   return law;
 }

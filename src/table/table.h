@@ -36,7 +36,7 @@ struct Table {
   std::string model;           // law name
   std::vector<TableAxis> axes; // none: the value is one constant
   std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value
-  std::string quantity = "mu"; // mu | m | tau_R
+  std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
   std::string interpolation = "linear";
   Expr combine;                            // tau_R_MPa of "value", state names and constants

@@ -1,0 +1,253 @@
+// The calibration stage: which laws the columns allow, their parameters, their errors, the ranking.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "calibrate/calibration.h"
+#include "calibrate/fit.h"
+#include "calibrate/metrics.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "data/quantity.h"
+
+namespace frictab {
+
+namespace {
+
+using Columns = std::vector<const double*>;
+
+Columns columns_of(const Dataset& data, const std::vector<std::string>& names) {
+  Columns columns;
+  for (const std::string& name : names)
+    columns.push_back(data.values(name).data());
+  return columns;
+}
+
+std::vector<std::string> missing_inputs(const Law& law, const Conventions& conventions,
+                                        const Dataset& training, const Dataset& validation) {
+  std::vector<std::string> missing;
+  for (const std::string& name : inputs(law, conventions))
+    if (!training.has(name) || !validation.has(name)) missing.push_back(name);
+  return missing;
+}
+
+struct Selection {
+  std::vector<const Law*> laws;
+  std::vector<std::string> left_out;
+};
+
+Selection select_laws(const CalibrationInput& input, const Conventions& conventions) {
+  Selection selection;
+  FaultList faults;
+  const auto& use = input.models.use;
+  for (const Law& law : all_laws()) {
+    const bool asked = std::find(use.begin(), use.end(), law.name) != use.end();
+    if (!use.empty() && !asked) continue;
+    const auto missing = missing_inputs(law, conventions, input.training, input.validation);
+    if (missing.empty()) {
+      selection.laws.push_back(&law);
+      continue;
+    }
+    const std::string why = fmt::format("{}: needs {}", law.name, join(missing, ", "));
+    if (asked)
+      faults.add(input.models.place, "law " + why + ", which the data do not have",
+                 "map the columns in [data.columns], give a constant in [data.constants], or leave "
+                 "the law out of models.use");
+    else
+      selection.left_out.push_back(why);
+  }
+  faults.throw_if_any();
+  if (selection.laws.empty())
+    throw InputError(input.models.place, "the data allow no friction law",
+                     "needed at least: sigma_n_MPa and tau_R_MPa");
+  return selection;
+}
+
+// The paper's calibration: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k, with
+// the standard error of a mean of experiments.
+void fit_means(ModelFit& fit, const Dataset& data) {
+  const auto tau = data.values("tau_R_MPa");
+  for (const Parameter& parameter : fit.model.law->parameters) {
+    const bool is_mu = parameter.name == "mu";
+    const auto per = data.values(is_mu ? "sigma_n_MPa" : "sigma_f_MPa");
+    const double factor = is_mu ? 1 : fit.model.conventions.k_over_sigma_f;
+    double sum = 0, rows = 0;
+    std::vector<std::pair<double, double>> parts; // per experiment: sum, rows
+    std::size_t unloaded = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      double part = 0, count = 0;
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        if (!(per[i] > 0)) {
+          ++unloaded;
+          continue;
+        }
+        part += tau[i] / (factor * per[i]);
+        ++count;
+      }
+      parts.emplace_back(part, count);
+      sum += part;
+      rows += count;
+    }
+    const double mean = sum / rows;
+    double variance = 0;
+    for (const auto& [part, count] : parts)
+      variance += std::pow(part - mean * count, 2);
+    const double experiments = static_cast<double>(parts.size());
+    fit.model.parameters.push_back(mean);
+    fit.std_error.push_back(experiments > 1
+                                ? std::sqrt(variance * experiments / (experiments - 1)) / rows
+                                : std::numeric_limits<double>::quiet_NaN());
+    if (unloaded > 0)
+      fit.remarks.push_back(fmt::format("{} rows without load are not in the mean of {}",
+                                        thousands(unloaded), parameter.name));
+  }
+  fit.termination = "closed form";
+  fit.std_error_method = "cluster by experiment";
+  fit.evaluations = 1;
+}
+
+// Every `step`-th row: enough to find the right minimum, cheap enough to search globally.
+struct Thinned {
+  std::vector<std::vector<double>> columns;
+  std::vector<double> measured;
+};
+
+Thinned thin(const Dataset& data, const std::vector<std::string>& names) {
+  constexpr std::size_t wanted = 2000;
+  const std::size_t step = std::max<std::size_t>(1, data.rows() / wanted);
+  Thinned thinned;
+  thinned.columns.resize(names.size());
+  for (std::size_t i = step / 2; i < data.rows(); i += step) {
+    for (std::size_t c = 0; c < names.size(); ++c)
+      thinned.columns[c].push_back(data.values(names[c])[i]);
+    thinned.measured.push_back(data.values("tau_R_MPa")[i]);
+  }
+  return thinned;
+}
+
+void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
+  for (const std::string& name : inputs(*fit.model.law, fit.model.conventions)) {
+    const auto values = data.values(name);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    if (*low == *high && std::any_of(fit.std_error.begin(), fit.std_error.end(),
+                                     [](double e) { return std::isnan(e); }))
+      fit.remarks.push_back(fmt::format(
+          "{} is {} in every row: experiments at other values would settle it", name, *low));
+  }
+}
+
+void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+  const Law& law = *fit.model.law;
+  const auto names = inputs(law, fit.model.conventions);
+  const Program program(tau_formula(law, fit.model.conventions), names, parameter_names(law));
+  const Columns columns = columns_of(data, names);
+  const BoundProgram full(program, data.rows(), columns);
+  const Thinned thinned = thin(data, names);
+  Columns thin_columns;
+  for (const auto& column : thinned.columns)
+    thin_columns.push_back(column.data());
+  const BoundProgram coarse(program, thinned.measured.size(), thin_columns);
+  const FitProblem problem{full, data.values("tau_R_MPa"), law.parameters};
+  const FitResult result = fit_global({coarse, thinned.measured, law.parameters}, problem,
+                                      options.loss, options.huber_delta_MPa);
+  fit.model.parameters = result.parameters;
+  fit.termination = result.termination;
+  fit.evaluations = result.evaluations;
+  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
+  const double kernel_MPa = 2 * result.cost;
+  const LossFunction loss{options.loss,
+                          options.loss == Loss::l1 ? kernel_MPa : options.huber_delta_MPa};
+  Uncertainty uncertainty = cluster_sandwich(problem, loss, result.parameters, data.first_row);
+  fit.std_error = std::move(uncertainty.std_error);
+  fit.remarks = std::move(uncertainty.remarks);
+  fit.std_error_method = "cluster sandwich by experiment";
+  remark_constant_inputs(fit, data);
+}
+
+ModelFit fit_law(const Law& law, const Conventions& conventions, const CalibrationInput& input) {
+  const auto begin = std::chrono::steady_clock::now();
+  ModelFit fit;
+  fit.model.law = &law;
+  fit.model.conventions = conventions;
+  switch (law.calibrated) {
+  case Calibrated::fixed:
+    for (const Parameter& parameter : law.parameters)
+      fit.model.parameters.push_back(parameter.start);
+    fit.std_error.assign(law.parameters.size(), 0.0);
+    fit.std_error_method = "fixed";
+    fit.termination = "not calibrated";
+    break;
+  case Calibrated::mean:
+    fit_means(fit, input.training);
+    break;
+  case Calibrated::fit:
+    fit_parameters(fit, input.training, input.options);
+    break;
+  }
+  const auto judge = [&](const Dataset& data) {
+    return metrics(data.values("tau_R_MPa"), predict(fit.model, data), data.first_row,
+                   input.options.bootstrap, input.options.seed);
+  };
+  fit.training = judge(input.training);
+  fit.validation = judge(input.validation);
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return fit;
+}
+
+} // namespace
+
+Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
+  Conventions conventions;
+  conventions.shear_yield = models.shear_yield;
+  conventions.k_over_sigma_f = models.shear_yield == "tresca"        ? 0.5
+                               : models.shear_yield == "flow_stress" ? 1.0
+                                                                     : 1 / std::sqrt(3.0);
+  conventions.shear_limit = models.shear_limit && data.has("sigma_f_MPa");
+  return conventions;
+}
+
+Calibration calibrate(const CalibrationInput& input) {
+  const Conventions conventions = conventions_of(input.models, input.training);
+  Selection selection = select_laws(input, conventions);
+  Calibration calibration;
+  calibration.left_out = std::move(selection.left_out);
+  calibration.loss = input.options.loss;
+  calibration.seed = input.options.seed;
+  calibration.synthetic = is_synthetic(input.training) || is_synthetic(input.validation);
+  calibration.data_hash =
+      fmt::format("{:016x}", input.training.hash ^ (input.validation.hash * 0x9e3779b97f4a7c15ULL));
+  calibration.fits.resize(selection.laws.size());
+  Progress progress("calibrating laws", selection.laws.size());
+  parallel_for(selection.laws.size(), [&](std::size_t i) {
+    calibration.fits[i] = fit_law(*selection.laws[i], conventions, input);
+    progress.tick();
+  });
+  std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
+                   [](const ModelFit& a, const ModelFit& b) {
+                     return a.validation.mae_MPa < b.validation.mae_MPa;
+                   });
+  return calibration;
+}
+
+std::vector<double> predict(const Model& model, const Dataset& data) {
+  const auto names = inputs(*model.law, model.conventions);
+  const Program program(tau_formula(*model.law, model.conventions), names,
+                        parameter_names(*model.law));
+  std::vector<double> tau(data.rows());
+  program.evaluate(data.rows(), columns_of(data, names), model.parameters, tau.data());
+  return tau;
+}
+
+bool is_synthetic(const Dataset& data) {
+  const Column* origin = data.find("origin");
+  return origin &&
+         std::any_of(origin->levels.begin(), origin->levels.end(), [](const std::string& level) {
+           return level.find("synthetic") != std::string::npos;
+         });
+}
+
+} // namespace frictab

@@ -1,0 +1,20 @@
+// Calibrations and single models as JSON files that read back to the same bits.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "calibrate/calibration.h"
+
+namespace frictab {
+
+// calibration.json: every law with parameters, errors, termination. The wall time is given as the
+// next of 1, 2, 5, 10, ... seconds above it, so that the same job gives the same bytes.
+std::string calibration_json(const Calibration& calibration);
+Calibration parse_calibration(std::string_view text, const std::string& file);
+
+// models/<name>.json: one law, complete.
+std::string model_json(const ModelFit& fit, const Calibration& calibration);
+Model parse_model(std::string_view text, const std::string& file);
+
+} // namespace frictab

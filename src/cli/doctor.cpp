@@ -1,0 +1,204 @@
+// frictab doctor: what this machine has for the job, and how to mend what is missing.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <nlohmann/json.hpp>
+#include <nlopt.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "codegen/exporter.h"
+#include "core/text.h"
+#include "models/law.h"
+
+namespace frictab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Finding {
+  std::string topic; // "library", "compiler", "target", "machine"
+  std::string name;
+  bool ok = true;
+  bool needed = true; // a lack of it is a failure
+  std::string text;
+  std::string mend;
+};
+
+// The first executable of that name on PATH, as a shell finds it; "" where there is none.
+std::string on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::string rest = path ? path : "";
+  while (true) {
+    const std::size_t colon = rest.find(':');
+    const fs::path directory = rest.substr(0, colon);
+    const fs::path file = directory.empty() ? fs::path(".") / program : directory / program;
+    std::error_code error;
+    if (fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0) return file.string();
+    if (colon == rest.npos) return "";
+    rest.erase(0, colon + 1);
+  }
+}
+
+struct Compiler {
+  const char* name;
+  const char* package;
+  bool needed;
+  const char* purpose;
+};
+
+constexpr Compiler compilers[] = {
+    {"gcc", "gcc", true, "compiles the generated C for verify"},
+    {"gfortran", "gfortran", true, "compiles the generated Fortran for verify"},
+    {"clang", "clang", false, "a second opinion on the generated C"},
+};
+
+std::string package_of(const std::string& program) {
+  for (const Compiler& compiler : compilers)
+    if (program == compiler.name) return compiler.package;
+  return program == "cc" ? "gcc" : program;
+}
+
+void add_libraries(std::vector<Finding>& out) {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  int nlopt_major = 0, nlopt_minor = 0, nlopt_bugfix = 0;
+  nlopt_version(&nlopt_major, &nlopt_minor, &nlopt_bugfix);
+  const auto add = [&](const char* name, const std::string& version) {
+    out.push_back({"library", name, true, true, version, ""});
+  };
+  add("frictab", FRICTAB_VERSION);
+  add("HDF5", fmt::format("{}.{}.{}", major, minor, release));
+  add("NLopt", fmt::format("{}.{}.{}", nlopt_major, nlopt_minor, nlopt_bugfix));
+  add("Eigen",
+      fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+}
+
+void add_compilers(std::vector<Finding>& out) {
+  for (const Compiler& compiler : compilers) {
+    const std::string file = on_path(compiler.name);
+    out.push_back({"compiler", compiler.name, !file.empty(), compiler.needed,
+                   file.empty() ? std::string("not found; ") + compiler.purpose : file,
+                   file.empty() ? std::string("apt install ") + compiler.package : ""});
+  }
+}
+
+// The smallest table: enough for a target to say how it would be compiled.
+Table probe_table() {
+  const Law* law = find_law("coulomb");
+  Table table;
+  table.model = "coulomb";
+  table.value = {0.1};
+  table.combine = law ? limited_combine(*law, Conventions{}) : Expr::symbol("value");
+  return table;
+}
+
+Finding target_finding(const Exporter& target) {
+  Finding finding{"target", target.name, true, false, "verify can run it", ""};
+  const Table table = probe_table();
+  try {
+    const auto variants = target.variants ? target.variants(ExportRequest{table, "mm-t-s", {}})
+                                          : std::vector<BuildVariant>{};
+    if (variants.empty()) {
+      finding.text = "written, but verify has no way to run it here";
+      return finding;
+    }
+    std::vector<std::string> lacking;
+    for (const BuildVariant& variant : variants) {
+      const std::string program = variant.command.empty() ? "" : variant.command.front();
+      const bool there = program.find('/') == program.npos && !on_path(program).empty();
+      if (!there && std::count(lacking.begin(), lacking.end(), program) == 0)
+        lacking.push_back(program);
+    }
+    if (lacking.empty()) return finding;
+    finding.ok = false;
+    finding.text = "verify cannot run it: needs " + join(lacking, ", ");
+    finding.mend = "apt install " + package_of(lacking.front());
+  } catch (const std::exception& error) {
+    finding.text = fmt::format("not known: {}", error.what());
+  }
+  return finding;
+}
+
+Finding temporary_finding() {
+  std::error_code error;
+  const fs::path directory = fs::temp_directory_path(error);
+  const bool ok = !error && ::access(directory.c_str(), W_OK | X_OK) == 0;
+  return {"machine",
+          "temporary directory",
+          ok,
+          true,
+          ok ? "can be written" : "cannot be written: verify compiles there",
+          ok ? "" : "set TMPDIR to a directory that can be written"};
+}
+
+std::vector<Finding> examine() {
+  std::vector<Finding> out;
+  add_libraries(out);
+  add_compilers(out);
+  for (const Exporter& target : all_exporters())
+    out.push_back(target_finding(target));
+  out.push_back({"machine", "threads", true, true,
+                 std::to_string(std::max(1u, std::thread::hardware_concurrency())), ""});
+  out.push_back(temporary_finding());
+  return out;
+}
+
+void print_text(const std::vector<Finding>& findings) {
+  std::size_t width = 0;
+  for (const Finding& finding : findings)
+    width = std::max(width, finding.name.size());
+  std::string topic;
+  for (const Finding& finding : findings) {
+    if (finding.topic != topic) fmt::print("{}{}\n", topic.empty() ? "" : "\n", finding.topic);
+    topic = finding.topic;
+    const char* mark = finding.ok ? "ok" : finding.needed ? "MISSING" : "absent";
+    fmt::print("  {:<7}  {:<{}}  {}\n", mark, finding.name, width, finding.text);
+    if (!finding.mend.empty())
+      fmt::print("  {:<7}  {:<{}}  mend: {}\n", "", "", width, finding.mend);
+  }
+}
+
+void print_json(const std::vector<Finding>& findings) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Finding& f : findings)
+    list.push_back({{"topic", f.topic},
+                    {"name", f.name},
+                    {"ok", f.ok},
+                    {"needed", f.needed},
+                    {"text", f.text},
+                    {"mend", f.mend}});
+  fmt::print("{}\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+int run(const CommonOptions& common) {
+  const std::vector<Finding> findings = examine();
+  common.json ? print_json(findings) : print_text(findings);
+  std::vector<std::string> missing;
+  for (const Finding& finding : findings)
+    if (!finding.ok && finding.needed) missing.push_back(finding.name + " (" + finding.mend + ")");
+  std::fflush(stdout);
+  if (!missing.empty()) throw std::runtime_error("missing: " + join(missing, ", "));
+  return 0;
+}
+
+std::function<int()> declare(CLI::App&, const CommonOptions& common) {
+  return [&common] { return run(common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"doctor", 90, "Say what this machine has for the job, and what is missing",
+                 declare};
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,180 @@
+// Explanations read from the registries and the job schema: nothing is written twice.
+#include "cli/explanation.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "codegen/exporter.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "effects/effect.h"
+#include "job/schema.h"
+#include "models/law.h"
+
+namespace frictab {
+
+namespace {
+
+using Item = Explanation::Item;
+
+std::vector<Item> parameter_items(const std::vector<Parameter>& parameters, bool fixed) {
+  std::vector<Item> items;
+  for (const Parameter& p : parameters) {
+    Item item{p.name, p.meaning, {{"unit", p.unit}}};
+    item.fields.push_back({fixed ? "value" : "start", shortest(p.start)});
+    if (!fixed) item.fields.push_back({"bounds", shortest(p.lower) + " .. " + shortest(p.upper)});
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+std::string how_calibrated(Calibrated how) {
+  switch (how) {
+  case Calibrated::fixed:
+    return "no: constants of the literature";
+  case Calibrated::mean:
+    return "means of mu_meas and m_meas over the training rows";
+  case Calibrated::fit:
+    return "by calibration.loss";
+  }
+  return "";
+}
+
+std::string remarks_of(const Law& law) {
+  std::vector<std::string> remarks;
+  if (law.log_value) remarks.push_back("tabulated as its logarithm");
+  for (const auto& [axis, places] : law.kinks) {
+    std::vector<std::string> at;
+    for (const double place : places)
+      at.push_back(shortest(place));
+    remarks.push_back(fmt::format("kink on {} at {}: gets a node", axis, join(at, ", ")));
+  }
+  remarks.push_back(
+      "limited to 0 <= tau_R <= k where the data have sigma_f_MPa (models.shear_limit; k by "
+      "models.shear_yield)");
+  return join(remarks, "; ");
+}
+
+Explanation about(const Law& law) {
+  const Conventions usual;
+  std::vector<std::string> free_inputs =
+      inputs(law, Conventions{"mises", usual.k_over_sigma_f, false});
+  Explanation out{law.name, "friction law", law.title, {}, "parameters", {}};
+  out.fields = {{"formula", law.formula},
+                {"inputs", join(free_inputs, ", ")},
+                {"calibrated", how_calibrated(law.calibrated)},
+                {"tabulated", law.quantity},
+                {"reference", law.reference},
+                {"remarks", remarks_of(law)}};
+  out.items = parameter_items(law.parameters, law.calibrated == Calibrated::fixed);
+  return out;
+}
+
+Explanation about(const EffectForm& effect) {
+  Explanation out{effect.name, "effect", effect.title, {}, "parameters", {}};
+  out.fields = {{"formula", effect.formula},
+                {"acts on", effect.categorical   ? "a text column: one factor per level"
+                            : effect.two_columns ? "two columns"
+                                                 : "one column"}};
+  out.items = parameter_items(effect.parameters, false);
+  return out;
+}
+
+Explanation about(const Exporter& target) {
+  return {target.name,  "target",
+          target.title, {{"signature", target.signature_source}, {"notes", target.notes}},
+          "",           {}};
+}
+
+Explanation about(const Quantity& quantity) {
+  Explanation out{quantity.name, "quantity", quantity.meaning, {}, "", {}};
+  out.fields = {{"symbol", quantity.symbol}, {"unit", quantity.unit}};
+  if (quantity.lowest > -std::numeric_limits<double>::infinity())
+    out.fields.push_back({"lowest", shortest(quantity.lowest)});
+  if (quantity.paper_range)
+    out.fields.push_back({"range of the paper", fmt::format("{} .. {}", quantity.paper_range->first,
+                                                            quantity.paper_range->second)});
+  if (quantity.state)
+    out.fields.push_back({"axis", quantity.log_axis ? "log by default" : "linear by default"});
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> key_fields(const KeyRule& rule) {
+  std::vector<std::pair<std::string, std::string>> fields{{"value", expected(rule)}};
+  const std::string normal = default_text(rule);
+  if (!normal.empty())
+    fields.push_back({"default", normal});
+  else
+    fields.push_back({"absent", rule.absent});
+  if (!rule.example.empty()) fields.push_back({"example", rule.example});
+  return fields;
+}
+
+Explanation about(const KeyRule& rule) {
+  return {rule.path, "job key", rule.meaning, key_fields(rule), "", {}};
+}
+
+bool is_below(const std::string& path, const std::string& section) {
+  return section.empty() || path.starts_with(section + ".");
+}
+
+Explanation about_section(const std::string& path, const std::string& title) {
+  Explanation out{path.empty() ? "job" : path, "job section", title, {}, "keys", {}};
+  for (const KeyRule& rule : key_rules())
+    if (is_below(rule.path, path)) out.items.push_back({rule.path, rule.meaning, key_fields(rule)});
+  return out;
+}
+
+// "table.axes.psi.nodes" is explained by "table.axes.*.nodes".
+std::string rule_path(const std::string& path) {
+  std::string out, rest = path;
+  while (!rest.empty()) {
+    const std::size_t dot = rest.find('.');
+    const std::string key = rest.substr(0, dot);
+    rest = dot == rest.npos ? "" : rest.substr(dot + 1);
+    const SectionRule* section = find_section(out);
+    bool by_name = false;
+    if (section && section->children)
+      for (const std::string& name : section->children())
+        by_name = by_name || name == key;
+    out += (out.empty() ? "" : ".") + (by_name ? std::string("*") : key);
+  }
+  return out;
+}
+
+} // namespace
+
+std::optional<Explanation> explain(const std::string& name) {
+  if (const Law* law = find_law(name)) return about(*law);
+  if (const EffectForm* effect = find_effect(name)) return about(*effect);
+  if (const Exporter* target = find_exporter(name)) return about(*target);
+  if (const Quantity* quantity = find_quantity(name)) return about(*quantity);
+  if (name == "job")
+    return about_section("", "the job file (TOML): every key, all optional but data.training; "
+                             "'*' stands for a canonical quantity");
+  const std::string path = rule_path(name);
+  if (const KeyRule* key = find_key(path)) return about(*key);
+  if (const SectionRule* section = find_section(path)) return about_section(path, section->meaning);
+  return std::nullopt;
+}
+
+std::vector<std::string> explainable() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  for (const EffectForm& effect : all_effects())
+    names.push_back(effect.name);
+  for (const Exporter& target : all_exporters())
+    names.push_back(target.name);
+  for (const Quantity& quantity : quantities())
+    names.push_back(quantity.name);
+  names.push_back("job");
+  for (const SectionRule& section : section_rules())
+    names.push_back(section.path);
+  for (const KeyRule& key : key_rules())
+    names.push_back(key.path);
+  return names;
+}
+
+} // namespace frictab

@@ -1,0 +1,31 @@
+// What `explain` says about a name, as plain values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace frictab {
+
+struct Explanation {
+  std::string name;
+  std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job section"
+  std::string title; // one line
+  std::vector<std::pair<std::string, std::string>> fields; // label, text; in order
+  struct Item {
+    std::string name;
+    std::string text;
+    std::vector<std::pair<std::string, std::string>> fields;
+  };
+  std::string items_label; // "parameters", "keys"
+  std::vector<Item> items;
+};
+
+// nullopt where nothing is called `name`.
+std::optional<Explanation> explain(const std::string& name);
+
+// Every name that explain() knows.
+std::vector<std::string> explainable();
+
+} // namespace frictab

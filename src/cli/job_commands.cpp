@@ -1,0 +1,86 @@
+// The commands that work on a job file: run, and each of its stages.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "run/pipeline.h"
+
+namespace frictab {
+
+namespace {
+
+Pipeline open_job(const std::string& file, const CommonOptions& common) {
+  Job job = read_job(file, common.set);
+  if (!common.output.empty()) job.directory = common.output;
+  if (common.seed) job.calibration.seed = *common.seed;
+  return Pipeline(std::move(job));
+}
+
+using Stages = void (*)(Pipeline&);
+
+// Declares "frictab NAME JOB": runs the stages, commits, prints the summary.
+std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages stages) {
+  const auto file = std::make_shared<std::string>();
+  app.add_option("JOB", *file, "Job file (TOML)")->required();
+  return [file, &common, stages] {
+    Pipeline pipeline = open_job(*file, common);
+    stages(pipeline);
+    pipeline.commit();
+    fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
+    return pipeline.verification() && !pipeline.verification()->passed() ? 1 : 0;
+  };
+}
+
+void all_stages(Pipeline& p) {
+  p.calibrate();
+  p.tabulate();
+  p.generate();
+  p.verify();
+  p.report();
+}
+
+Command stage(int order, const char* name, const char* title,
+              std::function<int()> (*declared)(CLI::App&, const CommonOptions&)) {
+  Command command;
+  command.name = name;
+  command.order = order;
+  command.title = title;
+  command.declare = declared;
+  return command;
+}
+
+const Registered<Command> run{[] {
+  return stage(
+      2, "run", "Everything: calibrate, tabulate, export, verify, report",
+      [](CLI::App& app, const CommonOptions& common) { return declare(app, common, all_stages); });
+}};
+const Registered<Command> calibrate{[] {
+  return stage(3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
+               [](CLI::App& app, const CommonOptions& common) {
+                 return declare(app, common, [](Pipeline& p) { p.calibrate(); });
+               });
+}};
+const Registered<Command> tabulate{[] {
+  return stage(4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
+               [](CLI::App& app, const CommonOptions& common) {
+                 return declare(app, common, [](Pipeline& p) { p.tabulate(); });
+               });
+}};
+const Registered<Command> generate{[] {
+  return stage(5, "export", "Generate the friction subroutines from the tables",
+               [](CLI::App& app, const CommonOptions& common) {
+                 return declare(app, common, [](Pipeline& p) { p.generate(); });
+               });
+}};
+const Registered<Command> report{[] {
+  return stage(7, "report", "Write report.html from the results so far",
+               [](CLI::App& app, const CommonOptions& common) {
+                 return declare(app, common, [](Pipeline& p) { p.report(); });
+               });
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,72 @@
+// frictab list models|effects|targets: what there is, one line each.
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "codegen/exporter.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "effects/effect.h"
+#include "models/law.h"
+
+namespace frictab {
+
+namespace {
+
+struct Line {
+  std::string name;
+  std::string title;
+};
+
+template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
+  std::vector<Line> lines;
+  for (const T& item : items)
+    lines.push_back({item.name, item.title});
+  return lines;
+}
+
+std::vector<Line> lines_of(const std::string& what) {
+  if (what == "models") return lines_of(all_laws());
+  if (what == "effects") return lines_of(all_effects());
+  if (what == "targets") return lines_of(all_exporters());
+  const std::vector<std::string> known{"models", "effects", "targets"};
+  throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, known));
+}
+
+void print_json(const std::vector<Line>& lines) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Line& line : lines)
+    list.push_back({{"name", line.name}, {"title", line.title}});
+  fmt::print("{}\n", list.dump(2));
+}
+
+int run(const std::string& what, const CommonOptions& common) {
+  const std::vector<Line> lines = lines_of(what);
+  if (common.json) {
+    print_json(lines);
+    return 0;
+  }
+  std::size_t width = 0;
+  for (const Line& line : lines)
+    width = std::max(width, line.name.size());
+  for (const Line& line : lines)
+    fmt::print("{:<{}}  {}\n", line.name, width, line.title);
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  auto what = std::make_shared<std::string>();
+  app.add_option("WHAT", *what, "models, effects or targets")->required();
+  return [what, &common] { return run(*what, common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"list", 80, "List friction laws, effects or targets", declare};
+}};
+
+} // namespace
+
+} // namespace frictab

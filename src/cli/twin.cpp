@@ -1,0 +1,130 @@
+// frictab twin OUT: writes a synthetic sliding-compression campaign.
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "data/twin_summary.h"
+#include "data/write_dataset.h"
+#include "io/atomic_file.h"
+
+namespace frictab {
+namespace {
+
+struct Options {
+  std::string directory;
+  std::string format = "csv";
+  std::string design;
+  std::vector<std::string> effects;
+  TwinOptions twin;
+  bool oracle = false;
+  bool no_bystanders = false;
+};
+
+// Rows of oracle stress, keyed by experiment and row (from 1).
+Dataset oracle_data(const Twin& twin, const TwinPart& part) {
+  Dataset data;
+  data.experiments = part.data.experiments;
+  data.first_row = part.data.first_row;
+  Column row{"row", "", std::vector<double>(part.data.rows()), {}};
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      row.values[i] = static_cast<double>(i - data.first_row[e] + 1);
+  data.columns = {
+      std::move(row),
+      {"tau_oracle_MPa", "MPa", part.oracle_MPa, {}},
+      {"origin", "", std::vector<double>(part.data.rows(), 0.0), {twin_origin(twin.options)}}};
+  return data;
+}
+
+void write_part(const Options& options, const Twin& twin, const TwinPart& part,
+                const std::string& name, OutputFiles& files) {
+  if (part.data.rows() == 0) return;
+  const auto write = [&](const Dataset& data, const std::string& stem) {
+    if (options.format == "csv")
+      files.write(stem + ".csv", csv_text(data));
+    else
+      write_hdf5_columns(data, files.stage(stem + ".h5"));
+  };
+  write(part.data, name);
+  if (options.oracle) write(oracle_data(twin, part), name + "_oracle");
+}
+
+void read_options(Options& options, const CommonOptions& common) {
+  if (options.directory.empty()) options.directory = common.output;
+  if (options.directory.empty())
+    throw InputError({"twin"}, "no output directory is given", "frictab twin OUT");
+  options.twin.seed = common.seed.value_or(1);
+  options.twin.bystanders = !options.no_bystanders;
+  if (!options.design.empty())
+    options.twin.design = parse_design(options.design, default_design(twin_set(options.twin.set)));
+  FaultList faults;
+  options.twin.effects.clear();
+  for (const std::string& text : options.effects) {
+    try {
+      options.twin.effects.push_back(parse_effect(text));
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        faults.add(fault.place, fault.what, fault.hint);
+    }
+  }
+  faults.throw_if_any();
+}
+
+int run(Options& options, const CommonOptions& common) {
+  read_options(options, common);
+  const Twin twin = make_twin(options.twin);
+  const TwinSummary summary = summarise(twin);
+  const std::string json = twin_json(twin, summary);
+
+  OutputFiles files(options.directory);
+  write_part(options, twin, twin.training, "training", files);
+  write_part(options, twin, twin.validation, "validation", files);
+  files.write("twin.json", json);
+  files.write("job.toml", twin_job(twin, options.format == "csv" ? "csv" : "h5"));
+  if (!common.force && files.would_change())
+    throw InputError({options.directory}, "holds other files of the same names",
+                     "choose another directory, or overwrite them with --force");
+  files.commit();
+
+  const std::string text = common.json ? json : twin_text(twin, summary, options.directory);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  auto options = std::make_shared<Options>();
+  app.add_option("OUT", options->directory, "directory to write to (or -o DIR)");
+  app.add_option("--set-name", options->twin.set, "parameter set: D, W or B")
+      ->capture_default_str();
+  app.add_option("--format", options->format, "csv or hdf5")
+      ->check(CLI::IsMember({"csv", "hdf5"}))
+      ->capture_default_str();
+  app.add_option("--design", options->design,
+                 "levels and sizes: \"p=1725,1865,2005;psi=1,4.47,20;v=5,50,500;T=20,110,200;"
+                 "replicates=1;points=550;validation=30\", any subset");
+  app.add_option("--effect", options->effects,
+                 "plant an effect (repeatable): form=saturation,column=s_mm,strength=0.15,on=mu; "
+                 "on = mu, m or tau; column may be a derived quantity or latent")
+      ->allow_extra_args(false);
+  app.add_option("--noise-scale", options->twin.noise_scale, "0 (none) to 5, 1 = the set's")
+      ->capture_default_str();
+  app.add_option("--noise", options->twin.noise, "normal, t4 or heteroscedastic")
+      ->capture_default_str();
+  app.add_option("--hide", options->twin.hide, "leave a column out of the files (repeatable)")
+      ->allow_extra_args(false);
+  app.add_flag("--no-bystanders", options->no_bystanders, "write canonical columns only");
+  app.add_flag("--oracle", options->oracle, "write the noise-free stress to *_oracle files too");
+  return [options, &common] { return run(*options, common); };
+}
+
+Command make() {
+  return {"twin", 20, "write a synthetic tribometer campaign with a known truth", declare};
+}
+
+const Registered<Command> registered{make};
+
+} // namespace
+} // namespace frictab

@@ -1,0 +1,108 @@
+// frictab verify: a job's tables and sources, or one table alone for CI pipelines.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "calibrate/calibration_file.h"
+#include "cli/command.h"
+#include "core/error.h"
+#include "data/load.h"
+#include "run/pipeline.h"
+#include "table/table_file.h"
+#include "verify/verify.h"
+
+namespace frictab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string job;
+  std::string table;
+  std::string model;
+  std::string data;
+  std::string junit;
+  std::optional<double> max_drift_MPa;
+};
+
+// Data for the rows alone: canonical column names, or the mapping of a job file.
+Dataset load_rows(const Options& options, const CommonOptions& common) {
+  DataOptions mapping;
+  if (!options.job.empty()) mapping = read_job(options.job, common.set).data;
+  mapping.base = ""; // the file is relative to where the command runs
+  return load_dataset({options.data}, mapping);
+}
+
+void write_junit(const Options& options, const Verification& verification) {
+  if (options.junit.empty()) return;
+  const fs::path file(options.junit);
+  OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  out.write(file.filename().string(), verification_junit(verification));
+  out.commit();
+}
+
+int verify_alone(const Options& options, const CommonOptions& common) {
+  const Table table = read_table(options.table);
+  const Model model = parse_model(read_file(options.model), options.model);
+  std::optional<Dataset> rows;
+  if (!options.data.empty()) rows = load_rows(options, common);
+  const double allowed = options.max_drift_MPa.value_or(
+      table.number_attributes.count("tolerance_MPa") ? table.number_attributes.at("tolerance_MPa")
+                                                     : 0.5);
+  Verification verification{allowed, {}};
+  verification.records =
+      verify({model, table, options.table, rows ? &*rows : nullptr, allowed}, {});
+  write_junit(options, verification);
+  if (common.json)
+    fmt::print("{}", verification_json(verification));
+  else
+    fmt::print("{}", drift_text(verification));
+  return verification.passed() ? 0 : 1;
+}
+
+int verify_job(const Options& options, const CommonOptions& common) {
+  Job job = read_job(options.job, common.set);
+  if (!common.output.empty()) job.directory = common.output;
+  if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
+  Pipeline pipeline(std::move(job));
+  pipeline.verify();
+  pipeline.commit();
+  write_junit(options, *pipeline.verification());
+  fmt::print("{}", common.json ? summary_json(pipeline) : drift_text(*pipeline.verification()));
+  return pipeline.verification()->passed() ? 0 : 1;
+}
+
+const Registered<Command> registered{[] {
+  Command command;
+  command.name = "verify";
+  command.order = 6;
+  command.title = "Prove how far tables and sources are from the law";
+  command.declare = [](CLI::App& app, const CommonOptions& common) -> std::function<int()> {
+    const auto options = std::make_shared<Options>();
+    app.add_option("JOB", options->job, "Job file; its tables and sources are verified");
+    app.add_option("--table", options->table, "A table file, without a job")->type_name("FILE");
+    app.add_option("--model", options->model, "The model file it was made from")->type_name("FILE");
+    app.add_option("--data", options->data, "Rows to compare on (CSV or HDF5)")->type_name("FILE");
+    app.add_option("--max-drift-MPa", options->max_drift_MPa, "Largest drift allowed")
+        ->type_name("X")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
+    return [options, &common]() -> int {
+      const bool alone = !options->table.empty() || !options->model.empty();
+      if (alone && (options->table.empty() || options->model.empty()))
+        throw InputError({}, "--table and --model belong together",
+                         "give both: --table tables/NAME.h5 --model models/NAME.json");
+      if (!alone && options->job.empty())
+        throw InputError({}, "nothing to verify",
+                         "give a JOB file, or --table FILE --model FILE [--data FILE]");
+      return alone ? verify_alone(*options, common) : verify_job(*options, common);
+    };
+  };
+  return command;
+}};
+
+} // namespace
+
+} // namespace frictab

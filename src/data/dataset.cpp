@@ -1,0 +1,92 @@
+// Access to, and cutting of, a campaign; an experiment is never split.
+#include "data/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+
+namespace frictab {
+
+const Column* Dataset::find(std::string_view name) const {
+  for (const Column& column : columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+std::span<const double> Dataset::values(std::string_view name) const {
+  const Column* column = find(name);
+  if (!column) throw std::logic_error("no column " + std::string(name));
+  return column->values;
+}
+
+Dataset Dataset::subset(std::span<const std::size_t> keep) const {
+  Dataset part;
+  part.sources = sources;
+  part.dropped = dropped;
+  part.notes = notes;
+  for (const Column& column : columns)
+    part.columns.push_back({column.name, column.unit, {}, column.levels});
+  for (const std::size_t e : keep) {
+    part.experiments.push_back(experiments[e]);
+    const auto first = static_cast<long>(first_row[e]), end = static_cast<long>(first_row[e + 1]);
+    part.first_row.push_back(part.first_row.back() + first_row[e + 1] - first_row[e]);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto& from = columns[c].values;
+      part.columns[c].values.insert(part.columns[c].values.end(), from.begin() + first,
+                                    from.begin() + end);
+    }
+  }
+  fingerprint(part);
+  return part;
+}
+
+void fingerprint(Dataset& data) {
+  XXH64_hash_t hash = 0;
+  const auto add = [&](const void* bytes, std::size_t size) { hash = XXH64(bytes, size, hash); };
+  const auto add_text = [&](const std::string& text) { add(text.c_str(), text.size() + 1); };
+  for (const Column& column : data.columns) {
+    add_text(column.name);
+    add(column.values.data(), column.values.size() * sizeof(double));
+    for (const std::string& level : column.levels)
+      add_text(level);
+  }
+  for (const std::string& name : data.experiments)
+    add_text(name);
+  for (const std::size_t row : data.first_row)
+    add(&row, sizeof row);
+  data.hash = hash;
+}
+
+Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
+  const std::size_t count = data.experiments.size();
+  if (count < 2)
+    throw InputError({join(data.sources, ", "), 0, 0},
+                     "there is only one experiment: none can be held out to validate",
+                     "give data.validation, or an experiment column that tells the tests apart");
+  const auto wanted = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
+  const std::size_t held = std::clamp<std::size_t>(wanted, 1, count - 1);
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 0; i < count; ++i)
+    order[i] = i;
+  Random random(seed, 0x686f6c646f7574);
+  random.shuffle(std::span<std::size_t>(order));
+  const auto middle = order.begin() + static_cast<long>(held);
+  std::sort(order.begin(), middle);
+  std::sort(middle, order.end());
+  Split split{data.subset({middle, order.end()}), data.subset({order.begin(), middle})};
+  // What was left out at reading is told once, with the training part.
+  split.validation.dropped.clear();
+  split.training.notes.push_back(std::to_string(held) + " of " + std::to_string(count) +
+                                 " experiments held out to validate, drawn by seed " +
+                                 std::to_string(seed));
+  return split;
+}
+
+} // namespace frictab

@@ -1,0 +1,147 @@
+// Histories along an experiment: integrals, running peaks and means, times.
+#include "data/derived.h"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+namespace frictab {
+
+namespace {
+
+using Rows = std::span<const double>;
+using Out = std::span<double>;
+
+// Cumulative integral of y over x, trapezoidal.
+void integrate(Rows y, Rows x, Out out) {
+  out[0] = 0;
+  for (std::size_t i = 1; i < out.size(); ++i)
+    out[i] = out[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
+}
+
+void running_peak(Rows y, Out out) {
+  out[0] = y[0];
+  for (std::size_t i = 1; i < out.size(); ++i)
+    out[i] = std::max(out[i - 1], y[i]);
+}
+
+void running_mean(Rows y, Out out) {
+  double sum = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    sum += y[i];
+    out[i] = sum / static_cast<double>(i + 1);
+  }
+}
+
+void copy(Rows y, Out out) {
+  std::copy(y.begin(), y.end(), out.begin());
+}
+
+void since_start(Rows t, Out out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = t[i] - t[0];
+}
+
+// Time so far spent at no less than half of the peak stress so far.
+void dwell(Rows sigma, Rows t, Out out) {
+  double peak = sigma[0];
+  out[0] = 0;
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    peak = std::max(peak, sigma[i]);
+    out[i] = out[i - 1] + (sigma[i] >= 0.5 * peak ? t[i] - t[i - 1] : 0.0);
+  }
+}
+
+void power(Rows tau, Rows v, Out out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = tau[i] * v[i];
+}
+
+// Inputs come in the order of `needs`.
+struct Rule {
+  DerivedQuantity quantity;
+  std::function<void(const std::vector<Rows>&, Out)> along;
+};
+
+Rule one(std::string name, std::string unit, std::string meaning, std::string column,
+         void (*rule)(Rows, Out)) {
+  return {{std::move(name), std::move(unit), std::move(meaning), {std::move(column)}},
+          [rule](const std::vector<Rows>& in, Out out) { rule(in[0], out); }};
+}
+
+Rule two(std::string name, std::string unit, std::string meaning, std::string first,
+         std::string second, void (*rule)(Rows, Rows, Out)) {
+  return {
+      {std::move(name), std::move(unit), std::move(meaning), {std::move(first), std::move(second)}},
+      [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], out); }};
+}
+
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> all = {
+      one("sliding_distance", "mm", "sliding distance so far", "s_mm", since_start),
+      two("friction_work", "MPa mm", "friction work per area so far, integral of tau ds", "tau",
+          "s_mm", integrate),
+      two("energy", "MPa mm", "load times sliding distance so far, integral of sigma_N ds",
+          "sigma_n_MPa", "s_mm", integrate),
+      two("friction_power", "MPa mm/s", "friction power per area, tau v", "tau", "v_rel_mm_s",
+          power),
+      one("time_since_start", "s", "time since the experiment's first row", "time_s", since_start),
+      two("dwell", "s", "time so far at no less than half the peak stress", "sigma_n_MPa", "time_s",
+          dwell),
+      one("peak_sigma_n", "MPa", "highest contact normal stress so far", "sigma_n_MPa",
+          running_peak),
+      one("mean_sigma_n", "MPa", "mean contact normal stress so far", "sigma_n_MPa", running_mean),
+      one("peak_v_rel", "mm/s", "highest sliding speed so far", "v_rel_mm_s", running_peak),
+      one("mean_v_rel", "mm/s", "mean sliding speed so far", "v_rel_mm_s", running_mean),
+      one("peak_T_contact", "degC", "highest contact temperature so far", "T_contact_C",
+          running_peak),
+      one("mean_T_contact", "degC", "mean contact temperature so far", "T_contact_C", running_mean),
+      one("test_order", "1", "place of the experiment in the order of tests", "run_order", copy),
+  };
+  return all;
+}
+
+} // namespace
+
+std::span<const DerivedQuantity> derived_quantities() {
+  static const std::vector<DerivedQuantity> all = [] {
+    std::vector<DerivedQuantity> quantities;
+    for (const Rule& rule : rules())
+      quantities.push_back(rule.quantity);
+    return quantities;
+  }();
+  return all;
+}
+
+const DerivedQuantity* find_derived(std::string_view name) {
+  for (const DerivedQuantity& quantity : derived_quantities())
+    if (quantity.name == name) return &quantity;
+  return nullptr;
+}
+
+std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
+                           std::span<const double> tau) {
+  std::vector<Rows> inputs;
+  for (const std::string& need : quantity.needs) {
+    const auto column = std::find_if(data.columns.begin(), data.columns.end(),
+                                     [&](const Column& c) { return c.name == need; });
+    if (need != "tau" && column == data.columns.end())
+      throw std::logic_error(quantity.name + " needs column " + need);
+    inputs.push_back(need == "tau" ? tau : Rows(column->values));
+  }
+  const auto& all = rules();
+  const auto rule = std::find_if(all.begin(), all.end(),
+                                 [&](const Rule& r) { return r.quantity.name == quantity.name; });
+  std::vector<double> out(data.rows());
+  for (std::size_t e = 0; e + 1 < data.first_row.size(); ++e) {
+    const std::size_t first = data.first_row[e];
+    const std::size_t count = data.first_row[e + 1] - first;
+    std::vector<Rows> part;
+    for (const Rows& input : inputs)
+      part.push_back(input.subspan(first, count));
+    rule->along(part, Out(out).subspan(first, count));
+  }
+  return out;
+}
+
+} // namespace frictab

@@ -1,0 +1,67 @@
+// Reads a data file of either format into named columns.
+#include "data/raw.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "io/hdf5.h"
+
+namespace frictab {
+
+namespace {
+
+// Every 1-D dataset of the root group is a column; other shapes are no data columns.
+CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList& faults) {
+  const Hdf5Reader in(path, named);
+  CsvTable table;
+  table.file = named;
+  std::string first;
+  std::size_t rows = 0;
+  for (const std::string& name : in.datasets()) {
+    const auto shape = in.shape(name);
+    if (shape.size() != 1) continue;
+    if (first.empty()) {
+      first = name;
+      rows = shape[0];
+    }
+    if (shape[0] != rows) {
+      faults.add({named, 0, 0},
+                 fmt::format("column '{}' has {} rows, '{}' has {}", name, shape[0], first, rows));
+      continue;
+    }
+    CsvColumn column{name, in.text_attribute(name, "units").value_or(""), {}, {}};
+    if (in.is_text(name)) {
+      column.numbers.assign(rows, std::numeric_limits<double>::quiet_NaN());
+      std::size_t row = 0;
+      for (std::string& text : in.texts(name))
+        column.texts.push_back({row++, std::move(text)});
+    } else
+      column.numbers = in.values(name);
+    table.columns.push_back(std::move(column));
+  }
+  if (rows == 0)
+    throw InputError({named, 0, 0}, "holds no data columns",
+                     "a data file has one 1-D dataset per column");
+  for (std::size_t i = 0; i < rows; ++i)
+    table.line.push_back(i + 1);
+  return table;
+}
+
+} // namespace
+
+Place row_place(const CsvTable& table, std::size_t row) {
+  return {table.file, table.header_line > 0 ? table.line[row] : 0, 0};
+}
+
+CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
+                  FaultList& faults) {
+  if (looks_like_hdf5(path)) return read_hdf5(path, named, faults);
+  const CsvFormat format{options.delimiter, options.decimal, options.skip_rows, options.skip_footer,
+                         options.units_row};
+  return parse_csv(read_file(path), named, format, faults);
+}
+
+} // namespace frictab

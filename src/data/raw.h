@@ -1,0 +1,18 @@
+// A file's columns before they have canonical names: the common ground of CSV and HDF5.
+#pragma once
+
+#include "core/error.h"
+#include "io/csv.h"
+#include "job/job.h"
+
+namespace frictab {
+
+// Where a row of a raw table stands, for messages: file:line, or file with the row number in
+// `what`.
+Place row_place(const CsvTable& table, std::size_t row);
+
+// CSV, or HDF5 where the file starts like it (then `line` counts rows from 1 and header_line is 0).
+CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
+                  FaultList& faults);
+
+} // namespace frictab

@@ -1,0 +1,87 @@
+// Makes a synthetic campaign: plan, states, effects, noise.
+#include "data/twin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/twin_draft.h"
+#include "data/twin_effect.h"
+
+namespace frictab {
+
+namespace {
+
+void check_options(const TwinOptions& options) {
+  FaultList faults;
+  if (!(options.noise_scale >= 0 && options.noise_scale <= 5))
+    faults.add({"--noise-scale"}, shortest(options.noise_scale) + " is outside 0 to 5",
+               "1 is the noise of the parameter set, 0 is none");
+  static const std::vector<std::string> kinds = {"normal", "t4", "heteroscedastic"};
+  if (std::find(kinds.begin(), kinds.end(), options.noise) == kinds.end())
+    faults.add({"--noise"}, "unknown noise '" + options.noise + "'", suggest(options.noise, kinds));
+  faults.throw_if_any();
+}
+
+// What a law needs to be calibrated stays; everything else may be hidden.
+void hide_columns(const TwinOptions& options, Dataset& data) {
+  FaultList faults;
+  std::vector<std::string> hidden = options.hide;
+  if (!options.bystanders)
+    hidden.insert(hidden.end(), {"run_order", "humidity_pct", "film_um", "Ra_um", "tool"});
+  std::vector<std::string> known;
+  for (const Column& column : data.columns)
+    if (column.name != "tau_R_MPa" && column.name != "origin") known.push_back(column.name);
+  for (const std::string& name : hidden) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      faults.add({"--hide"}, "no column '" + name + "' to hide", suggest(name, known));
+    std::erase_if(data.columns, [&](const Column& column) { return column.name == name; });
+  }
+  faults.throw_if_any();
+}
+
+TwinPart finish(const TwinOptions& options, TwinDraft draft, std::size_t tests,
+                const std::vector<PlantedEffect>& effects, double tau_scale) {
+  TwinPart part;
+  part.base_MPa = truth_with(options, draft, tests, {}, tau_scale);
+  part.oracle_MPa =
+      effects.empty() ? part.base_MPa : truth_with(options, draft, tests, effects, tau_scale);
+  std::vector<double>& tau = find_column(draft.data, "tau_R_MPa")->values;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    tau[i] = round_to(part.oracle_MPa[i] * draft.noise[i], 3);
+  part.data = std::move(draft.data);
+  part.data.columns.push_back(
+      {"origin", "", std::vector<double>(tau.size(), 0.0), {twin_origin(options)}});
+  hide_columns(options, part.data);
+  return part;
+}
+
+} // namespace
+
+std::string twin_origin(const TwinOptions& options) {
+  return fmt::format("synthetic (frictab twin, set {}, seed {})", options.set, options.seed);
+}
+
+Twin make_twin(TwinOptions options) {
+  check_options(options);
+  Twin twin;
+  twin.set = twin_set(options.set);
+  if (!options.design) options.design = default_design(twin.set);
+
+  const TwinPlan plan = make_plan(*options.design, options.seed);
+  const std::size_t tests = plan.training.size() + plan.validation.size();
+  TwinDraft training = draft_part(options, twin.set, plan, 0);
+  TwinDraft validation = draft_part(options, twin.set, plan, 1);
+
+  twin.effects = plant_effects(options, training, validation);
+  const double tau_scale = mean_of(truth_with(options, training, tests, {}, 1.0));
+  twin.training = finish(options, std::move(training), tests, twin.effects, tau_scale);
+  twin.validation = finish(options, std::move(validation), tests, twin.effects, tau_scale);
+  twin.options = std::move(options);
+  return twin;
+}
+
+} // namespace frictab

@@ -1,0 +1,76 @@
+// The synthetic tribometer: a sliding-compression campaign with known physics, noise and planted
+// effects, so that everything downstream can be checked against the truth. Nothing here is
+// measured; every file says "synthetic".
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/dataset.h"
+#include "data/twin_design.h"
+#include "data/twin_physics.h"
+#include "effects/effect.h"
+
+namespace frictab {
+
+// An effect as asked for: "form=saturation,column=s_mm,strength=0.15,on=mu".
+struct EffectSpec {
+  std::string form;      // of the effect registry
+  std::string column;    // recorded column, derived quantity, or "latent"
+  std::string column2;   // for forms of two columns
+  std::string on = "mu"; // mu: before saturation | m: the limit | tau: added, in units of the
+                         // mean noise-free tau
+  std::string latent = "random";   // random | groups | batch | drift | order
+  std::optional<double> strength;  // training MAE of the recalibrated law without the effect over
+                                   // the noise floor, minus 1
+  std::optional<double> amplitude; // or the form's amplitude itself
+  int sign = 0;                    // of the amplitude; 0: positive where that is enough
+  std::map<std::string, double> shapes; // shape parameters by name, in units of the column
+};
+
+// Throws InputError with every fault; names the nearest form, key or parameter.
+EffectSpec parse_effect(std::string_view text);
+
+struct PlantedEffect {
+  EffectSpec spec;
+  const EffectForm* form = nullptr;
+  std::vector<double> parameters; // in the form's order
+  double strength = 0;            // reached, with this effect alone
+};
+
+struct TwinOptions {
+  std::string set = "D";
+  std::uint64_t seed = 1;
+  std::optional<TwinDesign> design; // absent: default_design
+  double noise_scale = 1;           // 0..5, on every source of noise
+  std::string noise = "normal";     // normal | t4 (heavy tails) | heteroscedastic (grows with v)
+  std::vector<EffectSpec> effects;
+  bool bystanders = true;
+  std::vector<std::string> hide; // columns left out of the files; an effect may still act by them
+};
+
+struct TwinPart {
+  Dataset data;
+  std::vector<double> oracle_MPa; // noise-free tau per row, effects included, hidden factor not
+  std::vector<double> base_MPa;   // the same without the effects
+};
+
+struct Twin {
+  TwinOptions options; // with the design filled in
+  TwinParameters set;
+  TwinPart training;
+  TwinPart validation;
+  std::vector<PlantedEffect> effects;
+};
+
+// Same options, same bits, on any number of threads. Throws InputError for what the user can mend.
+Twin make_twin(TwinOptions options);
+
+// "synthetic (frictab twin, set D, seed 1)": the value of column `origin`.
+std::string twin_origin(const TwinOptions& options);
+
+} // namespace frictab

@@ -1,0 +1,30 @@
+// One part of the campaign before effects are planted and noise is applied.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/twin.h"
+
+namespace frictab {
+
+struct TwinDraft {
+  Dataset data;              // tau_R_MPa still 0
+  std::vector<double> tau0;  // MPa, before the limit
+  std::vector<double> limit; // MPa
+  std::vector<double> noise; // measured = truth * noise
+  std::span<const TwinExperiment> plan;
+  unsigned part = 0;
+};
+
+// Canonical columns, bystanders and noise of all experiments of one part (0 training, 1
+// validation).
+TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, const TwinPlan& plan,
+                     unsigned part);
+
+// The column with this name, or nullptr.
+const Column* find_column(const Dataset& data, std::string_view name);
+Column* find_column(Dataset& data, std::string_view name);
+
+} // namespace frictab

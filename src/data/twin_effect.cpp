@@ -1,0 +1,272 @@
+// Effects of the synthetic campaign: from spec to factors per row, amplitude by bisection.
+#include "data/twin_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/twin_quantity.h"
+#include "expr/program.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr double least_factor = 0.02;   // on mu and m: friction stays friction
+constexpr double least_tau_MPa = 0.01;  // with additive effects
+constexpr double most_amplitude = 1000; // beyond it a larger amplitude changes nothing that matters
+
+// --- factors ------------------------------------------------------------------------------------
+
+struct Resolved {
+  std::vector<double> x;  // training rows
+  std::vector<double> x2; // empty where the form has one column
+};
+
+Resolved resolve(const TwinOptions& options, std::size_t effect, std::size_t tests,
+                 const TwinDraft& draft) {
+  const EffectSpec& spec = options.effects[effect];
+  Resolved rows{quantity_rows(options, effect, spec.column, tests, draft), {}};
+  if (!spec.column2.empty()) rows.x2 = quantity_rows(options, effect, spec.column2, tests, draft);
+  return rows;
+}
+
+std::vector<double> factors(const PlantedEffect& effect, const Resolved& rows,
+                            const std::vector<double>& parameters, std::size_t levels) {
+  std::vector<double> factor(rows.x.size());
+  if (effect.form->categorical) {
+    const double last = static_cast<double>(levels > 1 ? levels - 1 : 1);
+    std::transform(rows.x.begin(), rows.x.end(), factor.begin(),
+                   [&](double level) { return 1.0 + parameters[0] * (level / last); });
+    return factor;
+  }
+  std::vector<std::string> names;
+  for (const Parameter& parameter : effect.form->parameters)
+    names.push_back(parameter.name);
+  std::vector<std::string> inputs{"x"};
+  std::vector<const double*> columns{rows.x.data()};
+  if (effect.form->two_columns) {
+    inputs.push_back("x2");
+    columns.push_back(rows.x2.data());
+  }
+  Program(effect.form->factor(), inputs, names)
+      .evaluate(factor.size(), columns, parameters, factor.data());
+  return factor;
+}
+
+std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
+  const Column* column = find_column(draft.data, effect.spec.column);
+  return column == nullptr ? 2 : column->levels.size();
+}
+
+struct Pieces {
+  std::vector<double> tau0, limit, shift;
+};
+
+void apply(const PlantedEffect& effect, const std::vector<double>& factor, double tau_scale,
+           Pieces& pieces) {
+  for (std::size_t i = 0; i < factor.size(); ++i) {
+    if (effect.spec.on == "mu") pieces.tau0[i] *= factor[i];
+    if (effect.spec.on == "m") pieces.limit[i] *= factor[i];
+    if (effect.spec.on == "tau") pieces.shift[i] += tau_scale * (factor[i] - 1.0);
+  }
+}
+
+std::vector<double> tau_of(const Pieces& pieces) {
+  std::vector<double> tau(pieces.tau0.size());
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    tau[i] = twin_tau(pieces.tau0[i], pieces.limit[i]) + pieces.shift[i];
+  return tau;
+}
+
+Pieces pieces_of(const TwinDraft& draft) {
+  return {draft.tau0, draft.limit, std::vector<double>(draft.tau0.size(), 0.0)};
+}
+
+// --- strength -----------------------------------------------------------------------------------
+
+// MAE of law * c against the measurement, c by least squares: what recalibration leaves.
+double recalibrated_mae(const std::vector<double>& law, const std::vector<double>& measured) {
+  const double c = std::inner_product(law.begin(), law.end(), measured.begin(), 0.0) /
+                   std::inner_product(law.begin(), law.end(), law.begin(), 0.0);
+  double sum = 0;
+  for (std::size_t i = 0; i < law.size(); ++i)
+    sum += std::abs(measured[i] - c * law[i]);
+  return sum / static_cast<double>(law.size());
+}
+
+// One part of the campaign with one effect of varying amplitude.
+class Trial {
+public:
+  Trial(const TwinDraft& draft, PlantedEffect& effect, Resolved rows, double tau_scale)
+      : draft_(draft), effect_(effect), rows_(std::move(rows)), scale_(tau_scale),
+        levels_(level_count(effect, draft)) {}
+
+  // Noise-free tau; empty where the amplitude would turn mu, the limit or tau negative, or nearly.
+  std::vector<double> truth(double amplitude) const {
+    std::vector<double> parameters = effect_.parameters;
+    parameters[0] = amplitude;
+    const auto factor = factors(effect_, rows_, parameters, levels_);
+    const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
+    if (effect_.spec.on != "tau" && std::any_of(factor.begin(), factor.end(), below(least_factor)))
+      return {};
+    Pieces pieces = pieces_of(draft_);
+    apply(effect_, factor, scale_, pieces);
+    auto tau = tau_of(pieces);
+    if (std::any_of(tau.begin(), tau.end(), below(least_tau_MPa))) return {};
+    return tau;
+  }
+
+private:
+  const TwinDraft& draft_;
+  const PlantedEffect& effect_;
+  Resolved rows_;
+  double scale_;
+  std::size_t levels_;
+};
+
+// Share by which the law without the effect errs more than the law with it on the training part;
+// NaN where either part forbids the amplitude.
+class Strength {
+public:
+  Strength(const TwinDraft& training, const Trial& on_training, const Trial& on_validation,
+           bool has_validation)
+      : training_(training), base_(base_tau(training)), on_training_(on_training),
+        on_validation_(on_validation), has_validation_(has_validation) {}
+
+  double operator()(double amplitude) const {
+    const auto truth = on_training_.truth(amplitude);
+    if (truth.empty() || (has_validation_ && on_validation_.truth(amplitude).empty()))
+      return std::nan("");
+    std::vector<double> measured(truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      measured[i] = truth[i] * training_.noise[i];
+    return recalibrated_mae(base_, measured) / recalibrated_mae(truth, measured) - 1;
+  }
+
+private:
+  const TwinDraft& training_;
+  std::vector<double> base_;
+  const Trial& on_training_;
+  const Trial& on_validation_;
+  bool has_validation_;
+};
+
+// Amplitude of the given sign that reaches the strength, or NaN; `largest` = strongest that keeps
+// friction positive. Doubling finds the bracket; its upper end reaches the target or is forbidden.
+double solve(const Strength& strength, double target, double sign, double& largest) {
+  const auto enough = [&](double amplitude) {
+    const double reached = strength(sign * amplitude);
+    if (!std::isnan(reached)) largest = std::max(largest, reached);
+    return std::isnan(reached) || reached >= target;
+  };
+  double low = 0;
+  double high = 1e-3;
+  while (!enough(high) && high < most_amplitude) {
+    low = high;
+    high *= 2;
+  }
+  while (high - low > 1e-9 * high) {
+    const double middle = 0.5 * (low + high);
+    (enough(middle) ? high : low) = middle;
+  }
+  const double reached = strength(sign * high);
+  return reached >= target ? sign * high : std::nan("");
+}
+
+double solved_amplitude(const EffectSpec& spec, double noise_scale, const Strength& strength) {
+  const double target = *spec.strength;
+  if (target == 0) return 0;
+  if (noise_scale == 0)
+    throw InputError({"--effect"}, "strength is relative to the noise, and there is none",
+                     "give amplitude=... with --noise-scale 0");
+  double largest = 0;
+  for (const int sign : {1, -1}) {
+    if (spec.sign == -sign) continue;
+    const double amplitude = solve(strength, target, sign, largest);
+    if (!std::isnan(amplitude)) return amplitude;
+  }
+  throw InputError({"--effect"},
+                   fmt::format("form '{}' of '{}' on {} cannot reach strength {}", spec.form,
+                               spec.column, spec.on, shortest(target)),
+                   fmt::format("the strongest that keeps friction positive is {:.3g}; other shape "
+                               "parameters or another sign may reach more",
+                               largest));
+}
+
+void set_shapes(const EffectSpec& spec, const Resolved& rows, PlantedEffect& effect) {
+  effect.parameters = start_values(*effect.form, spread_of(rows.x), spread_of(rows.x2));
+  for (std::size_t i = 1; i < effect.parameters.size(); ++i)
+    if (const auto given = spec.shapes.find(effect.form->parameters[i].name);
+        given != spec.shapes.end())
+      effect.parameters[i] = given->second;
+}
+
+PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDraft& training,
+                    const TwinDraft& validation) {
+  const EffectSpec& spec = options.effects[index];
+  const std::size_t tests = training.plan.size() + validation.plan.size();
+  PlantedEffect effect{spec, find_effect(spec.form), {}, 0};
+  Resolved rows = resolve(options, index, tests, training);
+  set_shapes(spec, rows, effect);
+  const double tau_scale = mean_of(base_tau(training));
+  const Trial on_training(training, effect, std::move(rows), tau_scale);
+  const Trial on_validation(validation, effect, resolve(options, index, tests, validation),
+                            tau_scale);
+  const Strength strength(training, on_training, on_validation, !validation.plan.empty());
+  const double amplitude =
+      spec.amplitude ? *spec.amplitude : solved_amplitude(spec, options.noise_scale, strength);
+  const double reached = strength(amplitude);
+  if (std::isnan(reached) && options.noise_scale > 0)
+    throw InputError({"--effect"},
+                     fmt::format("amplitude {} turns friction negative", shortest(amplitude)),
+                     "give strength=... and let the twin find the amplitude");
+  effect.parameters[0] = amplitude;
+  effect.strength = options.noise_scale > 0 ? reached : 0;
+  return effect;
+}
+
+} // namespace
+
+double mean_of(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<PlantedEffect> plant_effects(const TwinOptions& options, const TwinDraft& training,
+                                         const TwinDraft& validation) {
+  FaultList faults;
+  for (const EffectSpec& spec : options.effects) {
+    check_column(spec, spec.column, training, faults);
+    if (!spec.column2.empty()) check_column(spec, spec.column2, training, faults);
+  }
+  faults.throw_if_any();
+  std::vector<PlantedEffect> effects;
+  for (std::size_t i = 0; i < options.effects.size(); ++i)
+    effects.push_back(plant(options, i, training, validation));
+  return effects;
+}
+
+std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draft,
+                               std::size_t tests, const std::vector<PlantedEffect>& effects,
+                               double tau_scale) {
+  Pieces pieces = pieces_of(draft);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Resolved rows = resolve(options, i, tests, draft);
+    const auto factor =
+        factors(effects[i], rows, effects[i].parameters, level_count(effects[i], draft));
+    apply(effects[i], factor, tau_scale, pieces);
+  }
+  const auto tau = tau_of(pieces);
+  for (const double value : tau)
+    if (!(value > 0))
+      throw InputError({"--effect"}, "the effects together turn friction negative",
+                       "use smaller strengths or amplitudes");
+  return tau;
+}
+
+} // namespace frictab

@@ -1,0 +1,159 @@
+// twin.json, the job file and the summary for people.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/quantity.h"
+#include "data/twin_summary.h"
+
+namespace frictab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json set_json(const TwinParameters& set) {
+  return {{"name", set.name}, {"title", set.title},   {"K_MPa", set.K},  {"s_r_MPa", set.s_r},
+          {"c_s", set.c_s},   {"mu0", set.mu0},       {"aT", set.aT},    {"av", set.av},
+          {"av2", set.av2},   {"apsi", set.apsi},     {"axv", set.axv},  {"rA", set.rA},
+          {"rL_mm", set.rL},  {"wA", set.wA},         {"Lw_mm", set.Lw}, {"bA", set.bA},
+          {"b", set.b},       {"s_test", set.s_test}, {"s_ar", set.s_ar}};
+}
+
+Json design_json(const TwinDesign& design) {
+  return {{"p_MPa", design.p},
+          {"psi", design.psi},
+          {"v_rel_mm_s", design.v},
+          {"T_tool_C", design.T},
+          {"replicates", design.replicates},
+          {"points", design.points},
+          {"validation", design.validation}};
+}
+
+std::string unit_of(const std::string& column) {
+  if (const Quantity* quantity = find_quantity(column)) return quantity->unit;
+  if (const DerivedQuantity* quantity = find_derived(column)) return quantity->unit;
+  return "1";
+}
+
+Json effect_json(const PlantedEffect& effect) {
+  const EffectSpec& spec = effect.spec;
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    const Parameter& parameter = effect.form->parameters[i];
+    const std::string unit = parameter.unit == "x"    ? unit_of(spec.column)
+                             : parameter.unit == "x2" ? unit_of(spec.column2)
+                                                      : parameter.unit;
+    parameters.push_back(
+        {{"name", parameter.name}, {"value", effect.parameters[i]}, {"unit", unit}});
+  }
+  const bool derived = find_derived(spec.column) != nullptr;
+  Json columns = Json::array();
+  if (!derived && spec.column != "latent") columns.push_back(spec.column);
+  if (derived)
+    for (const std::string& need : find_derived(spec.column)->needs)
+      columns.push_back(need == "tau" ? "tau_R_MPa" : need);
+  if (!spec.column2.empty()) columns.push_back(spec.column2);
+  Json json{{"form", spec.form},
+            {"formula", effect.form->formula},
+            {"columns", columns},
+            {"derived", derived ? Json(spec.column) : Json(nullptr)},
+            {"latent", spec.column == "latent" ? Json(spec.latent) : Json(nullptr)},
+            {"acts_on", spec.on},
+            {"parameters", parameters},
+            {"strength", effect.strength}};
+  if (spec.strength) json["strength_asked"] = *spec.strength;
+  return json;
+}
+
+Json part_json(const TwinPart& part, const TwinSummary& summary, TwinError TwinLaw::*error) {
+  Json laws = Json::object();
+  for (const TwinLaw& law : summary.laws)
+    laws[law.name] = {{"mae_MPa", (law.*error).mae_MPa}, {"rmse_MPa", (law.*error).rmse_MPa}};
+  return {{"n_rows", part.data.rows()},
+          {"n_experiments", part.data.experiments.size()},
+          {"errors", laws}};
+}
+
+std::string effects_line(const Twin& twin) {
+  if (twin.effects.empty()) return "effects     none planted\n";
+  std::string text;
+  for (const PlantedEffect& effect : twin.effects) {
+    const EffectSpec& spec = effect.spec;
+    const std::string source = spec.column == "latent" ? "latent (" + spec.latent + ")"
+                               : spec.column2.empty()  ? spec.column
+                                                       : spec.column + " and " + spec.column2;
+    text += fmt::format("effect      {} of {} on {}, amplitude {:.4g}, strength {:.3g}\n",
+                        spec.form, source, spec.on, effect.parameters[0], effect.strength);
+  }
+  return text;
+}
+
+} // namespace
+
+std::string twin_json(const Twin& twin, const TwinSummary& summary) {
+  const TwinOptions& options = twin.options;
+  Json constants = Json::object();
+  for (const TwinLaw& law : summary.laws)
+    for (const auto& [name, value] : law.constants)
+      constants[law.name][name] = value;
+  Json effects = Json::array();
+  for (const PlantedEffect& effect : twin.effects)
+    effects.push_back(effect_json(effect));
+  Json json{{"schema", "frictab/twin/1"},
+            {"synthetic", true},
+            {"origin", twin_origin(options)},
+            {"tool_version", FRICTAB_VERSION},
+            {"seed", options.seed},
+            {"set", set_json(twin.set)},
+            {"design", design_json(*options.design)},
+            {"noise",
+             {{"kind", options.noise},
+              {"scale", options.noise_scale},
+              {"white", twin_white},
+              {"ar_rho", twin_ar_rho}}},
+            {"bystanders", options.bystanders},
+            {"hidden_columns", options.hide},
+            {"effects", effects},
+            {"constants", constants},
+            {"training", part_json(twin.training, summary, &TwinLaw::training)}};
+  if (twin.validation.data.rows() > 0)
+    json["validation"] = part_json(twin.validation, summary, &TwinLaw::validation);
+  json["notes"] = {"oracle: error of the noise-free law, effects included, without knowing the "
+                   "hidden factor of each test; no model can do better than that on average",
+                   "base_law: the same law without the effects, times one fitted factor",
+                   "strength: training MAE of base_law over that of the true law, both times one "
+                   "factor fitted by least squares, minus 1; each effect alone",
+                   "histories (friction_work, ...) follow the noise-free law without effects"};
+  return json.dump(2) + "\n";
+}
+
+std::string twin_job(const Twin& twin, const std::string& extension) {
+  std::string text = "# Runs on " + twin_origin(twin.options) + ": nothing here is measured.\n";
+  text += "[data]\ntraining = \"training." + extension + "\"\n";
+  if (twin.validation.data.rows() > 0) text += "validation = \"validation." + extension + "\"\n";
+  text += fmt::format("\n[calibration]\nseed = {}\n\n[output]\ndirectory = \"out\"\n",
+                      twin.options.seed);
+  return text;
+}
+
+std::string twin_text(const Twin& twin, const TwinSummary& summary, const std::string& directory) {
+  const bool held_out = twin.validation.data.rows() > 0;
+  std::string text = fmt::format("Sliding-compression campaign, {}\n", twin_origin(twin.options));
+  text += fmt::format("training    {:>4} experiments {:>9} rows\n",
+                      twin.training.data.experiments.size(), thousands(twin.training.data.rows()));
+  text +=
+      fmt::format("validation  {:>4} experiments {:>9} rows\n",
+                  twin.validation.data.experiments.size(), thousands(twin.validation.data.rows()));
+  text += effects_line(twin);
+  text += fmt::format("MAE, MPa        training{}\n", held_out ? "   validation" : "");
+  for (const TwinLaw& law : summary.laws) {
+    text += fmt::format("  {:<13} {:>8.2f}", law.name, law.training.mae_MPa);
+    if (held_out) text += fmt::format("     {:>8.2f}", law.validation.mae_MPa);
+    text += law.name == "oracle" ? "   the truth, hidden factor unknown\n" : "\n";
+  }
+  return text + fmt::format("next: frictab run {}/job.toml\n", directory);
+}
+
+} // namespace frictab

@@ -1,0 +1,54 @@
+// Looks up effect forms and starts their shape parameters from the data.
+#include "effects/effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frictab {
+
+double Spread::span() const {
+  if (high > low) return high - low;
+  if (maximum > minimum) return maximum - minimum;
+  return std::abs(median) > 0 ? std::abs(median) : 1.0;
+}
+
+double Spread::positive() const {
+  return median > 0 ? median : span();
+}
+
+Spread spread_of(std::span<const double> values) {
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double value) { return std::isfinite(value); });
+  if (sorted.empty()) return {};
+  std::sort(sorted.begin(), sorted.end());
+  const auto quantile = [&](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+  };
+  return {sorted.front(), quantile(0.1), quantile(0.5), quantile(0.9), sorted.back()};
+}
+
+std::vector<double> start_values(const EffectForm& form, const Spread& x, const Spread& x2) {
+  std::vector<double> values(form.parameters.size(), 0.0);
+  for (std::size_t i = 0; i < form.shapes.size(); ++i)
+    values[i + 1] = form.shapes[i].start(form.shapes[i].column == 0 ? x : x2);
+  return values;
+}
+
+const std::vector<EffectForm>& all_effects() {
+  return Registry<EffectForm>::instance().all();
+}
+
+const EffectForm* find_effect(std::string_view name) {
+  return Registry<EffectForm>::instance().find(name);
+}
+
+std::vector<std::string> effect_names() {
+  std::vector<std::string> names;
+  for (const EffectForm& form : all_effects())
+    names.push_back(form.name);
+  return names;
+}
+
+} // namespace frictab

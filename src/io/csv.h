@@ -1,0 +1,47 @@
+// Delimited text as rigs write it, parsed to columns of cells that are numbers where they can be.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace frictab {
+
+struct CsvFormat {
+  char delimiter = 0; // 0: found from the header line; ' ' = runs of blanks
+  char decimal = '.';
+  std::size_t skip_rows = 0;   // physical lines before the header
+  std::size_t skip_footer = 0; // physical lines at the end, blank ones not counted
+  bool units_row = false;
+};
+
+// One column of a file. A cell that is no number is NaN in `numbers` and listed in `texts`.
+struct CsvColumn {
+  std::string name;
+  std::string unit; // of the units row, else empty
+  std::vector<double> numbers;
+  struct Text {
+    std::size_t row;
+    std::string text; // what stands there; empty where the cell is empty
+  };
+  std::vector<Text> texts; // ascending rows
+};
+
+struct CsvTable {
+  std::string file; // as messages call it
+  std::size_t header_line = 0;
+  std::vector<CsvColumn> columns;
+  std::vector<std::size_t> line; // physical line of each row
+  std::size_t rows() const { return line.size(); }
+};
+
+// Handles UTF-8 BOM, CRLF, quoted cells with delimiters and line breaks inside, blank lines,
+// empty column names. Ragged rows and an unclosed quote are added to `faults`; rows that are
+// ragged are left out of the result (the caller throws). Throws InputError where there is no
+// header or no row.
+CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
+                   FaultList& faults);
+
+} // namespace frictab

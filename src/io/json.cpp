@@ -1,0 +1,30 @@
+// JSON text in and out.
+#include "io/json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace frictab {
+
+std::string json_text(const nlohmann::ordered_json& value) {
+  return value.dump(2) + "\n";
+}
+
+nlohmann::ordered_json parse_json(std::string_view text, const std::string& file) {
+  try {
+    return nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::ordered_json::parse_error& error) {
+    Place place{file, 1, 1};
+    for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) {
+      ++place.column;
+      if (text[i] == '\n') {
+        ++place.line;
+        place.column = 1;
+      }
+    }
+    throw InputError(place, "this is not valid JSON", "the file may be cut short");
+  }
+}
+
+} // namespace frictab

@@ -1,0 +1,139 @@
+// Checks across keys of a job: what is missing and what contradicts itself.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "data/quantity.h"
+#include "job/reader.h"
+#include "models/law.h"
+
+namespace frictab {
+
+namespace {
+
+void check_files(JobReader& reader) {
+  DataOptions& data = reader.job.data;
+  if (reader.data_is_no_table) return;
+  if (!reader.places.count("data.training")) {
+    reader.fault(reader.place_of("data"), "data.training is missing",
+                 "write below [data]: training = \"training.csv\"");
+    return;
+  }
+  data.place = reader.place_of("data.training");
+}
+
+void check_signs(JobReader& reader) {
+  const DataOptions& data = reader.job.data;
+  if (data.delimiter != 0 && data.delimiter == data.decimal)
+    reader.fault(reader.place_of("data.delimiter"),
+                 fmt::format("data.delimiter and data.decimal are both \"{}\"", data.decimal),
+                 "with decimal commas the columns are separated by \";\" or \"\\t\"");
+}
+
+void check_unit(JobReader& reader, const std::string& name, const ColumnSource& source,
+                const std::string& path) {
+  if (source.unit.empty() || source.slope_rows > 0) return; // the loader knows the path's unit
+  std::string target = find_quantity(name)->unit;
+  if (source.area_mm2 > 0) target = "N";
+  if (!source.times.empty()) target = "1";
+  if (!convert(source.unit, target))
+    reader.fault(
+        reader.place_of(path + ".unit"),
+        fmt::format("{}.unit = {} does not convert to {}", path, toml_quoted(source.unit), target),
+        suggest(source.unit, units_like(target)));
+}
+
+void check_column(JobReader& reader, const std::string& name, ColumnSource& source) {
+  const std::string path = "data.columns." + name;
+  const Place& place = source.place;
+  const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0);
+  if (source.names.empty() && source.number == 0) source.names = {name};
+  if (name == "experiment") {
+    if (ways > 0 || !source.unit.empty())
+      reader.fault(place, path + " is a label: it has no unit and is not computed",
+                   "leave only `column`");
+    return;
+  }
+  if (ways > 1)
+    reader.fault(place, path + " has more than one of times, area_mm2 and slope_rows",
+                 "keep the one that says what the column is");
+  else if (source.times == name)
+    reader.fault(reader.place_of(path + ".times"), path + ".times names the column itself",
+                 "a friction coefficient is multiplied with sigma_n_MPa");
+  else
+    check_unit(reader, name, source, path);
+}
+
+void check_columns(JobReader& reader) {
+  DataOptions& data = reader.job.data;
+  for (auto& [name, source] : data.columns)
+    check_column(reader, name, source);
+  for (const auto& [name, value] : data.constants)
+    if (data.columns.count(name))
+      reader.fault(reader.place_of("data.constants." + name),
+                   fmt::format("{} stands in [data.columns] and in [data.constants]", name),
+                   "keep one of the two");
+  for (const DropRule& rule : data.drop) {
+    const std::string path = "data.drop." + rule.column;
+    const bool said = reader.places.count(path + ".below") || reader.places.count(path + ".above");
+    if (!said)
+      reader.fault(rule.place, path + " says neither below nor above",
+                   fmt::format("write {} = {{ below = 0.1 }}", rule.column));
+    if (rule.below && rule.above && *rule.below >= *rule.above)
+      reader.fault(rule.place,
+                   fmt::format("{} leaves out every row: below {} and above {}", path, *rule.below,
+                               *rule.above),
+                   "`below` is the smaller one");
+  }
+}
+
+void check_axes(JobReader& reader) {
+  for (const auto& [name, axis] : reader.job.table.axes) {
+    if (!axis.range) continue;
+    const std::string path = "table.axes." + name + ".range";
+    const Quantity& quantity = *find_quantity(name);
+    const double low = axis.range->first;
+    if (low < quantity.lowest)
+      reader.fault(reader.place_of(path),
+                   fmt::format("{} starts at {}, but {} is never below {}", path, low, name,
+                               quantity.lowest),
+                   quantity.meaning);
+    else if (axis.spacing == "log" && !(low > 0))
+      reader.fault(reader.place_of(path),
+                   fmt::format("{} starts at {}, but a log axis needs a start > 0", path, low),
+                   "raise the start, or spacing = \"linear\"");
+  }
+}
+
+// "best" and "all" stand alone; a law asked for by a later stage is among those calibrated.
+void check_models(JobReader& reader, const std::string& path,
+                  const std::vector<std::string>& models) {
+  for (const char* word : {"best", "all"})
+    if (models.size() > 1 && std::count(models.begin(), models.end(), word))
+      reader.fault(reader.place_of(path), fmt::format("'{}' stands alone in {}", word, path),
+                   fmt::format("{} = \"{}\", or a list of names", path, word));
+  const std::vector<std::string>& use = reader.job.models.use;
+  if (use.empty() || path == "export.targets") return;
+  for (const std::string& name : models)
+    if (name != "best" && name != "all" && !std::count(use.begin(), use.end(), name))
+      reader.fault(reader.place_of(path),
+                   fmt::format("'{}' in {} is not among models.use", name, path),
+                   "add it to models.use");
+}
+
+} // namespace
+
+void check_job(JobReader& reader) {
+  check_files(reader);
+  check_signs(reader);
+  check_columns(reader);
+  check_axes(reader);
+  check_models(reader, "models.use", reader.job.models.use);
+  check_models(reader, "table.model", reader.job.table.model);
+  check_models(reader, "trace.models", reader.job.trace.models);
+  check_models(reader, "export.targets", reader.job.exports.targets);
+}
+
+} // namespace frictab

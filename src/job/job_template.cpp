@@ -1,0 +1,94 @@
+// A job file that explains itself, written from the schema.
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "job/schema.h"
+
+namespace frictab {
+
+namespace {
+
+// Prose as comment lines of readable length.
+void add_prose(std::string& out, const std::string& text) {
+  constexpr std::size_t width = 88;
+  std::istringstream words(text);
+  std::string line = "#", word;
+  while (words >> word) {
+    if (line.size() + 1 + word.size() > width) {
+      out += line + "\n";
+      line = "#";
+    }
+    line += " " + word;
+  }
+  out += line + "\n";
+}
+
+// Lines without a blank after '#' are keys to be uncommented.
+void add_commented(std::string& out, const std::string& lines) {
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);)
+    out += "#" + line + "\n";
+}
+
+std::string parent(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == path.npos ? "" : path.substr(0, dot);
+}
+
+std::string leaf(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+void add_key(std::string& out, const KeyRule& rule) {
+  const std::string normal = default_text(rule);
+  add_prose(out, rule.absent.empty() ? rule.meaning : rule.meaning + "; absent: " + rule.absent);
+  const bool required = rule.path == "data.training";
+  out += fmt::format("{}{} = {}\n", required ? "" : "#", leaf(rule.path),
+                     normal.empty() ? rule.example : normal);
+}
+
+// What may stand below a name of the user's, as prose.
+void add_named_keys(std::string& out, const std::string& section) {
+  for (const KeyRule& rule : key_rules()) {
+    if (rule.path == section + ".*") add_prose(out, rule.meaning);
+    if (parent(rule.path) == section + ".*")
+      add_prose(out, fmt::format("{}: {}; absent: {}", leaf(rule.path), rule.meaning, rule.absent));
+  }
+}
+
+void add_named_section(std::string& out, const SectionRule& section) {
+  out += "\n";
+  add_prose(out, section.meaning);
+  add_named_keys(out, section.path);
+  const SectionRule* each = find_section(section.path + ".*");
+  if (section.path == "data.drop") { // a key of [data], as the contract writes it
+    add_commented(out, section.example);
+  } else if (each && !each->example.empty()) {
+    add_commented(out, fmt::format("[{}.v_rel_mm_s]\n{}", section.path, each->example));
+  } else {
+    add_commented(out, fmt::format("[{}]\n{}", section.path, section.example));
+  }
+}
+
+} // namespace
+
+std::string job_template() {
+  std::string out = "# A frictab job. Lines that start with # and no blank are keys with their "
+                    "defaults\n# (or an example): remove the # to change one. `frictab explain "
+                    "KEY` says more.\n";
+  for (const SectionRule& section : section_rules()) {
+    if (section.path.find('*') != std::string::npos) continue;
+    if (section.children) {
+      add_named_section(out, section);
+      continue;
+    }
+    out += fmt::format("\n[{}]", section.path);
+    out += "  # " + section.meaning + "\n";
+    for (const KeyRule& rule : key_rules())
+      if (parent(rule.path) == section.path) add_key(out, rule);
+  }
+  return out;
+}
+
+} // namespace frictab

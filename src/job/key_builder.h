@@ -1,0 +1,154 @@
+// Builds rows of the schema from an accessor: `T& at(Job&, name)` both stores and shows the value,
+// so a default is written once, in job.h.
+#pragma once
+
+#include <optional>
+
+#include "core/text.h"
+#include "job/schema.h"
+#include "job/toml_tree.h"
+
+namespace frictab::schema {
+
+template <class T> struct Kind;
+
+template <> struct Kind<std::string> {
+  static constexpr KeyType type = KeyType::text;
+  static std::string from(KeyValue& v) { return std::get<std::string>(std::move(v)); }
+  static std::string show(const std::string& v) { return v.empty() ? "" : toml_quoted(v); }
+};
+
+template <> struct Kind<std::vector<std::string>> {
+  static constexpr KeyType type = KeyType::texts;
+  static std::vector<std::string> from(KeyValue& v) {
+    return std::get<std::vector<std::string>>(std::move(v));
+  }
+  static std::string show(const std::vector<std::string>& v) {
+    if (v.size() == 1) return toml_quoted(v[0]);
+    std::vector<std::string> quoted;
+    for (const std::string& item : v)
+      quoted.push_back(toml_quoted(item));
+    return v.empty() ? "" : "[" + join(quoted, ", ") + "]";
+  }
+};
+
+template <> struct Kind<std::uint64_t> { // std::size_t is the same type here
+  static constexpr KeyType type = KeyType::whole;
+  static std::uint64_t from(KeyValue& v) { return std::get<std::uint64_t>(v); }
+  static std::string show(std::uint64_t v) { return std::to_string(v); }
+};
+
+template <> struct Kind<double> {
+  static constexpr KeyType type = KeyType::number;
+  static double from(KeyValue& v) { return std::get<double>(v); }
+  static std::string show(double v) { return shortest(v); }
+};
+
+template <> struct Kind<bool> {
+  static constexpr KeyType type = KeyType::flag;
+  static bool from(KeyValue& v) { return std::get<bool>(v); }
+  static std::string show(bool v) { return v ? "true" : "false"; }
+};
+
+template <> struct Kind<std::pair<double, double>> {
+  static constexpr KeyType type = KeyType::range;
+  static std::pair<double, double> from(KeyValue& v) {
+    return std::get<std::pair<double, double>>(v);
+  }
+  static std::string show(const std::pair<double, double>& v) {
+    return "[" + shortest(v.first) + ", " + shortest(v.second) + "]";
+  }
+};
+
+template <class T> struct Kind<std::optional<T>> {
+  static constexpr KeyType type = Kind<T>::type;
+  static std::optional<T> from(KeyValue& v) { return Kind<T>::from(v); }
+  static std::string show(const std::optional<T>& v) { return v ? Kind<T>::show(*v) : ""; }
+};
+
+template <> struct Kind<char> { // delimiter: 0 = not set
+  static constexpr KeyType type = KeyType::text;
+  static char from(KeyValue& v);
+  static std::string show(char v) { return v == 0 ? "" : toml_quoted(std::string(1, v)); }
+};
+
+template <> struct Kind<Loss> {
+  static constexpr KeyType type = KeyType::text;
+  static Loss from(KeyValue& v);
+  static std::string show(Loss v);
+};
+
+// A key of a fixed path.
+template <class T>
+KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string absent = "",
+            std::string example = "") {
+  KeyRule rule;
+  rule.path = std::move(path);
+  rule.type = Kind<T>::type;
+  rule.meaning = std::move(meaning);
+  rule.absent = std::move(absent);
+  rule.example = std::move(example);
+  rule.store = [at](Job& job, const std::string&, KeyValue value) {
+    at(job) = Kind<T>::from(value);
+  };
+  rule.show = [at](const Job& job) {
+    Job copy = job;
+    return Kind<T>::show(at(copy));
+  };
+  return rule;
+}
+
+// A key below a name of the user's.
+template <class T>
+KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string meaning,
+              std::string absent, std::string example) {
+  KeyRule rule;
+  rule.path = std::move(path);
+  rule.type = Kind<T>::type;
+  rule.meaning = std::move(meaning);
+  rule.absent = std::move(absent);
+  rule.example = std::move(example);
+  rule.store = [at](Job& job, const std::string& name, KeyValue value) {
+    at(job, name) = Kind<T>::from(value);
+  };
+  return rule;
+}
+
+inline KeyRule operator|(KeyRule rule, const Bounds& bounds) {
+  rule.bounds = bounds;
+  return rule;
+}
+inline KeyRule operator|(KeyRule rule, const Allowed& allowed) {
+  rule.allowed = allowed;
+  return rule;
+}
+inline KeyRule operator|(KeyRule rule, Problem (*problem)(const std::string&, const KeyValue&)) {
+  rule.problem = problem;
+  return rule;
+}
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+inline Bounds at_least(double lower, double upper = infinite) {
+  return {lower, upper, false, false};
+}
+inline Bounds above(double lower) {
+  return {lower, infinite, true, false};
+}
+inline Bounds between(double lower, double upper) {
+  return {lower, upper, true, true};
+}
+
+// Names for Allowed and SectionRule.
+std::vector<std::string> quantity_names();
+std::vector<std::string> column_names(); // quantities and the experiment
+std::vector<std::string> state_names();
+std::vector<std::string> constant_names();
+std::vector<std::string> laws_or_all();
+std::vector<std::string> laws_best_or_all();
+std::vector<std::string> targets_or_all();
+
+DropRule& drop_rule(Job& job, const std::string& name); // added where absent
+std::vector<KeyRule> data_keys();
+std::vector<KeyRule> stage_keys();
+
+} // namespace frictab::schema

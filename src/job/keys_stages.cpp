@@ -1,0 +1,243 @@
+// The keys of every section but [data], in the order of the stages.
+#include "codegen/exporter.h"
+#include "job/key_builder.h"
+#include "models/law.h"
+
+namespace frictab::schema {
+
+namespace {
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::vector<std::string> shear_yields() {
+  return {"mises", "tresca", "flow_stress"};
+}
+std::vector<std::string> losses() {
+  return {"L2", "L1", "huber"};
+}
+std::vector<std::string> interpolations() {
+  return {"linear", "cubic"};
+}
+std::vector<std::string> spacings() {
+  return {"linear", "log"};
+}
+std::vector<std::string> unit_systems() {
+  return {"mm-t-s", "m-kg-s"};
+}
+
+Problem cubic_problem(const std::string&, const KeyValue& value) {
+  if (std::get<std::string>(value) != "cubic") return {};
+  return {"= \"cubic\" is not available in this version",
+          "use \"linear\": the grid is refined until table.tolerance_MPa holds"};
+}
+
+std::string law_hint(const std::string& name) {
+  if (name != "neural_network") return "";
+  return "neural_network is not part of this version; leave it out";
+}
+
+bool is_number(std::string_view text, bool whole) {
+  if (text.empty() || text.size() > 40) return false;
+  std::size_t used = 0;
+  try {
+    const double value = std::stod(std::string(text), &used);
+    if (used != text.size() || !(value - value == 0)) return false;
+  } catch (const std::exception&) {
+    return false;
+  }
+  const std::string_view characters = whole ? "0123456789" : "+-.0123456789eE";
+  return text.find_first_not_of(characters) == text.npos;
+}
+
+Problem input_problem(const std::string&, const KeyValue& value) {
+  const std::string_view text = std::get<std::string>(value);
+  const bool ok = text == "property" ||
+                  (text.starts_with("constant:") && is_number(text.substr(9), false)) ||
+                  (text.starts_with("field:") && is_number(text.substr(6), true));
+  if (ok) return {};
+  return {"must be \"constant:NUMBER\", \"property\" or \"field:NUMBER\", not the text " +
+              toml_quoted(text),
+          "for example psi = \"constant:1.0\""};
+}
+
+// "all" is how a list is left open; the job says it by an empty list.
+void store_use(Job& job, const std::string&, KeyValue value) {
+  job.models.use = std::get<std::vector<std::string>>(std::move(value));
+  if (job.models.use == std::vector<std::string>{"all"}) job.models.use.clear();
+}
+
+std::vector<KeyRule> model_keys() {
+  std::vector<KeyRule> rules = {
+      key<std::vector<std::string>>(
+          "models.use", [](Job & job) -> auto& { return job.models.use; },
+          "friction laws to calibrate: a name, a list, or \"all\"; `frictab list models` shows "
+          "them",
+          "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
+          Allowed{"friction law", laws_or_all, false, law_hint},
+      key<std::string>(
+          "models.shear_yield", [](Job & job) -> auto& { return job.models.shear_yield; },
+          "shear yield stress k: mises = sigma_f/sqrt(3), tresca = sigma_f/2, flow_stress = "
+          "sigma_f (conventions differ between papers)") |
+          Allowed{"", shear_yields},
+      key<bool>(
+          "models.shear_limit", [](Job & job) -> auto& { return job.models.shear_limit; },
+          "limit every law to tau_R <= k"),
+      key<Loss>(
+          "calibration.loss", [](Job & job) -> auto& { return job.calibration.loss; },
+          "what is minimised: L2 = squares, L1 = absolute residuals, huber = squares near 0 and "
+          "absolute beyond calibration.huber_delta_MPa") |
+          Allowed{"", losses, true},
+      key<double>(
+          "calibration.huber_delta_MPa",
+          [](Job & job) -> auto& { return job.calibration.huber_delta_MPa; },
+          "where the huber loss turns from square to absolute") |
+          above(0),
+      key<std::uint64_t>(
+          "calibration.seed", [](Job & job) -> auto& { return job.calibration.seed; },
+          "seed of everything random: the same seed gives the same bytes") |
+          at_least(0),
+      key<std::size_t>(
+          "calibration.bootstrap", [](Job & job) -> auto& { return job.calibration.bootstrap; },
+          "resamples of whole experiments for the intervals of MAE, RMSE and bias; 0 = none") |
+          at_least(0, 1e6),
+  };
+  rules[0].store = store_use;
+  return rules;
+}
+
+AxisOptions& axis(Job& job, const std::string& name) {
+  return job.table.axes[name];
+}
+
+std::vector<KeyRule> table_keys() {
+  return {
+      key<std::vector<std::string>>(
+          "table.model", [](Job & job) -> auto& { return job.table.model; },
+          "law or laws to tabulate: best (on held-out experiments), a name, a list, or all") |
+          Allowed{"friction law", laws_best_or_all, false, law_hint},
+      key<double>(
+          "table.tolerance_MPa", [](Job & job) -> auto& { return job.table.tolerance_MPa; },
+          "largest drift of the table from its law, anywhere in the range; the grid is made to "
+          "fit it") |
+          above(0),
+      key<std::string>(
+          "table.interpolation", [](Job & job) -> auto& { return job.table.interpolation; },
+          "between nodes: linear (cubic is not available in this version)") |
+          Allowed{"", interpolations} | cubic_problem,
+      named<std::optional<std::pair<double, double>>>(
+          "table.axes.*.range",
+          [](Job & job, const std::string& name) -> auto& { return axis(job, name).range; },
+          "ends of the axis in the canonical unit", "chosen by the tool from the data", "[5, 500]"),
+      named<std::optional<std::size_t>>(
+          "table.axes.*.nodes",
+          [](Job & job, const std::string& name) -> auto& { return axis(job, name).nodes; },
+          "number of nodes", "as many as table.tolerance_MPa needs", "17") |
+          at_least(2, 1e6),
+      named<std::optional<std::string>>(
+          "table.axes.*.spacing",
+          [](Job & job, const std::string& name) -> auto& { return axis(job, name).spacing; },
+          "of the nodes, and the coordinate of interpolation: linear or log",
+          "what suits the quantity and the law", "\"log\"") |
+          Allowed{"", spacings},
+  };
+}
+
+std::vector<KeyRule> export_keys() {
+  return {
+      key<std::vector<std::string>>(
+          "export.targets", [](Job & job) -> auto& { return job.exports.targets; },
+          "FE codes to write the routine for: a name, a list, or \"all\"; `frictab list targets` "
+          "shows them") |
+          Allowed{"target", targets_or_all},
+      key<std::string>(
+          "export.units", [](Job & job) -> auto& { return job.exports.units; },
+          "unit system of the simulation: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)") |
+          Allowed{"", unit_systems},
+      named<std::string>(
+          "export.inputs.*",
+          [](Job & job, const std::string& name) -> auto& { return job.exports.inputs[name]; },
+          "where a state comes from that the solver does not give: \"constant:1.0\" (canonical "
+          "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field)",
+          "what the target offers", "\"constant:1.0\"") |
+          input_problem,
+  };
+}
+
+std::vector<KeyRule> proof_keys() {
+  return {
+      key<std::optional<double>>(
+          "verify.max_drift_MPa", [](Job & job) -> auto& { return job.verify.max_drift_MPa; },
+          "largest drift that passes", "table.tolerance_MPa", "0.5") |
+          above(0),
+      key<std::size_t>(
+          "verify.samples", [](Job & job) -> auto& { return job.verify.samples; },
+          "points over the whole range at which table and law are compared") |
+          at_least(1, 1e9),
+      key<std::vector<std::string>>(
+          "trace.models", [](Job & job) -> auto& { return job.trace.models; },
+          "laws whose residuals are searched: best, a name, a list, or all") |
+          Allowed{"friction law", laws_best_or_all, false, law_hint},
+      key<double>(
+          "trace.alpha", [](Job & job) -> auto& { return job.trace.alpha; },
+          "family-wise error of a false alarm") |
+          between(0, 1),
+      key<std::vector<std::string>>(
+          "trace.ignore", [](Job & job) -> auto& { return job.trace.ignore; },
+          "columns that cannot be a cause", "none", "[\"room_C\"]"),
+      key<std::optional<double>>(
+          "trace.repeatability", [](Job & job) -> auto& { return job.trace.repeatability; },
+          "scatter of repeated tests as a share of tau_R (0.03 = 3 %): what lies above it has an "
+          "unrecorded cause",
+          "scatter is reported, not judged", "0.03") |
+          between(0, 1),
+      key<std::string>(
+          "output.directory", [](Job & job) -> auto& { return job.directory; },
+          "where results are written; relative to the job file"),
+  };
+}
+
+} // namespace
+
+Loss Kind<Loss>::from(KeyValue& v) {
+  const std::string& text = std::get<std::string>(v); // as spelled in losses()
+  return text == "L2" ? Loss::l2 : text == "L1" ? Loss::l1 : Loss::huber;
+}
+
+std::string Kind<Loss>::show(Loss v) {
+  return toml_quoted(losses()[static_cast<std::size_t>(v)]);
+}
+
+std::vector<std::string> laws_or_all() {
+  std::vector<std::string> names = law_names();
+  names.push_back("all");
+  return names;
+}
+
+std::vector<std::string> laws_best_or_all() {
+  std::vector<std::string> names = laws_or_all();
+  names.insert(names.begin(), "best");
+  return names;
+}
+
+std::vector<std::string> targets_or_all() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : all_exporters())
+    names.push_back(exporter.name);
+  names.push_back("all");
+  return names;
+}
+
+std::vector<KeyRule> stage_keys() {
+  std::vector<KeyRule> rules;
+  for (auto* part : {model_keys, table_keys, export_keys, proof_keys})
+    for (KeyRule& rule : part())
+      rules.push_back(std::move(rule));
+  return rules;
+}
+
+} // namespace frictab::schema

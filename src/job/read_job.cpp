@@ -1,0 +1,173 @@
+// Reads a job file: TOML, then every key by the schema, then what keys say together.
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/atomic_file.h"
+#include "job/reader.h"
+
+namespace frictab {
+
+namespace {
+
+std::string below(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+std::string leaf(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+std::vector<std::string> known_children(const std::string& rule_path) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    const std::string parent = dot == path.npos ? "" : path.substr(0, dot);
+    if (parent == rule_path && leaf(path) != "*") names.push_back(leaf(path));
+  };
+  for (const SectionRule& section : section_rules())
+    add(section.path);
+  for (const KeyRule& key : key_rules())
+    add(key.path);
+  return names;
+}
+
+// A key that belongs elsewhere: "table.tolerance_MPa" for tolerance_MPa in [data].
+std::string home_of(const std::string& key) {
+  for (const KeyRule& rule : key_rules())
+    if (rule.path.find('*') == rule.path.npos && leaf(rule.path) == key) return rule.path;
+  return "";
+}
+
+std::string in_quotes(const std::string& text) {
+  const std::string safe = toml_quoted(text);
+  return "'" + safe.substr(1, safe.size() - 2) + "'";
+}
+
+void unknown_key(JobReader& reader, const std::string& rule_path, const std::string& path,
+                 const TomlNode& entry) {
+  const std::string where = path.empty() ? "at the top of the file" : "in [" + path + "]";
+  const auto known = known_children(rule_path);
+  std::string hint = suggest(entry.key, known);
+  const std::string home = home_of(entry.key);
+  if (nearest_name(entry.key, known).empty() && !home.empty())
+    hint =
+        fmt::format("did you mean '{}'? It stands in [{}]", home, home.substr(0, home.find('.')));
+  reader.fault(entry.key_place, fmt::format("unknown key {} {}", in_quotes(entry.key), where),
+               hint);
+}
+
+bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& entry) {
+  const auto names = section.children();
+  if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
+  if (find_quantity(entry.key))
+    reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, section.path),
+                 "possible: " + join(names, ", "));
+  else
+    reader.fault(entry.key_place,
+                 fmt::format("unknown quantity {} in [{}]", in_quotes(entry.key), section.path),
+                 suggest(entry.key, names));
+  return false;
+}
+
+// `rule_path` has '*' where `path` has a name; `name` is the last such name.
+void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
+          const std::string& path, const std::string& name) {
+  const SectionRule* here = find_section(rule_path);
+  if (here && here->place) *here->place(reader.job, name) = table.place;
+  reader.places[path] = table.place;
+  for (const TomlNode& entry : table.items) {
+    const bool by_name = here && here->children;
+    if (!by_name && entry.key.find('.') != entry.key.npos) { // "data.training" in quotes
+      unknown_key(reader, rule_path, path, entry);
+      continue;
+    }
+    if (by_name && !known_name(reader, *here, entry)) continue;
+    const std::string rule_below = below(rule_path, by_name ? "*" : entry.key);
+    const std::string path_below = below(path, entry.key);
+    const std::string& name_below = by_name ? entry.key : name;
+    if (find_section(rule_below)) {
+      if (entry.type == TomlNode::Type::table) {
+        walk(reader, entry, rule_below, path_below, name_below);
+      } else if (rule_below == "data.columns.*") { // tau_R_MPa = "Friction"
+        *find_section(rule_below)->place(reader.job, name_below) = entry.place;
+        read_value(reader, *find_key("data.columns.*.column"), path_below, name_below, entry);
+      } else {
+        if (path_below == "data") reader.data_is_no_table = true;
+        reader.fault(entry.place,
+                     fmt::format("{} must be a table, not {}", path_below, describe(entry)),
+                     by_name ? "write " + entry.key + " = { ... }" : "write [" + path_below + "]");
+      }
+    } else if (const KeyRule* rule = find_key(rule_below)) {
+      read_value(reader, *rule, path_below, name_below, entry);
+    } else {
+      unknown_key(reader, rule_path, path, entry);
+    }
+  }
+}
+
+void sort_by_place(std::vector<Fault>& faults) {
+  std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+    const auto rank = [](const Fault& f) {
+      const bool set = f.place.file.starts_with("--set"); // --set 9 before --set 10
+      return std::tuple(set ? f.place.file.size() : 0, set ? f.place.file : "", f.place.line,
+                        f.place.column);
+    };
+    return rank(a) < rank(b);
+  });
+}
+
+void resolve_paths(Job& job) {
+  namespace fs = std::filesystem;
+  const fs::path base = fs::path(job.file).parent_path();
+  job.data.base = base.string();
+  job.directory = (base / job.directory).lexically_normal().string();
+}
+
+} // namespace
+
+Place JobReader::place_of(std::string path) const {
+  while (true) {
+    const auto found = places.find(path);
+    if (found != places.end() && !found->second.file.empty()) return found->second;
+    const std::size_t dot = path.rfind('.');
+    if (dot == path.npos) return {job.file, 0, 0};
+    path.resize(dot);
+  }
+}
+
+Job parse_job(std::string_view text, const std::string& file, const std::vector<std::string>& set) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    throw InputError({file, 0, 0}, "the job file is empty",
+                     "`frictab init DIR` writes one with every key explained");
+  TomlNode root = parse_toml(text, file);
+  JobReader reader;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    try {
+      apply_override(root, set[i], i + 1);
+    } catch (const InputError& error) {
+      reader.faults.insert(reader.faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  reader.job.file = file;
+  const Place whole{file, 0, 0};
+  for (Place* place : {&reader.job.data.place, &reader.job.models.place, &reader.job.table.place,
+                       &reader.job.exports.place})
+    *place = whole;
+  walk(reader, root, "", "", "");
+  check_job(reader);
+  sort_by_place(reader.faults);
+  if (!reader.faults.empty()) throw InputError(std::move(reader.faults));
+  resolve_paths(reader.job);
+  return std::move(reader.job);
+}
+
+Job read_job(const std::string& file, const std::vector<std::string>& set) {
+  return parse_job(read_file(file), file, set);
+}
+
+} // namespace frictab

@@ -1,0 +1,188 @@
+// One value of a job file: type, bounds and allowed names, with a message that names the key.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "job/reader.h"
+
+namespace frictab {
+
+namespace {
+
+using Type = TomlNode::Type;
+
+struct ValueReader {
+  JobReader& reader;
+  const KeyRule& rule;
+  const std::string& path;
+
+  std::string about() const {
+    const std::string normal = default_text(rule);
+    return normal.empty() ? rule.meaning : rule.meaning + "; default " + normal;
+  }
+
+  std::string type_hint(const TomlNode& node) const {
+    const bool wants_number = rule.type == KeyType::whole || rule.type == KeyType::number;
+    const bool wants_text = rule.type == KeyType::text || rule.type == KeyType::texts;
+    if (node.type == Type::text && rule.type == KeyType::flag) return "write true or false";
+    if (node.type == Type::text && wants_number &&
+        node.text.find_first_not_of("+-.,0123456789eE") == node.text.npos)
+      return "write the number without quotes, with a decimal point";
+    if (wants_text && (node.type == Type::whole || node.type == Type::number))
+      return "a text stands in quotes";
+    return about();
+  }
+
+  std::nullopt_t refuse(const TomlNode& node) const {
+    reader.fault(node.place,
+                 fmt::format("{} must be {}, not {}", path, expected(rule), describe(node)),
+                 type_hint(node));
+    return std::nullopt;
+  }
+
+  bool inside(double value) const {
+    const Bounds& b = rule.bounds;
+    return std::isfinite(value) && (b.open_lower ? value > b.lower : value >= b.lower) &&
+           (b.open_upper ? value < b.upper : value <= b.upper);
+  }
+
+  std::optional<double> number(const TomlNode& node) const {
+    if (node.type == Type::whole) return static_cast<double>(node.whole);
+    if (node.type == Type::number) return node.number;
+    return std::nullopt;
+  }
+
+  // The text as the schema spells it.
+  std::optional<std::string> text(const TomlNode& node) const {
+    if (node.type != Type::text) return refuse(node);
+    if (!rule.allowed.names) {
+      if (!node.text.empty()) return node.text;
+      reader.fault(node.place, path + " must not be an empty text", about());
+      return std::nullopt;
+    }
+    const std::vector<std::string> names = rule.allowed.names();
+    const auto same = [&](const std::string& name) {
+      return rule.allowed.any_case
+                 ? std::equal(name.begin(), name.end(), node.text.begin(), node.text.end(),
+                              [](char a, char b) { return std::tolower(a) == std::tolower(b); })
+                 : name == node.text;
+    };
+    const auto found = std::find_if(names.begin(), names.end(), same);
+    if (found != names.end()) return *found;
+    std::string hint = rule.allowed.hint ? rule.allowed.hint(node.text) : "";
+    if (rule.allowed.noun.empty()) {
+      const std::string near = nearest_name(node.text, names);
+      hint = near.empty() || node.text.size() < 2
+                 ? about()
+                 : fmt::format("did you mean {}?", toml_quoted(near));
+      reader.fault(node.place,
+                   fmt::format("{} must be {}, not {}", path, expected(rule), describe(node)),
+                   hint);
+    } else {
+      if (hint.empty()) hint = suggest(node.text, names);
+      reader.fault(node.place,
+                   fmt::format("unknown {} {} in {}", rule.allowed.noun, quoted(node.text), path),
+                   hint);
+    }
+    return std::nullopt;
+  }
+
+  static std::string quoted(const std::string& text) {
+    const std::string safe = toml_quoted(text);
+    return "'" + safe.substr(1, safe.size() - 2) + "'";
+  }
+
+  std::optional<std::vector<std::string>> texts(const TomlNode& node) const {
+    std::vector<std::string> out;
+    if (node.type == Type::text) {
+      if (auto one = text(node)) return std::vector<std::string>{*one};
+      return std::nullopt;
+    }
+    if (node.type != Type::array) return refuse(node);
+    // An empty list says something only where nothing to keep or to ignore is a wish.
+    if (node.items.empty() && path != "data.bystanders" && path != "trace.ignore") {
+      reader.fault(node.place, path + " is an empty list",
+                   "leave the key out for: " +
+                       (rule.absent.empty() ? default_text(rule) : rule.absent));
+      return std::nullopt;
+    }
+    bool good = true;
+    std::set<std::string> seen;
+    for (const TomlNode& item : node.items) {
+      const auto one = text(item);
+      good = good && one;
+      if (!one) continue;
+      out.push_back(*one);
+      if (!seen.insert(*one).second) {
+        reader.fault(item.place, fmt::format("{} is named twice in {}", quoted(*one), path),
+                     "name it once");
+        good = false;
+      }
+    }
+    return good ? std::optional(out) : std::nullopt;
+  }
+
+  std::optional<KeyValue> range(const TomlNode& node) const {
+    if (node.type != Type::array || node.items.size() != 2) return refuse(node);
+    const auto low = number(node.items[0]), high = number(node.items[1]);
+    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) return refuse(node);
+    if (*low < *high) return std::pair(*low, *high);
+    reader.fault(node.place, fmt::format("{} must rise, not go from {} to {}", path, *low, *high),
+                 *low > *high ? fmt::format("write [{}, {}]", *high, *low)
+                              : "an axis needs two different ends; a constant quantity needs none");
+    return std::nullopt;
+  }
+
+  std::optional<KeyValue> convert(const TomlNode& node) const {
+    switch (rule.type) {
+    case KeyType::text:
+      if (auto value = text(node)) return *value;
+      return std::nullopt;
+    case KeyType::column:
+      if (node.type == Type::whole && inside(static_cast<double>(node.whole)))
+        return static_cast<std::uint64_t>(node.whole);
+      if (node.type != Type::text && node.type != Type::array) return refuse(node);
+      [[fallthrough]];
+    case KeyType::texts:
+      if (auto value = texts(node)) return *value;
+      return std::nullopt;
+    case KeyType::whole:
+      if (node.type != Type::whole || !inside(static_cast<double>(node.whole))) return refuse(node);
+      return static_cast<std::uint64_t>(node.whole);
+    case KeyType::number: {
+      const auto value = number(node);
+      if (!value || !inside(*value)) return refuse(node);
+      return *value;
+    }
+    case KeyType::range:
+      return range(node);
+    case KeyType::flag:
+      if (node.type != Type::flag) return refuse(node);
+      return node.flag;
+    }
+    return std::nullopt;
+  }
+};
+
+} // namespace
+
+void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
+                const std::string& name, const TomlNode& node) {
+  reader.places[path] = node.place;
+  auto value = ValueReader{reader, rule, path}.convert(node);
+  if (!value) return;
+  if (rule.problem) {
+    const Problem problem = rule.problem(name, *value);
+    if (!problem.what.empty()) {
+      reader.fault(node.place, path + " " + problem.what, problem.hint);
+      return;
+    }
+  }
+  rule.store(reader.job, name, std::move(*value));
+}
+
+} // namespace frictab

@@ -1,0 +1,141 @@
+// The sections of the job file, look-up, and what a key's value must be, in words.
+#include "job/schema.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "job/key_builder.h"
+
+namespace frictab {
+
+namespace {
+
+Place* data_place(Job& job, const std::string&) {
+  return &job.data.place;
+}
+Place* column_place(Job& job, const std::string& name) {
+  return &job.data.columns[name].place;
+}
+Place* drop_place(Job& job, const std::string& name) {
+  return &schema::drop_rule(job, name).place;
+}
+Place* models_place(Job& job, const std::string&) {
+  return &job.models.place;
+}
+Place* table_place(Job& job, const std::string&) {
+  return &job.table.place;
+}
+Place* axis_place(Job& job, const std::string& name) {
+  return &job.table.axes[name].place;
+}
+Place* export_place(Job& job, const std::string&) {
+  return &job.exports.place;
+}
+
+std::string either(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted;
+  for (const std::string& word : words)
+    quoted.push_back(toml_quoted(word));
+  const std::string last = quoted.back();
+  quoted.pop_back();
+  return join(quoted, ", ") + " or " + last;
+}
+
+std::string with_bounds(const std::string& noun, const Bounds& bounds) {
+  const bool low = bounds.lower > -schema::infinite;
+  const bool high = bounds.upper < schema::infinite;
+  std::string text = noun;
+  if (low) text += fmt::format(" {} {}", bounds.open_lower ? ">" : ">=", bounds.lower);
+  if (high)
+    text += fmt::format("{} {} {:.0f}", low ? " and" : "",
+                        bounds.open_upper ? "<" : "<=", bounds.upper);
+  return text;
+}
+
+} // namespace
+
+const std::vector<KeyRule>& key_rules() {
+  static const std::vector<KeyRule> rules = [] {
+    std::vector<KeyRule> all = schema::data_keys();
+    for (KeyRule& rule : schema::stage_keys())
+      all.push_back(std::move(rule));
+    return all;
+  }();
+  return rules;
+}
+
+const std::vector<SectionRule>& section_rules() {
+  static const std::vector<SectionRule> rules = {
+      {"data", "what was measured, and how the rig's file is read", "", nullptr, data_place},
+      {"data.drop", "rows left out by a quantity, counted in the report",
+       "drop = { tau_R_MPa = { below = 0.1 } }", schema::quantity_names, nullptr},
+      {"data.drop.*", "limits of one quantity", "", nullptr, drop_place},
+      {"data.columns", "canonical name = the file's own, with its unit where it differs",
+       "sigma_n_MPa = { column = \"Normal stress\", unit = \"Pa\" }\n"
+       "tau_R_MPa = { column = \"Friction\", times = \"sigma_n_MPa\" }",
+       schema::column_names, nullptr},
+      {"data.columns.*",
+       "how one canonical column is taken from the file; a text or a number "
+       "instead of a table is its `column`",
+       "", nullptr, column_place},
+      {"data.constants", "quantities that are the same for every row", "sigma_f_MPa = 480.0",
+       schema::constant_names, nullptr},
+      {"models", "which friction laws", "", nullptr, models_place},
+      {"calibration", "how their parameters are found", "", nullptr, nullptr},
+      {"table", "the table that replaces the law", "", nullptr, table_place},
+      {"table.axes", "axes by canonical name; what is left out is chosen by the tool", "",
+       schema::state_names, nullptr},
+      {"table.axes.*", "one axis", "range = [5, 500]\nnodes = 17\nspacing = \"log\"", nullptr,
+       axis_place},
+      {"export", "the friction routines", "", nullptr, export_place},
+      {"export.inputs", "where states come from that the solver does not give",
+       "psi = \"constant:1.0\"", schema::state_names, nullptr},
+      {"verify", "the proof of drift", "", nullptr, nullptr},
+      {"trace", "the search for effects a law lacks", "", nullptr, nullptr},
+      {"output", "where results go", "", nullptr, nullptr},
+  };
+  return rules;
+}
+
+const KeyRule* find_key(const std::string& path) {
+  const auto& rules = key_rules();
+  const auto found = std::find_if(rules.begin(), rules.end(),
+                                  [&](const KeyRule& rule) { return rule.path == path; });
+  return found == rules.end() ? nullptr : &*found;
+}
+
+const SectionRule* find_section(const std::string& path) {
+  const auto& rules = section_rules();
+  const auto found = std::find_if(rules.begin(), rules.end(),
+                                  [&](const SectionRule& rule) { return rule.path == path; });
+  return found == rules.end() ? nullptr : &*found;
+}
+
+std::string expected(const KeyRule& rule) {
+  if (rule.allowed.names && rule.allowed.noun.empty()) return either(rule.allowed.names());
+  const std::string noun = rule.allowed.names ? "the name of a " + rule.allowed.noun : "a text";
+  switch (rule.type) {
+  case KeyType::text:
+    return noun;
+  case KeyType::texts:
+    return noun + (rule.allowed.names ? " or a list of them" : " or a list of texts");
+  case KeyType::column:
+    return "a text, a list of texts or " + with_bounds("a column number", rule.bounds);
+  case KeyType::whole:
+    return with_bounds("a whole number", rule.bounds);
+  case KeyType::number:
+    return with_bounds("a number", rule.bounds);
+  case KeyType::range:
+    return "two numbers [from, to] with from < to";
+  case KeyType::flag:
+    return "true or false";
+  }
+  return "";
+}
+
+std::string default_text(const KeyRule& rule) {
+  return rule.show ? rule.show(Job{}) : "";
+}
+
+} // namespace frictab

@@ -1,0 +1,234 @@
+// The stages of a job, each a screen of named steps.
+#include "run/pipeline.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "calibrate/calibration_file.h"
+#include "codegen/exporter.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "data/load.h"
+#include "report/report.h"
+#include "table/build.h"
+#include "table/table_file.h"
+#include "verify/verify.h"
+
+namespace frictab {
+
+namespace fs = std::filesystem;
+
+Pipeline::Pipeline(Job job) : job_(std::move(job)), output_(job_.directory) {}
+
+void Pipeline::need_data() {
+  if (training_) return;
+  training_ = load_dataset(job_.data.training, job_.data);
+  if (!job_.data.validation.empty()) {
+    validation_ = load_dataset(job_.data.validation, job_.data);
+    return;
+  }
+  Split split = hold_out(*training_, job_.data.holdout, job_.calibration.seed);
+  training_ = std::move(split.training);
+  validation_ = std::move(split.validation);
+}
+
+void Pipeline::need_calibration() {
+  if (calibration_) return;
+  const fs::path file = fs::path(job_.directory) / "calibration.json";
+  if (!fs::exists(file))
+    throw InputError({file.string(), 0, 0}, "there is no calibration yet",
+                     "run `frictab calibrate " + job_.file + "` first");
+  calibration_ = parse_calibration(read_file(file), file.string());
+}
+
+void Pipeline::need_tables() {
+  if (have_tables_) return;
+  const fs::path directory = fs::path(job_.directory) / "tables";
+  std::vector<fs::path> files;
+  if (fs::is_directory(directory))
+    for (const auto& entry : fs::directory_iterator(directory))
+      if (entry.path().extension() == ".h5") files.push_back(entry.path());
+  if (files.empty())
+    throw InputError({directory.string(), 0, 0}, "there are no tables yet",
+                     "run `frictab tabulate " + job_.file + "` first");
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files)
+    tables_.push_back(read_table(file));
+  have_tables_ = true;
+}
+
+const Model& Pipeline::model(const std::string& name) {
+  need_calibration();
+  for (const ModelFit& fit : calibration_->fits)
+    if (fit.model.law->name == name) return fit.model;
+  throw InputError({job_.file, 0, 0}, "law '" + name + "' is not in calibration.json",
+                   "calibrate it, or tabulate again");
+}
+
+std::vector<const ModelFit*> Pipeline::chosen_fits() {
+  std::vector<const ModelFit*> chosen;
+  const auto choose = [&](const ModelFit& fit) {
+    if (std::find(chosen.begin(), chosen.end(), &fit) == chosen.end()) chosen.push_back(&fit);
+  };
+  for (const std::string& name : job_.table.model) {
+    if (name == "best") choose(calibration_->fits.front());
+    bool found = name == "best" || name == "all";
+    for (const ModelFit& fit : calibration_->fits)
+      if (name == "all" || fit.model.law->name == name) {
+        choose(fit);
+        found = true;
+      }
+    if (!found)
+      throw InputError(job_.table.place, "table.model: law '" + name + "' was not calibrated",
+                       "add it to models.use, or map the columns it needs");
+  }
+  return chosen;
+}
+
+std::string Pipeline::export_directory(const std::string& target, const Table& table) const {
+  return "export/" + target + (tables_.size() > 1 ? "/" + table.model : "");
+}
+
+void Pipeline::calibrate() {
+  need_data();
+  calibration_ = frictab::calibrate({*training_, *validation_, job_.models, job_.calibration});
+  output_.replace_directory("models");
+  output_.write("calibration.json", calibration_json(*calibration_));
+  output_.write("benchmark.md", benchmark_md(*calibration_));
+  for (const ModelFit& fit : calibration_->fits)
+    output_.write("models/" + fit.model.law->name + ".json", model_json(fit, *calibration_));
+}
+
+void Pipeline::tabulate() {
+  need_data();
+  need_calibration();
+  output_.replace_directory("tables");
+  tables_.clear();
+  const auto fits = chosen_fits();
+  Progress progress("tabulating", fits.size());
+  for (const ModelFit* fit : fits) {
+    const auto ranges = state_ranges(fit->model, *training_, job_.table);
+    Table table = build_table(fit->model, ranges, job_.table);
+    table.text_attributes["tool_version"] = FRICTAB_VERSION;
+    table.text_attributes["data_hash"] = calibration_->data_hash;
+    table.text_attributes["data_origin"] = calibration_->synthetic ? "synthetic" : "measured";
+    // The drift a user can rely on is measured before the file is written.
+    const VerifyInput input{fit->model,
+                            table,
+                            "the new table",
+                            &*validation_,
+                            job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa),
+                            job_.verify.samples};
+    const DriftRecord drift = frictab::verify(input, {}).front();
+    table.number_attributes["worst_case_MPa"] = drift.worst_case_MPa;
+    for (const auto& [name, value] : drift.worst_state)
+      table.number_attributes["worst_case_at_" + name] = value;
+    write_table(table, output_.stage("tables/" + table.model + ".h5"));
+    tables_.push_back(std::move(table));
+    progress.tick();
+  }
+  have_tables_ = true;
+}
+
+namespace {
+
+std::vector<const Exporter*> chosen_exporters(const ExportOptions& options) {
+  std::vector<const Exporter*> chosen;
+  for (const Exporter& exporter : all_exporters())
+    for (const std::string& name : options.targets)
+      if (name == "all" || name == exporter.name) {
+        chosen.push_back(&exporter);
+        break;
+      }
+  return chosen;
+}
+
+} // namespace
+
+void Pipeline::generate() {
+  need_tables();
+  output_.replace_directory("export");
+  for (const Table& table : tables_)
+    for (const Exporter* exporter : chosen_exporters(job_.exports)) {
+      const std::string directory = export_directory(exporter->name, table);
+      sources_[directory] = exporter->generate({table, job_.exports.units, job_.exports.inputs});
+      for (const auto& [path, text] : sources_[directory])
+        output_.write(directory + "/" + path, text);
+    }
+}
+
+namespace {
+
+SourceBundle read_bundle(const fs::path& directory) {
+  SourceBundle bundle;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    if (entry.is_regular_file())
+      bundle[fs::relative(entry.path(), directory).string()] = read_file(entry.path());
+  return bundle;
+}
+
+} // namespace
+
+void Pipeline::verify() {
+  need_data();
+  need_calibration();
+  need_tables();
+  const double allowed = job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa);
+  verification_ = Verification{allowed, {}};
+  Progress progress("verifying", tables_.size());
+  for (const Table& table : tables_) {
+    std::vector<GeneratedSource> sources;
+    for (const Exporter* exporter : chosen_exporters(job_.exports)) {
+      const std::string directory = export_directory(exporter->name, table);
+      const fs::path written = fs::path(job_.directory) / directory;
+      if (!sources_.count(directory)) {
+        if (!fs::is_directory(written))
+          throw InputError({written.string(), 0, 0}, "there are no generated sources",
+                           "run `frictab export " + job_.file + "` first");
+        sources_[directory] = read_bundle(written);
+      }
+      sources.push_back(
+          {exporter, {table, job_.exports.units, job_.exports.inputs}, sources_[directory]});
+    }
+    const std::string name = job_.directory + "/tables/" + table.model + ".h5";
+    const auto records = frictab::verify(
+        {model(table.model), table, name, &*validation_, allowed, job_.verify.samples}, sources);
+    verification_->records.insert(verification_->records.end(), records.begin(), records.end());
+    progress.tick();
+  }
+  output_.write("verify.json", verification_json(*verification_));
+  output_.write("verify.xml", verification_junit(*verification_));
+}
+
+void Pipeline::report() {
+  need_data();
+  need_calibration();
+  need_tables();
+  if (!verification_) {
+    const fs::path file = fs::path(job_.directory) / "verify.json";
+    verification_ =
+        fs::exists(file) ? parse_verification(read_file(file), file.string()) : Verification{};
+  }
+  std::vector<std::vector<double>> predicted;
+  for (const ModelFit& fit : calibration_->fits)
+    predicted.push_back(predict(fit.model, *validation_));
+  std::vector<std::string> written = output_.paths();
+  written.push_back("report.html");
+  const ReportInput input{fs::path(job_.file).filename().string(),
+                          *calibration_,
+                          *training_,
+                          *validation_,
+                          std::move(predicted),
+                          tables_,
+                          *verification_,
+                          std::move(written)};
+  output_.write("report.html", report_html(input));
+}
+
+void Pipeline::commit() {
+  output_.commit();
+}
+
+} // namespace frictab

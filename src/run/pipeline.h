@@ -1,0 +1,66 @@
+// The stages of a job in a row. Each takes what it needs from memory, or from the files that the
+// stage before it wrote.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/calibration.h"
+#include "io/atomic_file.h"
+#include "job/job.h"
+#include "table/table.h"
+#include "verify/verification.h"
+
+namespace frictab {
+
+class Pipeline {
+public:
+  explicit Pipeline(Job job);
+
+  // Stages; each stages its files in the output directory. Nothing appears there before commit().
+  void calibrate();
+  void tabulate();
+  void generate(); // sources
+  void verify();
+  void report();
+  // Moves all files into place.
+  void commit();
+
+  // What the stages found, for summaries. Empty where the stage did not run.
+  const Job& job() const { return job_; }
+  const std::optional<Dataset>& training() const { return training_; }
+  const std::optional<Dataset>& validation() const { return validation_; }
+  const std::optional<Calibration>& calibration() const { return calibration_; }
+  const std::vector<Table>& tables() const { return tables_; }
+  const std::optional<Verification>& verification() const { return verification_; }
+  std::vector<std::string> files() const { return output_.paths(); }
+
+private:
+  void need_data();
+  void need_calibration();
+  void need_tables();
+  const Model& model(const std::string& name);
+  std::vector<const ModelFit*> chosen_fits();
+  // "export/c" where there is one table, "export/c/<model>" where there are several.
+  std::string export_directory(const std::string& target, const Table& table) const;
+
+  Job job_;
+  OutputFiles output_;
+  std::optional<Dataset> training_;
+  std::optional<Dataset> validation_;
+  std::optional<Calibration> calibration_;
+  std::vector<Table> tables_;
+  bool have_tables_ = false;
+  std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
+  std::optional<Verification> verification_;
+};
+
+// The summary of what a pipeline holds, as text that is read in ten seconds, or as JSON.
+std::string summary_text(const Pipeline& pipeline);
+std::string drift_text(const Verification& verification); // the drift section alone
+std::string summary_json(const Pipeline& pipeline);
+
+} // namespace frictab

@@ -1,0 +1,104 @@
+// Over which states a table holds.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "data/quantity.h"
+#include "table/build.h"
+
+namespace frictab {
+
+namespace {
+
+StateRange data_range(const std::string& name, const Dataset& data) {
+  const auto values = data.values(name);
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {name, *low, *high, "training data"};
+}
+
+// Share of [a, b] that [low, high] covers, in the coordinate of the axis.
+double coverage(const StateRange& range, double a, double b, bool log) {
+  const auto u = [&](double x) { return log ? std::log(std::max(x, a * 1e-3)) : x; };
+  return (std::min(u(range.high), u(b)) - std::max(u(range.low), u(a))) / (u(b) - u(a));
+}
+
+StateRange default_range(const Quantity& quantity, const Dataset& data) {
+  StateRange range = data_range(quantity.name, data);
+  if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
+    range.low *= 0.5;
+    range.high *= 2;
+    range.why = "half to twice the training data";
+    return range;
+  }
+  if (quantity.paper_range) {
+    const auto [a, b] = *quantity.paper_range;
+    if (coverage(range, a, b, quantity.log_axis) >= 0.5) {
+      range.low = std::min(range.low, a);
+      range.high = std::max(range.high, b);
+      range.why = "Table 1 and training data";
+    }
+  }
+  if (range.low == range.high) { // a grid needs two nodes
+    const double width = 0.01 * std::max(std::abs(range.low), 1e-6);
+    range.low = std::max(range.low - width, quantity.lowest);
+    range.high += width;
+    range.why = "training data, one value widened by 1 %";
+  }
+  return range;
+}
+
+StateRange asked_range(const Quantity& quantity, const AxisOptions& axis) {
+  const auto [low, high] = *axis.range;
+  if (low < quantity.lowest)
+    throw InputError(
+        axis.place,
+        fmt::format("the range of {} starts at {}, below {}", quantity.name, low, quantity.lowest),
+        "a " + quantity.meaning + " cannot be smaller");
+  return {quantity.name, low, high, "job file"};
+}
+
+} // namespace
+
+std::vector<StateRange> state_ranges(const Model& model, const Dataset& training,
+                                     const TableOptions& options) {
+  std::vector<StateRange> ranges;
+  for (const std::string& name : inputs(*model.law, model.conventions)) {
+    const Quantity& quantity = *find_quantity(name);
+    const auto found = options.axes.find(name);
+    if (found != options.axes.end() && found->second.range)
+      ranges.push_back(asked_range(quantity, found->second));
+    else
+      ranges.push_back(default_range(quantity, training));
+  }
+  return ranges;
+}
+
+std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
+                                     const std::string& file) {
+  std::vector<StateRange> ranges;
+  for (const std::string& name : table.inputs()) {
+    const auto low = table.number_attributes.find("range_low_" + name);
+    const auto high = table.number_attributes.find("range_high_" + name);
+    const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
+                                   [&](const TableAxis& a) { return a.name == name; });
+    if (axis != table.axes.end())
+      ranges.push_back({name, axis->nodes.front(), axis->nodes.back(), "axis"});
+    else if (low != table.number_attributes.end() && high != table.number_attributes.end() &&
+             low->second <= high->second)
+      ranges.push_back({name, low->second, high->second, "attribute"});
+    else if (data && data->has(name))
+      ranges.push_back(data_range(name, *data));
+    else
+      throw InputError({file, 0, 0},
+                       "the range of " + name +
+                           " is not known: it is no axis, and the table has no "
+                           "attributes range_low_" +
+                           name + " and range_high_" + name,
+                       "add the two attributes, or give --data with that column");
+  }
+  return ranges;
+}
+
+} // namespace frictab

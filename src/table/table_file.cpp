@@ -1,0 +1,189 @@
+// Writes and reads tables as HDF5 with dimension scales.
+#include "table/table_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/hdf5.h"
+#include "table/frictab_kernel.h"
+
+namespace frictab {
+
+void write_table(const Table& table, const std::filesystem::path& file, int compress) {
+  Hdf5Writer out(file);
+  std::vector<std::size_t> shape;
+  for (const TableAxis& axis : table.axes) {
+    const std::size_t size = axis.nodes.size();
+    shape.push_back(size);
+    out.dataset(axis.name, {&size, 1}, axis.nodes);
+    out.attribute(axis.name, "units", axis.unit);
+    out.attribute(axis.name, "long_name", axis.long_name);
+    out.attribute(axis.name, "transform", std::string(axis.log ? "log" : "linear"));
+  }
+  out.dataset("value", shape, table.value, compress);
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    out.dimension_scale("value", a, table.axes[a].name);
+  out.attribute("value", "quantity", table.quantity);
+  out.attribute("value", "units", std::string(table.quantity == "mu" ? "1" : "MPa"));
+  out.attribute("value", "transform", std::string(table.log_value ? "log" : "linear"));
+  out.attribute("value", "interpolation", table.interpolation);
+  out.attribute("value", "combine", to_text(table.combine));
+  std::vector<std::string> names;
+  for (const auto& [name, value] : table.constants) {
+    out.attribute("value", name, value);
+    names.push_back(name);
+  }
+  out.attribute("value", "constants", join(names, " "));
+  out.attribute("/", "schema", std::string("frictab/table/1"));
+  for (const auto& [name, text] : table.text_attributes)
+    out.attribute("/", name, text);
+  for (const auto& [name, value] : table.number_attributes)
+    out.attribute("/", name, value);
+  out.close();
+}
+
+namespace {
+
+class TableReader {
+public:
+  explicit TableReader(const std::filesystem::path& file)
+      : named_(file.string()), in_(file, file.string()) {}
+
+  Table read() {
+    if (!in_.has("value")) {
+      fault("there is no dataset 'value': this is no friction table",
+            "a table has one dataset 'value' and one dimension scale per axis");
+      faults_.throw_if_any();
+    }
+    read_value();
+    read_axes();
+    faults_.throw_if_any();
+    read_combine();
+    faults_.throw_if_any();
+    for (const std::string& name : in_.attributes("/")) {
+      if (const auto text = in_.text_attribute("/", name))
+        table_.text_attributes[name] = *text;
+      else if (const auto number = in_.number_attribute("/", name))
+        table_.number_attributes[name] = *number;
+    }
+    table_.text_attributes.erase("schema");
+    if (const auto found = table_.text_attributes.find("model");
+        found != table_.text_attributes.end())
+      table_.model = found->second;
+    return std::move(table_);
+  }
+
+private:
+  void fault(const std::string& what, const std::string& hint = "") {
+    faults_.add({named_, 0, 0}, what, hint);
+  }
+
+  std::string text(const std::string& object, const std::string& name,
+                   std::initializer_list<const char*> allowed) {
+    const auto found = in_.text_attribute(object, name);
+    const std::vector<std::string> known(allowed.begin(), allowed.end());
+    if (!found) {
+      fault(fmt::format("'{}' has no text attribute '{}'", object, name),
+            known.empty() ? "" : "it is one of " + join(known, ", "));
+      return "";
+    }
+    if (!known.empty() && std::find(known.begin(), known.end(), *found) == known.end())
+      fault(fmt::format("attribute '{}' of '{}' is '{}'", name, object, *found),
+            "it is one of " + join(known, ", "));
+    return *found;
+  }
+
+  void read_value() {
+    shape_ = in_.shape("value");
+    if (shape_.size() > FT_MAX_AXES) {
+      fault(fmt::format("'value' has {} axes", shape_.size()),
+            fmt::format("a table has at most {}", FT_MAX_AXES));
+      faults_.throw_if_any();
+    }
+    table_.value = in_.values("value");
+    table_.quantity = text("value", "quantity", {"mu", "tau_R"});
+    table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
+    table_.interpolation = text("value", "interpolation", {"linear"});
+    for (std::size_t i = 0; i < table_.value.size(); ++i)
+      if (!std::isfinite(table_.value[i])) {
+        fault(fmt::format("value {} of {} is not finite", i, table_.value.size()));
+        break;
+      }
+  }
+
+  void read_axes() {
+    for (std::size_t a = 0; a < shape_.size(); ++a) {
+      const auto name = in_.scale("value", a);
+      if (!name) {
+        fault(fmt::format("axis {} of 'value' has no dimension scale", a),
+              "attach one with the canonical name of its quantity");
+        continue;
+      }
+      TableAxis axis;
+      axis.name = *name;
+      axis.nodes = in_.values(axis.name);
+      axis.unit = text(axis.name, "units", {});
+      axis.long_name = in_.text_attribute(axis.name, "long_name").value_or("");
+      axis.log = text(axis.name, "transform", {"linear", "log"}) == "log";
+      check_axis(axis, shape_[a]);
+      table_.axes.push_back(axis);
+    }
+  }
+
+  void check_axis(const TableAxis& axis, std::size_t size) {
+    if (axis.nodes.size() != size)
+      fault(fmt::format("axis '{}' has {} nodes, 'value' has {}", axis.name, axis.nodes.size(),
+                        size));
+    if (axis.nodes.size() < 2) fault(fmt::format("axis '{}' has fewer than 2 nodes", axis.name));
+    for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
+      const bool ascending = i == 0 || axis.nodes[i] > axis.nodes[i - 1];
+      if (!std::isfinite(axis.nodes[i]) || !ascending) {
+        fault(fmt::format("axis '{}' does not ascend at node {}", axis.name, i));
+        break;
+      }
+    }
+    if (axis.log && !axis.nodes.empty() && axis.nodes.front() <= 0)
+      fault(
+          fmt::format("axis '{}' is logarithmic and starts at {}", axis.name, axis.nodes.front()));
+    const Quantity* quantity = find_quantity(axis.name);
+    if (quantity && axis.unit != quantity->unit)
+      fault(fmt::format("axis '{}' is in '{}'", axis.name, axis.unit),
+            "its unit is " + quantity->unit);
+  }
+
+  void read_combine() {
+    const std::string formula = text("value", "combine", {});
+    faults_.throw_if_any();
+    table_.combine = parse_expr(formula, named_);
+    for (const std::string& name : symbols(table_.combine)) {
+      const Quantity* quantity = find_quantity(name);
+      const bool axis = std::any_of(table_.axes.begin(), table_.axes.end(),
+                                    [&](const TableAxis& one) { return one.name == name; });
+      if (name == "value" || axis || (quantity && quantity->state)) continue;
+      if (const auto number = in_.number_attribute("value", name))
+        table_.constants[name] = *number;
+      else
+        fault(fmt::format("combine uses '{}', which is no state and no attribute of 'value'", name),
+              "add the constant as a number attribute of 'value'");
+    }
+  }
+
+  std::string named_;
+  Hdf5Reader in_;
+  FaultList faults_;
+  Table table_;
+  std::vector<std::size_t> shape_;
+};
+
+} // namespace
+
+Table read_table(const std::filesystem::path& file) {
+  return TableReader(file).read();
+}
+
+} // namespace frictab

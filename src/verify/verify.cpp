@@ -1,0 +1,187 @@
+// Drift of tables and generated sources on the validation rows and over the whole range.
+#include "verify/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "codegen/compile.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "table/drift.h"
+
+namespace frictab {
+
+namespace {
+
+using Columns = std::vector<const double*>;
+
+// States in the order of the table's inputs, with the law's and the table's answer.
+struct Reference {
+  std::vector<std::vector<double>> states; // one vector per input
+  std::vector<double> law;
+  std::vector<double> table;
+  std::vector<unsigned> outside;
+  Columns columns() const {
+    Columns pointers;
+    for (const auto& column : states)
+      pointers.push_back(column.data());
+    return pointers;
+  }
+  std::size_t rows() const { return law.size(); }
+};
+
+double difference(double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) return 0;
+  const double d = std::abs(a - b);
+  return std::isnan(d) ? HUGE_VAL : d;
+}
+
+// Everything of one table that its sources are compared with.
+struct Subjects {
+  std::vector<std::string> names; // the table's inputs
+  Reference rows;
+  Reference range;
+  WorstCase worst;
+};
+
+void evaluate(Reference& reference, std::size_t count, const LawFunction& law,
+              const TableFunction& table) {
+  reference.law.resize(count);
+  reference.table.resize(count);
+  reference.outside.resize(count);
+  const Columns columns = reference.columns();
+  law.evaluate(count, columns, reference.law.data());
+  table.evaluate(count, columns, reference.table, reference.outside);
+}
+
+Subjects prepare(const VerifyInput& input) {
+  Subjects s;
+  s.names = input.table.inputs();
+  for (const std::string& name : inputs(*input.model.law, input.model.conventions))
+    if (std::find(s.names.begin(), s.names.end(), name) == s.names.end())
+      throw InputError({input.table_name, 0, 0},
+                       fmt::format("the law {} needs {}, which this table neither has as an axis "
+                                   "nor uses in its combine formula",
+                                   input.model.law->name, name),
+                       "verify a table against the model it was made from");
+  const LawFunction law(input.model, s.names);
+  const TableFunction table(input.table);
+  const auto ranges = table_ranges(input.table, input.rows, input.table_name);
+  s.range.states = probe_points(ranges, input.table.axes, input.samples);
+  s.worst = worst_case(law, table, ranges, s.range.states);
+  for (std::size_t d = 0; d < ranges.size(); ++d) // sources are looked at there as well
+    s.range.states[d].push_back(s.worst.state[d]);
+  evaluate(s.range, s.range.states.front().size(), law, table);
+  if (input.rows) {
+    for (const std::string& name : s.names) {
+      if (!input.rows->has(name))
+        throw InputError({join(input.rows->sources, ", "), 0, 0},
+                         "the data have no column " + name + ", which the table needs");
+      const auto values = input.rows->values(name);
+      s.rows.states.emplace_back(values.begin(), values.end());
+    }
+    evaluate(s.rows, input.rows->rows(), law, table);
+  }
+  return s;
+}
+
+void compare_rows(DriftRecord& record, const Reference& reference,
+                  const std::vector<double>& answer) {
+  std::vector<double> inside;
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < reference.rows(); ++i) {
+    const double d = difference(answer[i], reference.law[i]);
+    if (reference.outside[i]) {
+      ++record.n_outside;
+      record.max_abs_outside_MPa = std::max(record.max_abs_outside_MPa, d);
+      continue;
+    }
+    inside.push_back(d);
+    sum += d;
+    squares += d * d;
+  }
+  record.n_rows = reference.rows();
+  if (inside.empty()) return;
+  const auto count = static_cast<double>(inside.size());
+  record.rows.mean_abs = sum / count;
+  record.rows.rms = std::sqrt(squares / count);
+  record.rows.max_abs = *std::max_element(inside.begin(), inside.end());
+  const auto at = static_cast<long>(std::ceil(0.99 * count)) - 1;
+  std::nth_element(inside.begin(), inside.begin() + at, inside.end());
+  record.rows.p99 = inside[static_cast<std::size_t>(at)];
+}
+
+void compare_range(DriftRecord& record, const Subjects& s, const std::vector<double>& answer) {
+  std::size_t at = 0;
+  record.n_points = s.range.rows();
+  record.worst_case_MPa = -1;
+  for (std::size_t i = 0; i < s.range.rows(); ++i) {
+    const double d = difference(answer[i], s.range.law[i]);
+    record.max_vs_table_MPa =
+        std::max(record.max_vs_table_MPa, difference(answer[i], s.range.table[i]));
+    if (d > record.worst_case_MPa) {
+      record.worst_case_MPa = d;
+      at = i;
+    }
+  }
+  for (std::size_t d = 0; d < s.names.size(); ++d)
+    record.worst_state[s.names[d]] = s.range.states[d][at];
+}
+
+DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
+                    const std::function<void(const Reference&, std::vector<double>&)>& answer) {
+  DriftRecord record;
+  record.model = input.model.law->name;
+  record.subject = subject;
+  for (const Reference* reference : {&s.rows, &s.range}) {
+    std::vector<double> tau(reference->rows());
+    if (reference->rows() == 0) continue;
+    answer(*reference, tau);
+    if (reference == &s.rows)
+      compare_rows(record, *reference, tau);
+    else
+      compare_range(record, s, tau);
+  }
+  record.passed =
+      record.rows.max_abs <= input.max_drift_MPa && record.worst_case_MPa <= input.max_drift_MPa;
+  return record;
+}
+
+DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
+                           const GeneratedSource& source, const BuildVariant& variant) {
+  const std::string subject = source.exporter->name + "/" + variant.name;
+  if (!have_program(variant.command.front())) {
+    DriftRecord record;
+    record.model = input.model.law->name;
+    record.subject = subject;
+    record.ran = false;
+    record.why_not = "there is no " + variant.command.front() + " on this machine";
+    return record;
+  }
+  const TemporaryDirectory directory;
+  const Library library(compile_library(source.bundle, variant, directory.path()));
+  return compare(input, s, subject, [&](const Reference& reference, std::vector<double>& tau) {
+    source.exporter->drive(library.handle(), variant, source.request, reference.rows(),
+                           reference.columns(), tau);
+  });
+}
+
+} // namespace
+
+std::vector<DriftRecord> verify(const VerifyInput& input,
+                                const std::vector<GeneratedSource>& sources) {
+  const Subjects s = prepare(input);
+  std::vector<DriftRecord> records;
+  records.push_back(compare(input, s, "table",
+                            [](const Reference& r, std::vector<double>& tau) { tau = r.table; }));
+  records.back().n_points = s.worst.points;
+  for (const GeneratedSource& source : sources)
+    for (const BuildVariant& variant : source.exporter->variants(source.request))
+      records.push_back(verify_variant(input, s, source, variant));
+  return records;
+}
+
+} // namespace frictab

@@ -1,0 +1,37 @@
+// Measures drift: a table, and sources generated from it, against the law.
+#pragma once
+
+#include <filesystem>
+
+#include "codegen/exporter.h"
+#include "table/build.h"
+#include "verify/verification.h"
+
+namespace frictab {
+
+// What one table is held against.
+struct VerifyInput {
+  const Model& model;
+  const Table& table;
+  std::string table_name;        // for messages
+  const Dataset* rows = nullptr; // validation rows; may be absent
+  double max_drift_MPa = 0.5;
+  std::size_t samples = 200000; // points over the whole range
+};
+
+// Compares the table, then each variant of each bundle. A variant whose compiler is absent is
+// recorded as not run, with the reason. Throws InputError where table and model do not fit.
+struct GeneratedSource {
+  const Exporter* exporter;
+  ExportRequest request;
+  SourceBundle bundle;
+};
+std::vector<DriftRecord> verify(const VerifyInput& input,
+                                const std::vector<GeneratedSource>& sources);
+
+// verify.json and verify.xml (JUnit).
+std::string verification_json(const Verification& verification);
+Verification parse_verification(std::string_view text, const std::string& file);
+std::string verification_junit(const Verification& verification);
+
+} // namespace frictab

@@ -1,0 +1,123 @@
+// verify.json and JUnit XML.
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include "io/json.h"
+#include "verify/verify.h"
+
+namespace frictab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
+  std::string state;
+  for (const auto& [name, value] : record.worst_state)
+    state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", name, value);
+  return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows; allowed "
+                     "{:.6g} MPa",
+                     record.worst_case_MPa, state, record.rows.max_abs, max_drift_MPa);
+}
+
+Json record_json(const DriftRecord& record) {
+  Json j = {{"model", record.model}, {"subject", record.subject}, {"ran", record.ran}};
+  if (!record.ran) {
+    j["why_not"] = record.why_not;
+    return j;
+  }
+  j["passed"] = record.passed;
+  j["max_abs_MPa"] = record.rows.max_abs;
+  j["mean_abs_MPa"] = record.rows.mean_abs;
+  j["rms_MPa"] = record.rows.rms;
+  j["p99_MPa"] = record.rows.p99;
+  j["n_rows"] = record.n_rows;
+  j["share_outside"] = record.n_rows == 0 ? 0.0
+                                          : static_cast<double>(record.n_outside) /
+                                                static_cast<double>(record.n_rows);
+  j["max_abs_outside_MPa"] = record.max_abs_outside_MPa;
+  j["worst_case_MPa"] = record.worst_case_MPa;
+  j["worst_case_at"] = record.worst_state;
+  j["n_points"] = record.n_points;
+  if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
+  return j;
+}
+
+} // namespace
+
+std::string verification_json(const Verification& verification) {
+  Json records = Json::array();
+  for (const DriftRecord& record : verification.records)
+    records.push_back(record_json(record));
+  return json_text({{"schema", "frictab/verify/1"},
+                    {"tool_version", FRICTAB_VERSION},
+                    {"max_drift_MPa", verification.max_drift_MPa},
+                    {"passed", verification.passed()},
+                    {"records", records}});
+}
+
+Verification parse_verification(std::string_view text, const std::string& file) {
+  const Json j = parse_json(text, file);
+  try {
+    Verification verification;
+    verification.max_drift_MPa = j.at("max_drift_MPa");
+    for (const Json& one : j.at("records")) {
+      DriftRecord r;
+      r.model = one.at("model");
+      r.subject = one.at("subject");
+      r.ran = one.at("ran");
+      if (r.ran) {
+        r.passed = one.at("passed");
+        r.rows = {one.at("max_abs_MPa"), one.at("mean_abs_MPa"), one.at("rms_MPa"),
+                  one.at("p99_MPa")};
+        r.n_rows = one.at("n_rows");
+        r.n_outside = static_cast<std::size_t>(
+            one.at("share_outside").get<double>() * static_cast<double>(r.n_rows) + 0.5);
+        r.max_abs_outside_MPa = one.at("max_abs_outside_MPa");
+        r.worst_case_MPa = one.at("worst_case_MPa");
+        r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();
+        r.n_points = one.at("n_points");
+        r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
+      } else
+        r.why_not = one.at("why_not");
+      verification.records.push_back(std::move(r));
+    }
+    return verification;
+  } catch (const Json::exception& error) {
+    throw InputError({file, 0, 0}, std::string("not as frictab writes it: ") + error.what(),
+                     "run frictab verify again");
+  }
+}
+
+std::string verification_junit(const Verification& verification) {
+  pugi::xml_document document;
+  pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
+  std::size_t failures = 0, skipped = 0;
+  for (const DriftRecord& record : verification.records) {
+    failures += record.ran && !record.passed;
+    skipped += !record.ran;
+  }
+  suite.append_attribute("name") = "frictab verify";
+  suite.append_attribute("tests") = static_cast<unsigned>(verification.records.size());
+  suite.append_attribute("failures") = static_cast<unsigned>(failures);
+  suite.append_attribute("skipped") = static_cast<unsigned>(skipped);
+  for (const DriftRecord& record : verification.records) {
+    pugi::xml_node test = suite.append_child("testcase");
+    test.append_attribute("classname") = record.model.c_str();
+    test.append_attribute("name") = record.subject.c_str();
+    if (!record.ran)
+      test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
+    if (record.ran && !record.passed) {
+      const std::string text = failure_text(record, verification.max_drift_MPa);
+      test.append_child("failure").append_attribute("message") = text.c_str();
+    }
+  }
+  std::ostringstream out;
+  document.save(out, "  ");
+  return out.str();
+}
+
+} // namespace frictab

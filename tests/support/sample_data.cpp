@@ -1,0 +1,97 @@
+// Small campaigns for tests.
+#include "support/sample_data.h"
+
+#include <cmath>
+#include <map>
+
+#include "calibrate/calibration.h"
+#include "core/random.h"
+#include "data/quantity.h"
+
+namespace frictab::test {
+
+namespace {
+
+struct Range {
+  double low, high;
+  bool log;
+};
+
+const std::map<std::string, Range> ranges = {
+    {"sigma_n_MPa", {500, 2750, false}},
+    {"psi", {1, 20, true}},
+    {"v_rel_mm_s", {5, 500, true}},
+    {"T_contact_C", {20, 200, false}},
+    {"s_mm", {0, 20, false}},
+    {"sigma_f_MPa", {300, 900, false}},
+};
+
+double draw(const Range& r, Random& random) {
+  return r.log ? std::exp(random.uniform(std::log(r.low), std::log(r.high)))
+               : random.uniform(r.low, r.high);
+}
+
+} // namespace
+
+Dataset sample_data(const Model& truth, const SampleOptions& options) {
+  Dataset data;
+  for (const auto& [name, range] : ranges)
+    data.columns.push_back({name, find_quantity(name)->unit, {}, {}});
+  Random random(options.seed);
+  std::vector<double> factor;
+  for (std::size_t e = 0; e < options.experiments; ++e) {
+    std::map<std::string, std::pair<double, double>> path;
+    for (const auto& [name, range] : ranges)
+      path[name] = {draw(range, random), draw(range, random)};
+    for (std::size_t i = 0; i < options.rows; ++i) {
+      const double x = static_cast<double>(i) / static_cast<double>(options.rows - 1);
+      for (Column& column : data.columns) {
+        const auto [a, b] = path[column.name];
+        column.values.push_back(a + x * (b - a));
+      }
+    }
+    factor.push_back(std::exp(options.experiment_scatter * random.normal()));
+    data.experiments.push_back("E" + std::to_string(e));
+    data.first_row.push_back(data.first_row.back() + options.rows);
+  }
+  std::vector<double> tau = predict(truth, data);
+  for (std::size_t e = 0; e < options.experiments; ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      tau[i] = tau[i] * factor[e] + options.noise_MPa * random.normal();
+  data.columns.push_back({"tau_R_MPa", "MPa", tau, {}});
+  data.sources = {"sample"};
+  return data;
+}
+
+Model plausible_model(const Law& law) {
+  static const std::map<std::string, std::vector<double>> truth = {
+      {"coulomb", {0.07}},
+      {"shear", {0.25}},
+      {"orowan", {0.09, 0.35}},
+      {"shaw", {0.12, 0.4, 3.0}},
+      {"wanheim_bay", {0.35}},
+      {"levanov", {0.3}},
+      {"log_coulomb", {0.09, -0.02, 0.006, -0.008, -0.004}},
+      {"exp_coulomb", {0.08, -0.3, -0.001}},
+      {"wzl", {0.4, -0.15, -0.06, -0.05}}};
+  Model model;
+  model.law = &law;
+  if (const auto found = truth.find(law.name); found != truth.end())
+    model.parameters = found->second;
+  else
+    for (const Parameter& parameter : law.parameters)
+      model.parameters.push_back(parameter.start);
+  return model;
+}
+
+std::vector<std::vector<double>> random_states(const std::vector<std::string>& names,
+                                               std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::vector<double>> states(names.size());
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t n = 0; n < names.size(); ++n)
+      states[n].push_back(draw(ranges.at(names[n]), random));
+  return states;
+}
+
+} // namespace frictab::test
