@@ -137,8 +137,7 @@ std::string source_text(const VfricInput& input) {
   case Source::slip:
     return "STATEV(1), accumulated slip under pressure";
   case Source::temperature:
-    return fmt::format("mean of both surfaces, or property {} where the model has no temperatures",
-                       input.property);
+    return fmt::format("mean of both surfaces; property {} where nTemp = 0", input.property);
   case Source::property:
     return fmt::format("property {}", input.property);
   case Source::field:

@@ -33,8 +33,9 @@ Lines comments(const std::vector<std::string>& texts) {
   return lines;
 }
 
+// The first line of a remark: what follows is in the head of the file.
 std::string clip(const std::string& text) {
-  return comment_text(text).substr(0, comment_width - 4);
+  return wrap_text(comment_text(text), comment_width - 4)[0].substr(0, comment_width - 4);
 }
 
 std::string number_or_nan(const VfricInput& input) {
@@ -168,6 +169,7 @@ void add_axes(TemplateValues& values, const Table& table,
   values.text["only_value"] = fortran_number(table.value[0]);
   values.text["value_comment"] =
       clip(fmt::format("{}{}, last axis fastest", table.log_value ? "ln " : "", table.quantity));
+  values.flags["many_axes"] = table.axes.size() > 1;
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["uses_log"] = logarithm;
 }

@@ -29,12 +29,18 @@ Lines items(const std::vector<std::string>& texts) {
   return lines;
 }
 
-// "double a, double b", one piece per argument, broken like the rest of the file.
-std::string parameters(const std::vector<InputArgument>& inputs, std::string_view type) {
+// "double a", "double b", ... one piece per argument.
+std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
+                                    std::string_view type) {
   std::vector<std::string> pieces;
   for (const InputArgument& input : inputs)
     pieces.push_back(fmt::format("{} {}", type, input.argument));
-  return join(pieces, ", ");
+  return pieces;
+}
+
+// Broken into lines; the template sets them in.
+std::string lines(const std::vector<std::string>& pieces) {
+  return number_lines(pieces, 90, "");
 }
 
 std::string canonical(const InputArgument& input) {
@@ -70,21 +76,22 @@ Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>
   return items(lines);
 }
 
-std::string bits(const Table& table) {
+std::vector<std::string> bits(const Table& table) {
   std::vector<std::string> names;
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     names.push_back(fmt::format("{}u {}", 1u << a, comment_text(table.axes[a].name)));
-  return names.empty() ? "none, the table has no axes" : join(names, ", ");
+  if (names.empty()) names.push_back("none, the table has no axes");
+  return names;
 }
 
 std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
                  {"version", FRICTAB_VERSION},
-                 {"bits", bits(request.table)},
-                 {"parameters", parameters(inputs, "double")},
-                 {"arrays", parameters(inputs, "const double*")}};
+                 {"parameters", lines(parameters(inputs, "double"))},
+                 {"arrays", lines(parameters(inputs, "const double*"))}};
   values.lists["about"] = items(about(request));
+  values.lists["bits"] = items(bits(request.table));
   values.lists["inputs"] = input_lines(request, inputs);
   values.lists["notes"] = items(
       {"Outside the range the table's value at the nearest edge is used, while stress and flow",
@@ -188,12 +195,11 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
                                                  table.log_value ? "ln " : "", table.quantity))},
       {"n_values", std::to_string(numbers.size())},
       {"values", number_lines(numbers, 98, "    ")},
-      {"formula", comment_text(to_text(table.combine))},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
-      {"parameters", parameters(inputs, "double")},
-      {"arrays", parameters(inputs, "const double*")},
-      {"names", join(names, ", ")},
-      {"items", join(arrays, ", ")}};
+      {"parameters", lines(parameters(inputs, "double"))},
+      {"arrays", lines(parameters(inputs, "const double*"))},
+      {"names", lines(names)},
+      {"items", lines(arrays)}};
   values.flags = {{"has_axes", !table.axes.empty()}, {"log_value", table.log_value}};
   add_state(values, table, inputs);
   values.lists["unused"] = items(unused(table, inputs, code));
@@ -206,10 +212,10 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
 std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
                    const SourceBundle& files) {
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
-  out["prototypes"] = {"double frictab_tau_R(" + parameters(inputs, "double") + ")",
-                       "unsigned frictab_outside(" + parameters(inputs, "double") + ")",
-                       "void frictab_tau_R_batch(size_t n, " + parameters(inputs, "const double*") +
-                           ", double* tau)"};
+  const std::string one = join(parameters(inputs, "double"), ", ");
+  out["prototypes"] = {"double frictab_tau_R(" + one + ")", "unsigned frictab_outside(" + one + ")",
+                       "void frictab_tau_R_batch(size_t n, " +
+                           join(parameters(inputs, "const double*"), ", ") + ", double* tau)"};
   out["arguments"] = nlohmann::ordered_json::array();
   for (const InputArgument& input : inputs)
     out["arguments"].push_back({{"name", input.argument},

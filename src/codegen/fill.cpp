@@ -160,8 +160,10 @@ std::string fortran_number(double value) {
 }
 
 std::string range_text(const InputArgument& input, const TableAxis& axis) {
-  return fmt::format("{:.6g} .. {:.6g} {}", input.solver.from_canonical(axis.nodes.front()),
-                     input.solver.from_canonical(axis.nodes.back()), input.solver.name);
+  const std::string range =
+      fmt::format("{:.6g} .. {:.6g}", input.solver.from_canonical(axis.nodes.front()),
+                  input.solver.from_canonical(axis.nodes.back()));
+  return input.solver.name == "1" ? range : range + " " + input.solver.name;
 }
 
 std::string drift_text(const Table& table) {
@@ -177,11 +179,11 @@ std::string origin_text(const Table& table) {
                                                                          : origin->second;
 }
 
-std::string number_lines(const std::vector<std::string>& numbers, std::size_t width,
+std::string number_lines(const std::vector<std::string>& items, std::size_t width,
                          const std::string& indent) {
   std::string out, line = indent;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::string item = numbers[i] + (i + 1 < numbers.size() ? "," : "");
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string item = items[i] + (i + 1 < items.size() ? "," : "");
     const bool first = line.size() == indent.size();
     if (!first && line.size() + 1 + item.size() > width) {
       out += line + "\n";

@@ -65,8 +65,8 @@ std::string range_text(const InputArgument& input, const TableAxis& axis);
 std::string drift_text(const Table& table);
 std::string origin_text(const Table& table);
 
-// Numbers broken into lines of at most `width` columns behind `indent`.
-std::string number_lines(const std::vector<std::string>& numbers, std::size_t width,
+// Items with commas between them, broken into lines of at most `width` columns behind `indent`.
+std::string number_lines(const std::vector<std::string>& items, std::size_t width,
                          const std::string& indent);
 
 // Text broken at blanks into lines of at most `width` columns.

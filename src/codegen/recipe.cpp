@@ -71,7 +71,8 @@ json recipe_table(const ExportRequest& request) {
 }
 
 std::string recipe_text(const json& recipe) {
-  return recipe.dump(2) + "\n";
+  // Texts of a foreign table may be no UTF-8.
+  return recipe.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 } // namespace frictab

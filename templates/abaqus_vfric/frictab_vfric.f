@@ -12,7 +12,7 @@ C     @{line.text}
 @end
 C     Outside the range the table's value at the nearest edge is
 C     used; stress and flow stress enter the formula unchanged.
-C     NaN in gives NaN out.
+C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
 C     takes the value in brackets):
@@ -66,7 +66,7 @@ C
      2 tempMain(numDefTfv), preDefMain(numDefTfv,nPred)
 C
 C     All that is computed is double precision, whatever the solver's
-C     precision; conversion is by assignment only.
+C     precision.
       double precision x(@{n_x}), pnorm, area, stick, slip, comp
       double precision speed, dtime, press, fric, fprev, ssum
       double precision fttau
@@ -265,7 +265,10 @@ C     are never changed: safe in threads and parallel domains.
       parameter (nvals = @{n_values}, ncorn = @{n_corners})
       double precision u(naxes)
       integer d, cell, size, base, at, i, corn
-      integer stride(naxes), nax(naxes), off(naxes)
+      integer nax(naxes), off(naxes)
+@if many_axes
+      integer stride(naxes)
+@end
       double precision corner(ncorn), w(naxes), wd
       double precision ps(naxes), un(nnodes), tv(nvals)
       save nax, off, ps, un, tv
@@ -281,7 +284,9 @@ C     @{value_comment}
       size = 1
       do d = naxes, 1, -1
         call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, w(d))
+@if many_axes
         stride(d) = size
+@end
         base = base + cell*size
         size = size*nax(d)
       end do
@@ -289,11 +294,14 @@ C     @{value_comment}
       wd = w(naxes)
       do i = 0, corn - 1
         at = base
+@if many_axes
         do d = 1, naxes - 1
           if (btest(i, naxes-1-d)) at = at + stride(d)
         end do
+@end
         corner(i+1) = (1.0D0 - wd)*tv(at) + wd*tv(at+1)
       end do
+@if many_axes
       do d = naxes - 1, 1, -1
         corn = corn/2
         wd = w(d)
@@ -301,6 +309,7 @@ C     @{value_comment}
           corner(i) = (1.0D0 - wd)*corner(2*i-1) + wd*corner(2*i)
         end do
       end do
+@end
       ftintp = corner(1)
       return
       end

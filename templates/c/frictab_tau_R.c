@@ -24,8 +24,9 @@ static const double ft_value[@{n_values}] = {
 @{values}
 };
 
-static double ft_tau(@{parameters},
-                     unsigned* outside) {
+static double ft_tau(
+    @{parameters},
+    unsigned* outside) {
 @for input in used
   const double x@{input.index} = @{input.canonical}; /* @{input.name} */
 @end
@@ -54,7 +55,7 @@ static double ft_tau(@{parameters},
 @if log_value
   value = exp(value);
 @end
-  /* tau_R_MPa = @{formula} */
+  /* the formula of the header, in MPa */
   {
 @for statement in statements
     const double @{statement.text};
@@ -63,26 +64,35 @@ static double ft_tau(@{parameters},
   }
 }
 
-double frictab_tau_R(@{parameters}) {
+double frictab_tau_R(
+    @{parameters}) {
   unsigned outside;
-  return ft_tau(@{names}, &outside);
+  return ft_tau(
+      @{names},
+      &outside);
 }
 
-unsigned frictab_outside(@{parameters}) {
+unsigned frictab_outside(
+    @{parameters}) {
   unsigned outside;
-  (void)ft_tau(@{names}, &outside);
+  (void)ft_tau(
+      @{names},
+      &outside);
   return outside;
 }
 
-void frictab_tau_R_batch(size_t n,
-                         @{arrays},
-                         double* tau) {
+void frictab_tau_R_batch(
+    size_t n,
+    @{arrays},
+    double* tau) {
   size_t i;
 @for name in unused_arrays
   (void)@{name.text};
 @end
   for (i = 0; i < n; ++i) {
     unsigned outside;
-    tau[i] = ft_tau(@{items}, &outside);
+    tau[i] = ft_tau(
+        @{items},
+        &outside);
   }
 }

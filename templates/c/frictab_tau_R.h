@@ -23,15 +23,22 @@ extern "C" {
 #endif
 
 /* tau_R in @{tau_unit}. */
-double frictab_tau_R(@{parameters});
+double frictab_tau_R(
+    @{parameters});
 
-/* The axes beyond whose range the state lies, as bits: @{bits}. */
-unsigned frictab_outside(@{parameters});
+/* The axes beyond whose range the state lies, as bits:
+@for line in bits
+ *   @{line.text}
+@end
+ */
+unsigned frictab_outside(
+    @{parameters});
 
 /* n states at once; an array of an argument that is not used may be NULL. */
-void frictab_tau_R_batch(size_t n,
-                         @{arrays},
-                         double* tau);
+void frictab_tau_R_batch(
+    size_t n,
+    @{arrays},
+    double* tau);
 
 #ifdef __cplusplus
 }

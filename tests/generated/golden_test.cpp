@@ -1,0 +1,82 @@
+// The generated text itself, kept in tests/data/golden/<table>_<units>/<target>/. UPDATE_GOLDEN=1
+// rewrites it; a kept file that nothing generates any more fails.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "codegen/exporter.h"
+#include "io/atomic_file.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "tests/data/golden";
+
+// By path below the root.
+SourceBundle generated() {
+  SourceBundle all;
+  for (const test::NamedTable& sample : test::sample_tables())
+    for (const Exporter& exporter : all_exporters())
+      for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+        if (sample.table.nodes() > 100 || (units == "m-kg-s" && sample.name != "branching"))
+          continue; // one text per thing that differs, short enough to read
+        for (auto& [path, content] : exporter.generate({sample.table, units, {}}))
+          all[sample.name + "_" + units + "/" + exporter.name + "/" + path] = content;
+      }
+  return all;
+}
+
+bool update() {
+  const char* wish = std::getenv("UPDATE_GOLDEN");
+  return wish && std::string(wish) == "1";
+}
+
+TEST(Golden, GeneratedTextIsAsKept) {
+  for (const auto& [path, content] : generated()) {
+    if (update()) {
+      fs::create_directories((root / path).parent_path());
+      std::ofstream(root / path, std::ios::binary) << content;
+    }
+    ASSERT_TRUE(fs::exists(root / path)) << path << " is not kept; UPDATE_GOLDEN=1 writes it";
+    EXPECT_EQ(content, read_file(root / path)) << path;
+  }
+}
+
+TEST(Golden, EveryKeptFileIsGenerated) {
+  const SourceBundle all = generated();
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string path = fs::relative(entry.path(), root).generic_string();
+    if (update() && !all.count(path)) fs::remove(entry.path());
+    EXPECT_TRUE(update() || all.count(path)) << path << " belongs to nothing; delete it";
+  }
+}
+
+TEST(Golden, GeneratedTextKeepsToItsColumns) {
+  for (const test::NamedTable& sample : test::sample_tables())
+    for (const Exporter& exporter : all_exporters())
+      for (const auto& [path, content] : exporter.generate({sample.table, "m-kg-s", {}})) {
+        const std::size_t limit = path.ends_with(".f") ? 72 : path.ends_with(".json") ? 10000 : 100;
+        std::size_t continued = 0;
+        std::istringstream lines(content);
+        for (std::string line; std::getline(lines, line);) {
+          EXPECT_LE(line.size(), limit) << path << ": " << line;
+          EXPECT_TRUE(line.empty() || line.back() != ' ') << path << ": '" << line << "'";
+          const bool continues = path.ends_with(".f") && line.size() > 5 && line[0] == ' ' &&
+                                 line.substr(0, 5) == "     " && line[5] != ' ';
+          continued = continues ? continued + 1 : 0;
+          EXPECT_LE(continued, 19u) << path << ": " << line;
+        }
+      }
+}
+
+} // namespace
+
+} // namespace frictab

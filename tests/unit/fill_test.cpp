@@ -1,0 +1,93 @@
+// Numbers and lines of generated code.
+#include <cstdlib>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codegen/fill.h"
+#include "core/random.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+TEST(Fill, NumbersReadBackToTheSameBitsInBothLanguages) {
+  Random random(9);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.normal() * std::pow(10.0, random.uniform(-300, 300));
+    EXPECT_EQ(std::strtod(c_number(x).c_str(), nullptr), x);
+    std::string fortran = fortran_number(x);
+    ASSERT_THAT(fortran, testing::MatchesRegex("-?[0-9]+\\.[0-9]*D-?[0-9]+|-?[0-9]+\\.[0-9]*D0"));
+    fortran[fortran.find('D')] = 'e';
+    EXPECT_EQ(std::strtod(fortran.c_str(), nullptr), x);
+  }
+}
+
+TEST(Fill, NumbersAreOfDoubleType) {
+  EXPECT_EQ(c_number(1), "1.0");
+  EXPECT_EQ(c_number(-1e300), "-1e+300");
+  EXPECT_EQ(fortran_number(1), "1.0D0");
+  EXPECT_EQ(fortran_number(0.5), "0.5D0");
+  EXPECT_EQ(fortran_number(1e300), "1.0D300");
+  EXPECT_EQ(fortran_number(-1.5e-9), "-1.5D-09");
+}
+
+TEST(Fill, FixedFormStaysInItsColumnsAndKeepsTheStatement) {
+  std::string statement = "t1 = a";
+  for (int i = 0; i < 40; ++i)
+    statement += " + ftmin(x(" + std::to_string(i) + "), 1.0D0)";
+  std::istringstream lines(fixed_form(statement));
+  std::string joined;
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_LE(line.size(), 72u);
+    EXPECT_EQ(line.substr(0, 6), count == 0 ? "      " : "     &");
+    joined += line.substr(6);
+  }
+  const auto dense = [](std::string text) {
+    std::erase(text, ' ');
+    return text;
+  };
+  EXPECT_EQ(dense(joined), dense(statement));
+  EXPECT_THROW(fixed_form(std::string(66 * 20 + 1, 'x')), std::logic_error);
+  EXPECT_NO_THROW(fixed_form(std::string(66 * 20, 'x')));
+}
+
+TEST(Fill, DataStatementsHoldEveryNumberOnce) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i)
+    values.push_back(i % 3 ? i : -i / 7.0);
+  const std::string text = fixed_form_data("tv", values);
+  std::size_t commas = 0, slashes = 0, continued = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 72u);
+    continued = line[5] == '&' ? continued + 1 : 0;
+    EXPECT_LE(continued, 19u);
+    if (line[5] != '&') continue;
+    commas += static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+    slashes += line.back() == '/';
+  }
+  EXPECT_EQ(commas + slashes, 1000u);
+}
+
+TEST(Fill, UnitsConvertByOneOperation) {
+  EXPECT_EQ(solver_unit("MPa", "m-kg-s").to_canonical(480e6), 480);
+  EXPECT_EQ(solver_unit("mm/s", "m-kg-s").from_canonical(50), 0.05);
+  EXPECT_TRUE(solver_unit("degC", "m-kg-s").same());
+  EXPECT_TRUE(solver_unit("MPa", "mm-t-s").same());
+}
+
+TEST(Fill, TypicalValueIsTheTrainingMeanOrTheMiddleOfTheAxis) {
+  Table table = test::four_axis_table();
+  EXPECT_EQ(typical_value(table, "sigma_f_MPa"), 480);
+  EXPECT_EQ(typical_value(table, "T_contact_C"), 110);
+  EXPECT_EQ(typical_value(table, "psi"), std::sqrt(20.0));
+  EXPECT_EQ(typical_value(table, "s_mm"), std::nullopt);
+}
+
+} // namespace
+
+} // namespace frictab
