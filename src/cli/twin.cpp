@@ -56,7 +56,7 @@ void read_options(Options& options, const CommonOptions& common) {
   if (options.directory.empty()) options.directory = common.output;
   if (options.directory.empty())
     throw InputError({"twin"}, "no output directory is given", "frictab twin OUT");
-  options.twin.seed = common.seed.value_or(1);
+  options.twin.seed = common.seed.value_or(TwinOptions{}.seed);
   options.twin.bystanders = !options.no_bystanders;
   if (!options.design.empty())
     options.twin.design = parse_design(options.design, default_design(twin_set(options.twin.set)));

@@ -41,7 +41,7 @@ std::map<std::string, std::string> files_below(const std::string& directory) {
   return files;
 }
 
-class Job : public testing::Test {
+class MainJob : public testing::Test {
 protected:
   void SetUp() override {
     write_campaign(directory);
@@ -51,7 +51,7 @@ protected:
   std::string job;
 };
 
-TEST_F(Job, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
+TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   const auto result = run_frictab({"run", job, "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.err, "");
@@ -65,7 +65,7 @@ TEST_F(Job, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
     EXPECT_TRUE(fs::exists(directory.path("out") + "/" + file)) << file;
 }
 
-TEST_F(Job, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
+TEST_F(MainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
   ASSERT_EQ(run_frictab({"run", job, "-j1", "-o", directory.path("one")}).exit_code, 0);
   ASSERT_EQ(run_frictab({"run", job, "-j2", "-o", directory.path("two")}).exit_code, 0);
   const auto one = files_below(directory.path("one")), two = files_below(directory.path("two"));
@@ -75,7 +75,7 @@ TEST_F(Job, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_TRUE(two.at(name) == content) << name;
 }
 
-TEST_F(Job, StagesOneByOneGiveTheSameFilesAsRun) {
+TEST_F(MainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   ASSERT_EQ(run_frictab({"run", job, "-o", directory.path("run")}).exit_code, 0);
   for (const char* stage : {"calibrate", "tabulate", "export", "verify", "report"}) {
     const auto result = run_frictab({stage, job, "-o", directory.path("stages")});
@@ -90,7 +90,7 @@ TEST_F(Job, StagesOneByOneGiveTheSameFilesAsRun) {
   }
 }
 
-TEST_F(Job, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
+TEST_F(MainJob, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
   const std::vector<std::string> coarse = {"run",   job,
                                            "--set", "table.model=levanov",
                                            "--set", "table.axes.sigma_n_MPa.nodes=2",
@@ -103,7 +103,7 @@ TEST_F(Job, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
   EXPECT_NE(xml.find("<failure message=\"worst case "), std::string::npos) << xml;
 }
 
-TEST_F(Job, VerifyAloneChecksATableForAPipeline) {
+TEST_F(MainJob, VerifyAloneChecksATableForAPipeline) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const std::vector<std::string> call = {"verify",
                                          "--table",
@@ -124,7 +124,7 @@ TEST_F(Job, VerifyAloneChecksATableForAPipeline) {
   EXPECT_NE(directory.read("ci/junit.xml").find("failures=\"1\""), std::string::npos);
 }
 
-TEST_F(Job, VerifyRefusesATableOfAnotherLaw) {
+TEST_F(MainJob, VerifyRefusesATableOfAnotherLaw) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const auto result = run_frictab({"verify", "--table", directory.path("out/tables/levanov.h5"),
                                    "--model", directory.path("out/models/wzl.json")});
@@ -135,7 +135,7 @@ TEST_F(Job, VerifyRefusesATableOfAnotherLaw) {
       << result.err;
 }
 
-TEST_F(Job, AFailedRunLeavesThePreviousResultsAsTheyWere) {
+TEST_F(MainJob, AFailedRunLeavesThePreviousResultsAsTheyWere) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const auto before = files_below(directory.path("out"));
   std::string broken = directory.read("data/training.csv");
@@ -146,7 +146,7 @@ TEST_F(Job, AFailedRunLeavesThePreviousResultsAsTheyWere) {
   EXPECT_EQ(files_below(directory.path("out")), before);
 }
 
-TEST_F(Job, ResultsOfAnEarlierRunDoNotLinger) {
+TEST_F(MainJob, ResultsOfAnEarlierRunDoNotLinger) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   ASSERT_EQ(run_frictab({"run", job, "--set", "table.model=coulomb", "--set",
                          "models.use=[\"coulomb\", \"shear\"]"})
@@ -157,7 +157,7 @@ TEST_F(Job, ResultsOfAnEarlierRunDoNotLinger) {
   EXPECT_TRUE(fs::exists(directory.path("out/export/c/recipe.json")));
 }
 
-TEST_F(Job, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
+TEST_F(MainJob, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
   const auto result = run_frictab({"export", job});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("there are no tables yet\n  hint: run `frictab tabulate "),
@@ -166,7 +166,7 @@ TEST_F(Job, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
   EXPECT_FALSE(fs::exists(directory.path("out"))) << "nothing half-made";
 }
 
-TEST_F(Job, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
+TEST_F(MainJob, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
   const std::string file = directory.write("typo.toml", "[data]\ntraining = \"data/training.csv\"\n"
                                                         "[table]\ntolerence_MPa = 0.1\n");
   const auto result = run_frictab({"run", file});
@@ -176,7 +176,7 @@ TEST_F(Job, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
                                "  hint: did you mean 'tolerance_MPa'?\n");
 }
 
-TEST_F(Job, JsonSummaryIsJson) {
+TEST_F(MainJob, JsonSummaryIsJson) {
   const auto result = run_frictab({"run", job, "--json"});
   ASSERT_EQ(result.exit_code, 0);
   const auto j = nlohmann::json::parse(result.out);
@@ -227,11 +227,12 @@ TEST_P(Measured, ExampleRunsEndToEnd) {
   const auto calibration = nlohmann::json::parse(directory.read("out/calibration.json"));
   EXPECT_EQ(calibration.at("models").size(), 7U) << "the laws that need no flow stress";
   const auto best = calibration.at("models").at(0).at("validation");
-  for (const auto& model : calibration.at("models"))
-    if (model.at("name") == "coulomb_0.04")
-      EXPECT_LT(best.at("mae_MPa").get<double>(),
-                0.5 * model.at("validation").at("mae_MPa").get<double>())
-          << "calibration on measured data beats a constant of another field";
+  for (const auto& model : calibration.at("models")) {
+    if (model.at("name") != "coulomb_0.04") continue;
+    EXPECT_LT(best.at("mae_MPa").get<double>(),
+              0.5 * model.at("validation").at("mae_MPa").get<double>())
+        << "calibration on measured data beats a constant of another field";
+  }
   EXPECT_TRUE(fs::exists(directory.path("out/export/abaqus_vfric/coulomb/recipe.json")));
 }
 

@@ -221,8 +221,7 @@ TEST(JobMessages, NameTheNearestLawTargetAndQuantity) {
   EXPECT_EQ(with("[data.columns]\n"
                  "tau_R_MPa = { times = \"sigma_n\" }"),
             "job.toml:4:23: error: unknown quantity 'sigma_n' in data.columns.tau_R_MPa.times\n"
-            "  hint: known: time_s, sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, T_tool_C, s_mm, "
-            "sigma_f_MPa, tau_R_MPa, F_R_N, F_N_N");
+            "  hint: did you mean 'sigma_n_MPa'?");
 }
 
 TEST(JobMessages, SayWhatContradictsItself) {
