@@ -68,8 +68,8 @@ std::vector<std::string> about(const ExportRequest& request) {
 Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   std::vector<std::string> lines;
   for (const InputArgument& input : inputs) {
-    std::string range = input.used ? "no axis, any value" : "not used by this law";
-    if (input.axis) range = range_text(input, request.table.axes[*input.axis]);
+    const std::string range =
+        input.used ? range_text(input, request.table) : "not used by this law";
     lines.push_back(comment_text(
         fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range)));
   }
