@@ -70,8 +70,13 @@ Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>
   for (const InputArgument& input : inputs) {
     const std::string range =
         input.used ? range_text(input, request.table) : "not used by this law";
-    lines.push_back(comment_text(
-        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range)));
+    const std::string text = comment_text(
+        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range));
+    std::string indent;
+    for (const std::string& piece : wrap_text(text, 88)) {
+      lines.push_back(indent + piece);
+      indent = "    ";
+    }
   }
   return items(lines);
 }
