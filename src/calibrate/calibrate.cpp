@@ -152,16 +152,24 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
     thin_columns.push_back(column.data());
   const BoundProgram coarse(program, thinned.measured.size(), thin_columns);
   const FitProblem problem{full, data.values("tau_R_MPa"), law.parameters};
-  const FitResult result = fit_global({coarse, thinned.measured, law.parameters}, problem,
-                                      options.loss, options.huber_delta_MPa);
+  FitResult result = fit_global({coarse, thinned.measured, law.parameters}, problem, options.loss,
+                                options.huber_delta_MPa);
+  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
+  const double kernel_MPa = 2 * result.cost;
+  const bool l1 = options.loss == Loss::l1;
+  const LossFunction loss{options.loss, l1 ? kernel_MPa : options.huber_delta_MPa};
+  Uncertainty uncertainty = cluster_sandwich(problem, loss, result.parameters, data.first_row);
+  if (uncertainty.settled != result.parameters) {
+    const LossFunction fine{options.loss, l1 ? smallest_rounding_MPa : options.huber_delta_MPa};
+    const FitResult settled = fit_from(problem, fine, uncertainty.settled);
+    if (settled.cost <= result.cost * (1 + 1e-9)) {
+      result.parameters = settled.parameters;
+      result.evaluations += settled.evaluations;
+    }
+  }
   fit.model.parameters = result.parameters;
   fit.termination = result.termination;
   fit.evaluations = result.evaluations;
-  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
-  const double kernel_MPa = 2 * result.cost;
-  const LossFunction loss{options.loss,
-                          options.loss == Loss::l1 ? kernel_MPa : options.huber_delta_MPa};
-  Uncertainty uncertainty = cluster_sandwich(problem, loss, result.parameters, data.first_row);
   fit.std_error = std::move(uncertainty.std_error);
   fit.remarks = std::move(uncertainty.remarks);
   fit.std_error_method = "cluster sandwich by experiment";

@@ -165,7 +165,7 @@ namespace {
 // The loss with its final smoothing, approached in stages for L1 so that no stage is stiff.
 std::vector<LossFunction> stages(Loss loss, double huber_delta_MPa) {
   if (loss != Loss::l1) return {{loss, huber_delta_MPa}};
-  return {{Loss::l1, 3.0}, {Loss::l1, 0.1}, {Loss::l1, 0.003}};
+  return {{Loss::l1, 3.0}, {Loss::l1, 0.1}, {Loss::l1, smallest_rounding_MPa}};
 }
 
 std::vector<double> direct_start(const FitProblem& coarse, const LossFunction& loss,

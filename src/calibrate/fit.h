@@ -41,6 +41,9 @@ FitResult fit_global(const FitProblem& coarse, const FitProblem& full, Loss loss
 struct Uncertainty {
   std::vector<double> std_error;
   std::vector<std::string> remarks;
+  // The parameters moved along the directions that the data do not determine, to where they are
+  // nearest to their default starts: to first order as good a fit, without arbitrary values.
+  std::vector<double> settled;
 };
 Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss,
                              std::span<const double> parameters,

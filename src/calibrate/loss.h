@@ -7,6 +7,9 @@
 
 namespace frictab {
 
+// How sharply L1 is rounded off at 0 in the end: far below any tribometer's resolution.
+constexpr double smallest_rounding_MPa = 0.003;
+
 struct LossFunction {
   Loss kind = Loss::l2;
   double width_MPa = 10; // Huber: where it turns linear; L1: eps, where it is rounded off

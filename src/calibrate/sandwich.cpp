@@ -1,4 +1,5 @@
 // Standard errors with the experiment as the statistical unit, and what the data do not determine.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -55,7 +56,8 @@ Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss
                              std::span<const std::size_t> first_row) {
   constexpr double undetermined = 1e-10; // of the scaled curvature: below, a direction is flat
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Uncertainty result{std::vector<double>(parameters.size(), nan), {}};
+  Uncertainty result{
+      std::vector<double>(parameters.size(), nan), {}, {parameters.begin(), parameters.end()}};
   if (first_row.size() < 3) {
     result.remarks.push_back("one experiment only: no standard error");
     return result;
@@ -65,9 +67,10 @@ Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = problem.parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
-    if (!(s.hessian(at, at) > 0))
+    if (!(s.hessian(at, at) > 0)) {
       result.remarks.push_back(p.name + " has no influence on these data");
-    else if (parameters[i] <= p.lower || parameters[i] >= p.upper)
+      result.settled[i] = p.start;
+    } else if (parameters[i] <= p.lower || parameters[i] >= p.upper)
       result.remarks.push_back(fmt::format("{} is at its bound {}", p.name, parameters[i]));
     else
       used.push_back(at);
@@ -88,11 +91,23 @@ Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss
   std::vector<char> flat(used.size(), 0);
   for (Eigen::Index d = 0; d < size; ++d) {
     const VectorXd direction = eigen.eigenvectors().col(d);
-    if (eigen.eigenvalues()(d) > undetermined)
+    if (eigen.eigenvalues()(d) > undetermined) {
       inverse += direction * direction.transpose() / eigen.eigenvalues()(d);
-    else
-      for (Eigen::Index a = 0; a < size; ++a)
-        if (std::abs(direction(a)) > 0.05) flat[static_cast<std::size_t>(a)] = 1;
+      continue;
+    }
+    double excess = 0; // along the flat direction, in scaled parameters
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const auto i = static_cast<std::size_t>(used[a]);
+      excess += direction(a) * (result.settled[i] - problem.parameters[i].start) / scale(a);
+    }
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const auto i = static_cast<std::size_t>(used[a]);
+      const Parameter& p = problem.parameters[i];
+      result.settled[i] =
+          std::clamp(result.settled[i] - excess * direction(a) * scale(a), p.lower, p.upper);
+    }
+    for (Eigen::Index a = 0; a < size; ++a)
+      if (std::abs(direction(a)) > 0.05) flat[static_cast<std::size_t>(a)] = 1;
   }
   const MatrixXd covariance = inverse * meat * inverse;
   std::string together;

@@ -34,7 +34,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::string best;
   std::size_t best_distance = 2 + name.size() / 3;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
+    // What a person shortens is near: sigma_n is sigma_n_MPa.
+    const bool shortened = name.size() >= 3 && candidate.rfind(name, 0) == 0;
+    const std::size_t distance = shortened ? 1 : edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -8,7 +8,8 @@
 
 namespace frictab {
 
-// The candidate with the smallest edit distance (transpositions count 1), or "" where none is near
+// The candidate with the smallest edit distance (transpositions count 1, a candidate that `name`
+// begins counts as distance 1), or "" where none is near
 // enough to be a typing error (distance > 1 + a third of the length).
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -125,13 +126,11 @@ void derive_shear_stress(Part& part) {
   }
   if (!stress) return; // told by check_needed
   Column tau{"tau_R_MPa", "MPa", std::vector<double>(stress->values.size()), {}};
-  for (std::size_t i = 0; i < tau.values.size(); ++i) {
-    if (!(normal->values[i] > 0))
-      part.faults.add(part.place(i),
-                      fmt::format("F_N_N is {}: no friction coefficient", normal->values[i]),
-                      "leave rows without load out: data.drop = { F_N_N = { below = 1 } }");
-    tau.values[i] = friction->values[i] / normal->values[i] * stress->values[i];
-  }
+  // No load, no coefficient: NaN, which check_values reports unless the row is left out before.
+  for (std::size_t i = 0; i < tau.values.size(); ++i)
+    tau.values[i] = normal->values[i] > 0
+                        ? friction->values[i] / normal->values[i] * stress->values[i]
+                        : std::numeric_limits<double>::quiet_NaN();
   part.data.columns.push_back(std::move(tau));
   part.data.notes.push_back("tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)");
 }
@@ -192,6 +191,9 @@ void check_values(Part& part) {
     const Quantity* quantity = find_quantity(column.name);
     if (!quantity) continue;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
+      if (column.name == "tau_R_MPa" && std::isnan(column.values[i]) && part.find("F_N_N"))
+        part.faults.add(part.place(i), "F_N_N is not positive: there is no friction coefficient",
+                        "leave rows without load out: data.drop = { F_N_N = { below = 1 } }");
       if (!(column.values[i] < quantity->lowest)) continue;
       std::string hint = fmt::format("a {} cannot be below {} {}", quantity->meaning,
                                      quantity->lowest, quantity->unit);
@@ -256,8 +258,8 @@ Part load_part(const std::string& file, const DataOptions& options) {
     gather_experiments(part, std::move(mapped), path.stem().string());
     check_needed(part);
     take_slopes(part, options);
-    drop_rows(part, options);
     derive_shear_stress(part);
+    drop_rows(part, options);
     check_values(part);
     check_experiments(part);
     integrate_distance(part);

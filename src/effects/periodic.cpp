@@ -24,7 +24,7 @@ EffectForm make() {
                      {"x0", "x", "a place where the wave rises through zero", 0, -1e12, 1e12},
                      {"w", "x", "wavelength", 1, 1e-12, 1e12}};
   form.shapes = {{[](const Spread& s) { return s.low; }, true, 0},
-                 {[](const Spread& s) { return s.span() / 3.0; }, true, 0}};
+                 {[](const Spread& s) { return 0.3 * s.span(); }, true, 0}};
   form.factor = factor;
   return form;
 }

@@ -234,8 +234,17 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   Scanner scanner(text, delimiter);
   while (scanner.position() < header)
     scanner.take_line();
-  for (std::string& name : read_names(scanner))
+  std::size_t numeric = 0;
+  double ignored = 0;
+  for (std::string& name : read_names(scanner)) {
+    numeric += parse_number(name, format.decimal, ignored);
     table.columns.push_back({std::move(name), "", {}, {}});
+  }
+  if (2 * numeric > table.columns.size())
+    throw InputError({file, table.header_line, 0},
+                     fmt::format("{} of the {} column names in this line are numbers", numeric,
+                                 table.columns.size()),
+                     "the header is another line: data.skip_rows counts the lines before it");
   if (format.units_row && !scanner.at_end()) {
     const std::size_t line = scanner.line();
     const auto units = read_names(scanner);

@@ -1,4 +1,8 @@
 // What a run found, for a person with ten seconds and for programs.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -33,50 +37,119 @@ std::string parameters(const ModelFit& fit) {
   return text;
 }
 
+// Decimals that show three digits of the best law's error, whatever the level of stress.
+int error_decimals(const Calibration& calibration) {
+  const double best = calibration.fits.front().validation.mae_MPa;
+  return best > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(best))), 2, 6) : 2;
+}
+
+// "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
+void add_left_out(std::string& out, const Calibration& calibration) {
+  std::map<std::string, std::string> laws;
+  for (const std::string& left : calibration.left_out) {
+    const std::size_t colon = left.find(": needs ");
+    std::string& list = laws[left.substr(colon + 8)];
+    list += (list.empty() ? "" : ", ") + left.substr(0, colon);
+  }
+  for (const auto& [reason, list] : laws)
+    out += fmt::format("  left out, for want of {}: {}\n", reason, list);
+}
+
 void add_ranking(std::string& out, const Calibration& calibration) {
+  const int decimals = error_decimals(calibration);
   out += "\nLaws by mean absolute error on experiments not trained on (tau_R, MPa):\n";
-  out += fmt::format("  {:<14}{:>8}  {:<17}{:>8}{:>8}{:>10}   {}\n", "law", "MAE", "95 % interval",
+  out += fmt::format("  {:<14}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", "MAE", "95 % interval",
                      "RMSE", "bias", "train MAE", "parameters");
   for (const ModelFit& fit : calibration.fits) {
     const Metrics& v = fit.validation;
-    out += fmt::format("  {:<14}{:>8.2f}  {:<17}{:>8.2f}{:>8.2f}{:>10.2f}   {}\n",
-                       fit.model.law->name, v.mae_MPa,
-                       fmt::format("{:.2f} .. {:.2f}", v.mae_interval.low, v.mae_interval.high),
-                       v.rmse_MPa, v.bias_MPa, fit.training.mae_MPa, parameters(fit));
+    const std::string interval = fmt::format("{:.{}f} .. {:.{}f}", v.mae_interval.low, decimals,
+                                             v.mae_interval.high, decimals);
+    out += fmt::format("  {:<14}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
+                       fit.model.law->name, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
+                       v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));
   }
   for (const ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);
-  for (const std::string& left : calibration.left_out)
-    out += "  left out - " + left + "\n";
+  add_left_out(out, calibration);
 }
 
 void add_tables(std::string& out, const Pipeline& p) {
+  if (!p.tables().empty()) out += "\nTables:\n";
   for (const Table& table : p.tables()) {
     std::string grid;
     for (const TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out += fmt::format("\nTable {}: {} = {} nodes, {}; tau_R = {}\n", table.model, grid,
-                       thousands(table.nodes()), human_bytes(static_cast<double>(table.bytes())),
-                       to_text(table.combine));
+    out += fmt::format("  {:<14}{} nodes, {}: {}\n", table.model, thousands(table.nodes()),
+                       human_bytes(static_cast<double>(table.bytes())), grid);
   }
 }
 
-void add_drift(std::string& out, const Verification& verification) {
-  out += fmt::format("\nDrift from the law, MPa (allowed {:g}):\n", verification.max_drift_MPa);
-  out += fmt::format("  {:<42}{:>12}{:>12}{:>10}\n", "", "whole range", "on rows", "outside");
-  for (const DriftRecord& r : verification.records) {
-    const std::string name = r.model + " " + r.subject;
-    if (!r.ran) {
-      out += fmt::format("  {:<42}not run: {}\n", name, r.why_not);
-      continue;
+std::vector<std::string> subjects_of(const Verification& verification) {
+  std::vector<std::string> subjects;
+  for (const DriftRecord& r : verification.records)
+    if (std::find(subjects.begin(), subjects.end(), r.subject) == subjects.end())
+      subjects.push_back(r.subject);
+  return subjects;
+}
+
+// One line per table: the whole range per subject, then the rows, taken over all subjects.
+void add_drift_line(std::string& out, const Verification& verification, const std::string& model,
+                    const std::vector<std::string>& subjects) {
+  out += fmt::format("  {:<14}", model);
+  double on_rows = 0, share = 0;
+  bool passed = true;
+  std::string not_run;
+  for (const std::string& subject : subjects)
+    for (const DriftRecord& r : verification.records) {
+      if (r.model != model || r.subject != subject) continue;
+      const int width = std::max<int>(12, static_cast<int>(subject.size()) + 2);
+      if (!r.ran) {
+        out += fmt::format("{:>{}}", "not run", width);
+        not_run += fmt::format("  {} {} not run: {}\n", model, subject, r.why_not);
+        continue;
+      }
+      out += fmt::format("{:>{}.3g}", r.worst_case_MPa, width);
+      on_rows = std::max(on_rows, r.rows.max_abs);
+      if (r.n_rows > 0)
+        share = 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
+      passed = passed && r.passed;
     }
-    const double share =
-        r.n_rows ? 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows) : 0.0;
-    out += fmt::format("  {:<42}{:>12.3g}{:>12.3g}{:>9.2f}%  {}\n", name, r.worst_case_MPa,
-                       r.rows.max_abs, share, r.passed ? "ok" : "OVER TOLERANCE");
+  out += fmt::format("{:>12.3g}{:>11.2f} %   {}\n{}", on_rows, share,
+                     passed ? "ok" : "OVER TOLERANCE", not_run);
+}
+
+void add_drift(std::string& out, const Verification& verification) {
+  const auto subjects = subjects_of(verification);
+  out +=
+      fmt::format("\nLargest drift from the law found over the whole range, MPa (allowed {:g}):\n"
+                  "  {:<14}",
+                  verification.max_drift_MPa, "");
+  for (const std::string& subject : subjects)
+    out += fmt::format("{:>{}}", subject, std::max<int>(12, static_cast<int>(subject.size()) + 2));
+  out += fmt::format("{:>12}{:>13}\n", "on rows", "outside");
+  std::vector<std::string> models;
+  for (const DriftRecord& r : verification.records)
+    if (models.empty() || models.back() != r.model) models.push_back(r.model);
+  for (const std::string& model : models)
+    add_drift_line(out, verification, model, subjects);
+}
+
+// "report.html, models/ (15), ...": a directory is named once.
+std::string file_list(const std::vector<std::string>& files) {
+  std::vector<std::pair<std::string, std::size_t>> groups;
+  for (const std::string& file : files) {
+    const std::size_t slash = file.find('/');
+    const std::string name = slash == std::string::npos ? file : file.substr(0, slash + 1);
+    if (groups.empty() || groups.back().first != name) groups.emplace_back(name, 0);
+    ++groups.back().second;
   }
+  std::string text;
+  for (const auto& [name, count] : groups)
+    text += (text.empty() ? "" : ", ") + name +
+            (name.back() == '/' ? fmt::format(" ({})", count) : std::string());
+  return text;
 }
 
 } // namespace
@@ -89,7 +162,7 @@ std::string summary_text(const Pipeline& p) {
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
   const auto files = p.files();
   out += fmt::format("\nWrote {} files to {}: {}\n", files.size(), p.job().directory,
-                     join(files, ", "));
+                     file_list(files));
   return out;
 }
 

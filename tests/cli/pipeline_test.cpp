@@ -1,0 +1,243 @@
+// The main job as a user runs it: files, exit codes, output, bad input, determinism.
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+using test::run_frictab;
+using test::TemporaryDirectory;
+
+// A small synthetic campaign: 16 experiments to train, 6 to validate, 40 rows each.
+void write_campaign(const TemporaryDirectory& directory) {
+  const auto result = run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
+                                   "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=6"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+}
+
+const char* const job_text = R"([data]
+training = "data/training.csv"
+validation = "data/validation.csv"
+[table]
+model = ["best", "levanov"]
+[verify]
+samples = 5000
+)";
+
+std::map<std::string, std::string> files_below(const std::string& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    const TemporaryDirectory reader;
+    files[fs::relative(entry.path(), directory).string()] =
+        test::run_command({"cat", entry.path().string()}).out;
+  }
+  return files;
+}
+
+class Job : public testing::Test {
+protected:
+  void SetUp() override {
+    write_campaign(directory);
+    job = directory.write("job.toml", job_text);
+  }
+  TemporaryDirectory directory;
+  std::string job;
+};
+
+TEST_F(Job, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
+  const auto result = run_frictab({"run", job, "-q"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* part : {"SYNTHETIC data", "Laws by mean absolute error",
+                           "Tables:", "Largest drift from the law", "Wrote "})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  for (const char* file :
+       {"calibration.json", "benchmark.md", "models/coulomb.json", "models/wzl.json",
+        "tables/levanov.h5", "export/c/levanov/recipe.json",
+        "export/abaqus_vfric/levanov/recipe.json", "verify.json", "verify.xml", "report.html"})
+    EXPECT_TRUE(fs::exists(directory.path("out") + "/" + file)) << file;
+}
+
+TEST_F(Job, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
+  ASSERT_EQ(run_frictab({"run", job, "-j1", "-o", directory.path("one")}).exit_code, 0);
+  ASSERT_EQ(run_frictab({"run", job, "-j2", "-o", directory.path("two")}).exit_code, 0);
+  const auto one = files_below(directory.path("one")), two = files_below(directory.path("two"));
+  ASSERT_GT(one.size(), 20U);
+  ASSERT_EQ(one.size(), two.size());
+  for (const auto& [name, content] : one)
+    EXPECT_TRUE(two.at(name) == content) << name;
+}
+
+TEST_F(Job, StagesOneByOneGiveTheSameFilesAsRun) {
+  ASSERT_EQ(run_frictab({"run", job, "-o", directory.path("run")}).exit_code, 0);
+  for (const char* stage : {"calibrate", "tabulate", "export", "verify", "report"}) {
+    const auto result = run_frictab({stage, job, "-o", directory.path("stages")});
+    ASSERT_EQ(result.exit_code, 0) << stage << result.err;
+  }
+  const auto run = files_below(directory.path("run")),
+             stages = files_below(directory.path("stages"));
+  for (const auto& [name, content] : run) {
+    if (name == "report.html") continue; // lists what its own command wrote
+    ASSERT_TRUE(stages.count(name)) << name;
+    EXPECT_TRUE(stages.at(name) == content) << name;
+  }
+}
+
+TEST_F(Job, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
+  const std::vector<std::string> coarse = {"run",   job,
+                                           "--set", "table.model=levanov",
+                                           "--set", "table.axes.sigma_n_MPa.nodes=2",
+                                           "--set", "table.axes.sigma_f_MPa.nodes=2"};
+  const auto result = run_frictab(coarse);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("OVER TOLERANCE"), std::string::npos) << result.out;
+  const std::string xml = directory.read("out/verify.xml");
+  EXPECT_NE(xml.find("<testcase classname=\"levanov\" name=\"table\">"), std::string::npos);
+  EXPECT_NE(xml.find("<failure message=\"worst case "), std::string::npos) << xml;
+}
+
+TEST_F(Job, VerifyAloneChecksATableForAPipeline) {
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  const std::vector<std::string> call = {"verify",
+                                         "--table",
+                                         directory.path("out/tables/levanov.h5"),
+                                         "--model",
+                                         directory.path("out/models/levanov.json"),
+                                         "--data",
+                                         directory.path("data/validation.csv"),
+                                         "--junit",
+                                         directory.path("ci/junit.xml"),
+                                         "--max-drift-MPa"};
+  auto strict = call, loose = call;
+  strict.push_back("1e-6");
+  loose.push_back("0.5");
+  EXPECT_EQ(run_frictab(loose).exit_code, 0);
+  EXPECT_NE(directory.read("ci/junit.xml").find("failures=\"0\""), std::string::npos);
+  EXPECT_EQ(run_frictab(strict).exit_code, 1);
+  EXPECT_NE(directory.read("ci/junit.xml").find("failures=\"1\""), std::string::npos);
+}
+
+TEST_F(Job, VerifyRefusesATableOfAnotherLaw) {
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  const auto result = run_frictab({"verify", "--table", directory.path("out/tables/levanov.h5"),
+                                   "--model", directory.path("out/models/wzl.json")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(
+      result.err.find("the law wzl needs v_rel_mm_s, which this table neither has as an axis"),
+      std::string::npos)
+      << result.err;
+}
+
+TEST_F(Job, AFailedRunLeavesThePreviousResultsAsTheyWere) {
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  const auto before = files_below(directory.path("out"));
+  std::string broken = directory.read("data/training.csv");
+  broken.replace(broken.find('\n', 2000) + 1, 4, "E,x,");
+  directory.write("data/training.csv", broken);
+  const auto result = run_frictab({"run", job});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(files_below(directory.path("out")), before);
+}
+
+TEST_F(Job, ResultsOfAnEarlierRunDoNotLinger) {
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  ASSERT_EQ(run_frictab({"run", job, "--set", "table.model=coulomb", "--set",
+                         "models.use=[\"coulomb\", \"shear\"]"})
+                .exit_code,
+            0);
+  EXPECT_FALSE(fs::exists(directory.path("out/tables/levanov.h5")));
+  EXPECT_FALSE(fs::exists(directory.path("out/models/wzl.json")));
+  EXPECT_TRUE(fs::exists(directory.path("out/export/c/recipe.json")));
+}
+
+TEST_F(Job, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
+  const auto result = run_frictab({"export", job});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("there are no tables yet\n  hint: run `frictab tabulate "),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(directory.path("out"))) << "nothing half-made";
+}
+
+TEST_F(Job, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
+  const std::string file = directory.write("typo.toml", "[data]\ntraining = \"data/training.csv\"\n"
+                                                        "[table]\ntolerence_MPa = 0.1\n");
+  const auto result = run_frictab({"run", file});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, file + ":4:1: error: unknown key 'tolerence_MPa' in [table]\n"
+                               "  hint: did you mean 'tolerance_MPa'?\n");
+}
+
+TEST_F(Job, JsonSummaryIsJson) {
+  const auto result = run_frictab({"run", job, "--json"});
+  ASSERT_EQ(result.exit_code, 0);
+  const auto j = nlohmann::json::parse(result.out);
+  EXPECT_EQ(j.at("schema"), "frictab/summary/1");
+  EXPECT_TRUE(j.at("synthetic_data"));
+  EXPECT_EQ(j.at("verification").at("passed"), true);
+}
+
+TEST(CommandLine, UnknownCommandNamesTheNearest) {
+  const auto result = run_frictab({"calibrat", "x"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "error: unknown command 'calibrat'\n  hint: did you mean 'calibrate'?\n");
+}
+
+TEST(CommandLine, EveryHelpPageNamesTheExitCodes) {
+  for (const char* command : {"run", "calibrate", "tabulate", "export", "verify", "report", "twin",
+                              "init", "list", "explain", "doctor"}) {
+    const auto result = run_frictab({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0) << command;
+    EXPECT_EQ(result.err, "") << command;
+    EXPECT_NE(result.out.find("Exit codes: 0 done; 1 a target was missed"), std::string::npos)
+        << command;
+  }
+}
+
+TEST(CommandLine, VersionIsPrinted) {
+  EXPECT_EQ(run_frictab({"--version"}).out, "frictab " FRICTAB_VERSION "\n");
+}
+
+// Measured data, as the rigs wrote them. Found beside the sources or where FRICTAB_MEASURED says.
+class Measured : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(Measured, ExampleRunsEndToEnd) {
+  const auto [example, folder] = GetParam();
+  const char* set = std::getenv("FRICTAB_MEASURED");
+  const fs::path measured =
+      set ? fs::path(set) : fs::path(FRICTAB_SOURCE_DIR) / ".." / "shared" / "measured";
+  if (!fs::is_directory(measured / folder / "data"))
+    GTEST_SKIP() << "the measured files are not here; set FRICTAB_MEASURED to their directory";
+  const TemporaryDirectory directory;
+  fs::copy(fs::path(FRICTAB_SOURCE_DIR) / "examples" / example / "job.toml",
+           directory.path("job.toml"));
+  fs::create_directory_symlink(fs::canonical(measured / folder / "data"), directory.path("data"));
+  const auto result = run_frictab({"run", directory.path("job.toml")});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out.find("SYNTHETIC"), std::string::npos);
+  const auto calibration = nlohmann::json::parse(directory.read("out/calibration.json"));
+  EXPECT_EQ(calibration.at("models").size(), 7U) << "the laws that need no flow stress";
+  const auto best = calibration.at("models").at(0).at("validation");
+  for (const auto& model : calibration.at("models"))
+    if (model.at("name") == "coulomb_0.04")
+      EXPECT_LT(best.at("mae_MPa").get<double>(),
+                0.5 * model.at("validation").at("mae_MPa").get<double>())
+          << "calibration on measured data beats a constant of another field";
+  EXPECT_TRUE(fs::exists(directory.path("out/export/abaqus_vfric/coulomb/recipe.json")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, Measured,
+                         testing::Values(std::pair{"02_rock_velocity_steps", "rock_velocity_steps"},
+                                         std::pair{"03_ptfe_pin_on_disc", "pps_ptfe_pin_on_disc"}));
+
+} // namespace
+} // namespace frictab

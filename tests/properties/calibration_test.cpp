@@ -1,0 +1,206 @@
+// Calibration: every law finds its own parameters again; errors and intervals by experiment.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "calibrate/calibration_file.h"
+#include "calibrate/metrics.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "support/sample_data.h"
+
+namespace frictab {
+namespace {
+
+std::vector<std::string> fitted_laws() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    if (law.calibrated == Calibrated::fit) names.push_back(law.name);
+  return names;
+}
+
+ModelFit fit_of(const std::string& law, const Dataset& training, Loss loss = Loss::l2) {
+  CalibrationInput input{training, training, {}, {}};
+  input.models.use = {law};
+  input.options.loss = loss;
+  input.options.bootstrap = 0;
+  return calibrate(input).fits.front();
+}
+
+class EveryFittedLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryFittedLaw, RecoversItsParametersFromNoiseFreeDataWithEveryLoss) {
+  const Model truth = test::plausible_model(*find_law(GetParam()));
+  const Dataset data = test::sample_data(truth);
+  for (const Loss loss : {Loss::l2, Loss::l1, Loss::huber}) {
+    const ModelFit fit = fit_of(GetParam(), data, loss);
+    for (std::size_t p = 0; p < truth.parameters.size(); ++p)
+      EXPECT_NEAR(fit.model.parameters[p], truth.parameters[p],
+                  1e-6 * std::abs(truth.parameters[p]))
+          << truth.law->parameters[p].name << " loss " << static_cast<int>(loss) << ", "
+          << fit.termination;
+    EXPECT_LT(fit.training.mae_MPa, 1e-6);
+  }
+}
+
+TEST_P(EveryFittedLaw, IsWithinFourStandardErrorsOfTheTruthOnNoisyData) {
+  const Model truth = test::plausible_model(*find_law(GetParam()));
+  test::SampleOptions options;
+  options.experiments = 60;
+  options.experiment_scatter = 0.03;
+  options.noise_MPa = 3;
+  const ModelFit fit = fit_of(GetParam(), test::sample_data(truth, options));
+  for (std::size_t p = 0; p < truth.parameters.size(); ++p) {
+    ASSERT_GT(fit.std_error[p], 0) << truth.law->parameters[p].name;
+    EXPECT_LT(std::abs(fit.model.parameters[p] - truth.parameters[p]), 4 * fit.std_error[p])
+        << truth.law->parameters[p].name;
+  }
+}
+
+TEST_P(EveryFittedLaw, ModelFileReadsBackToTheSameBits) {
+  const Model truth = test::plausible_model(*find_law(GetParam()));
+  test::SampleOptions options;
+  options.noise_MPa = 5;
+  const Dataset data = test::sample_data(truth, options);
+  CalibrationInput input{data, data, {}, {}};
+  input.models.use = {GetParam()};
+  const Calibration calibration = calibrate(input);
+  const ModelFit& fit = calibration.fits.front();
+  const Model again = parse_model(model_json(fit, calibration), "model.json");
+  EXPECT_EQ(again.parameters, fit.model.parameters);
+  EXPECT_EQ(predict(again, data), predict(fit.model, data));
+  const Calibration read = parse_calibration(calibration_json(calibration), "calibration.json");
+  EXPECT_EQ(calibration_json(read), calibration_json(calibration));
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryFittedLaw, testing::ValuesIn(fitted_laws()));
+
+TEST(Calibration, OrowanFindsTheBestOfItsSeveralMinima) {
+  // Brute force over a fine grid must not find anything better than the fit.
+  const Law& law = *find_law("orowan");
+  test::SampleOptions options;
+  options.experiments = 12;
+  options.experiment_scatter = 0.15;
+  options.noise_MPa = 15;
+  const Dataset data = test::sample_data(test::plausible_model(law), options);
+  const ModelFit fit = fit_of("orowan", data);
+  const auto cost = [&](double mu, double m) {
+    Model trial = test::plausible_model(law);
+    trial.parameters = {mu, m};
+    const std::vector<double> tau = predict(trial, data);
+    double sum = 0;
+    for (std::size_t i = 0; i < tau.size(); ++i)
+      sum += std::pow(data.values("tau_R_MPa")[i] - tau[i], 2);
+    return sum;
+  };
+  const double found = cost(fit.model.parameters[0], fit.model.parameters[1]);
+  for (int i = 0; i <= 150; ++i)
+    for (int j = 0; j <= 100; ++j)
+      ASSERT_LE(found, cost(0.03 + 0.001 * i, 0.1 + 0.009 * j) * (1 + 1e-12)) << i << " " << j;
+}
+
+TEST(Calibration, MeansAreThePapersWay) {
+  Dataset data = test::sample_data(test::plausible_model(*find_law("orowan")));
+  double mu = 0, m = 0;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    mu += data.values("tau_R_MPa")[i] / data.values("sigma_n_MPa")[i];
+    m += data.values("tau_R_MPa")[i] / (data.values("sigma_f_MPa")[i] / std::sqrt(3.0));
+  }
+  const ModelFit fit = fit_of("orowan_mean", data);
+  EXPECT_NEAR(fit.model.parameters[0], mu / static_cast<double>(data.rows()), 1e-12);
+  EXPECT_NEAR(fit.model.parameters[1], m / static_cast<double>(data.rows()), 1e-12);
+}
+
+TEST(Calibration, FixedConstantsAreNotTouched) {
+  const Dataset data = test::sample_data(test::plausible_model(*find_law("coulomb")));
+  EXPECT_EQ(fit_of("coulomb_0.04", data).model.parameters, std::vector<double>{0.04});
+  EXPECT_EQ(fit_of("shear_0.12", data).model.parameters, std::vector<double>{0.12});
+}
+
+TEST(Calibration, DoesNotDependOnTheNumberOfThreads) {
+  test::SampleOptions options;
+  options.noise_MPa = 8;
+  const Dataset data = test::sample_data(test::plausible_model(*find_law("wzl")), options);
+  const CalibrationInput input{data, data, {}, {}};
+  set_threads(1);
+  const std::string one = calibration_json(calibrate(input));
+  set_threads(2);
+  const std::string two = calibration_json(calibrate(input));
+  set_threads(0);
+  EXPECT_EQ(one, two);
+}
+
+TEST(Calibration, NamesTheParameterThatTheDataDoNotDetermineAndWhatWouldSettleIt) {
+  Dataset data = test::sample_data(test::plausible_model(*find_law("log_coulomb")));
+  for (Column& column : data.columns)
+    if (column.name == "psi") column.values.assign(data.rows(), 1.0);
+  const ModelFit fit = fit_of("log_coulomb", data);
+  EXPECT_TRUE(std::isnan(fit.std_error[2]));
+  EXPECT_EQ(fit.model.parameters[2], 0) << "left at its default";
+  ASSERT_EQ(fit.remarks.size(), 2U);
+  EXPECT_EQ(fit.remarks[0], "c2 has no influence on these data");
+  EXPECT_EQ(fit.remarks[1], "psi is 1 in every row: experiments at other values would settle it");
+}
+
+TEST(Calibration, LeavesOutLawsWhoseColumnsAreMissingAndSaysSo) {
+  Dataset data = test::sample_data(test::plausible_model(*find_law("coulomb")));
+  std::erase_if(data.columns, [](const Column& c) { return c.name == "sigma_f_MPa"; });
+  const Calibration calibration = calibrate({data, data, {}, {}});
+  EXPECT_EQ(calibration.fits.size(), 7U);
+  EXPECT_EQ(calibration.left_out.front(), "shear_0.12: needs sigma_f_MPa");
+  CalibrationInput asked{data, data, {}, {}};
+  asked.models.use = {"coulomb", "shaw"};
+  asked.models.place = {"job.toml", 4, 1};
+  try {
+    calibrate(asked);
+    FAIL() << "a law without its columns was accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "job.toml:4:1: error: law shaw: needs sigma_f_MPa, which the data do not have\n"
+              "  hint: map the columns in [data.columns], give a constant in [data.constants], or "
+              "leave the law out of models.use");
+  }
+}
+
+TEST(Calibration, RanksByErrorOnExperimentsNotTrainedOn) {
+  test::SampleOptions options;
+  options.noise_MPa = 4;
+  const Model truth = test::plausible_model(*find_law("wzl"));
+  const Dataset training = test::sample_data(truth, options);
+  options.seed = 2;
+  const Dataset validation = test::sample_data(truth, options);
+  const Calibration calibration = calibrate({training, validation, {}, {}});
+  EXPECT_EQ(calibration.fits.size(), all_laws().size());
+  EXPECT_EQ(calibration.fits.front().model.law->name, "wzl");
+  for (std::size_t i = 1; i < calibration.fits.size(); ++i)
+    EXPECT_LE(calibration.fits[i - 1].validation.mae_MPa, calibration.fits[i].validation.mae_MPa);
+}
+
+TEST(Metrics, AreTheErrorsOfAHandWorkedCase) {
+  const std::vector<double> measured{10, 12, 8, 20}, predicted{9, 14, 8, 17};
+  const std::vector<std::size_t> first_row{0, 2, 4};
+  const Metrics m = metrics(measured, predicted, first_row, 500, 1);
+  EXPECT_DOUBLE_EQ(m.mae_MPa, 1.5);
+  EXPECT_DOUBLE_EQ(m.rmse_MPa, std::sqrt(14.0 / 4));
+  EXPECT_DOUBLE_EQ(m.bias_MPa, 0.5);
+  EXPECT_EQ(m.n_rows, 4U);
+  EXPECT_EQ(m.n_experiments, 2U);
+  // Two experiments with biases -0.5 and 1.5: no resample can leave that span.
+  EXPECT_DOUBLE_EQ(m.bias_interval.low, -0.5);
+  EXPECT_DOUBLE_EQ(m.bias_interval.high, 1.5);
+}
+
+TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {
+  // 20 experiments of 100 equal residuals: rows must not make the interval 10 times too narrow.
+  std::vector<double> measured, predicted(2000, 0.0);
+  std::vector<std::size_t> first_row{0};
+  for (int e = 0; e < 20; ++e) {
+    measured.insert(measured.end(), 100, e % 2 ? 1.0 : -1.0);
+    first_row.push_back(measured.size());
+  }
+  const Metrics m = metrics(measured, predicted, first_row, 2000, 1);
+  EXPECT_NEAR(m.bias_interval.high, 1.96 / std::sqrt(20.0), 0.08);
+}
+
+} // namespace
+} // namespace frictab

@@ -1,0 +1,69 @@
+"""Rebuilds tau_R from a friction table by its attributes alone and compares it with given values.
+
+Usage: rebuild_tau.py TABLE.h5 STATES.csv   (columns: states, then tau_R_MPa)
+Prints the largest relative difference by h5py and the axes that xarray sees.
+"""
+import sys
+
+import h5py
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+
+def multilinear(nodes, values, points):
+    """Multilinear interpolation, clamped at the edges."""
+    weights, cells = [], []
+    for u, x in zip(nodes, points):
+        i = np.clip(np.searchsorted(u, x, side="right") - 1, 0, len(u) - 2)
+        cells.append(i)
+        weights.append(np.clip((x - u[i]) / (u[i + 1] - u[i]), 0.0, 1.0))
+    total = np.zeros(len(points[0]) if points else 1)
+    for corner in range(1 << len(nodes)):
+        share = np.ones_like(total)
+        index = []
+        for d in range(len(nodes)):
+            up = (corner >> d) & 1
+            share = share * (weights[d] if up else 1.0 - weights[d])
+            index.append(cells[d] + up)
+        total = total + share * values[tuple(index)]
+    return total
+
+
+def rebuild(path, states):
+    with h5py.File(path) as f:
+        value = f["value"]
+        attributes = value.attrs
+        text = lambda a: a.decode() if isinstance(a, bytes) else a
+        nodes, points = [], []
+        for d in range(value.ndim):
+            scale = value.dims[d][0]
+            name = scale.name.lstrip("/")
+            log = text(scale.attrs["transform"]) == "log"
+            nodes.append(np.log(scale[:]) if log else scale[:])
+            x = states[name].to_numpy()
+            points.append(np.log(x) if log else x)
+        tabulated = multilinear(nodes, value[()], points)
+        if text(attributes["transform"]) == "log":
+            tabulated = np.exp(tabulated)
+        names = {c: states[c].to_numpy() for c in states.columns}
+        for constant in text(attributes["constants"]).split():
+            names[constant] = float(np.ravel(attributes[constant])[0])
+        names["value"] = tabulated
+        functions = {n: getattr(np, n) for n in ("minimum", "maximum", "exp", "log", "sqrt", "sin",
+                                                 "tanh", "arccos", "where")}
+        return eval(text(attributes["combine"]), {"__builtins__": {}}, {**functions, **names})
+
+
+def main():
+    states = pd.read_csv(sys.argv[2], float_precision="round_trip")
+    wanted = states.pop("tau_R_MPa").to_numpy()
+    tau = np.broadcast_to(rebuild(sys.argv[1], states), wanted.shape)
+    difference = np.max(np.abs(tau - wanted) / np.maximum(np.abs(wanted), 1e-300))
+    data = xr.open_dataset(sys.argv[1])
+    axes = [f"{d}[{data.sizes[d]}] {data[d].attrs['units']}" for d in data["value"].dims]
+    assert all(d in data.coords for d in data["value"].dims)
+    print("ok" if difference < 1e-12 else "differs", f"{difference:.1e}", "; ".join(axes))
+
+
+main()

@@ -1,0 +1,296 @@
+// Tables: exact where they must be, made to their tolerance, read back, read by others.
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "io/hdf5.h"
+#include "support/run_command.h"
+#include "support/sample_data.h"
+#include "table/drift.h"
+#include "table/table_file.h"
+
+namespace frictab {
+namespace {
+
+Table table_of(const std::string& law, const TableOptions& options = {}) {
+  const Model model = test::plausible_model(*find_law(law));
+  const Dataset data = test::sample_data(model);
+  return build_table(model, state_ranges(model, data, options), options);
+}
+
+double worst_of(const std::string& law, const Table& table) {
+  const Model model = test::plausible_model(*find_law(law));
+  const TableFunction function(table);
+  const auto ranges = table_ranges(table, nullptr, "table");
+  return worst_case(LawFunction(model, function.inputs()), function, ranges,
+                    probe_points(ranges, table.axes, 50000))
+      .drift_MPa;
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (c == '.') c = '_';
+  return name;
+}
+
+class TableOfEveryLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(TableOfEveryLaw, MeetsTheAskedToleranceOverTheWholeRange) {
+  for (const double tolerance : {1.0, 0.05}) {
+    TableOptions options;
+    options.tolerance_MPa = tolerance;
+    const Table table = table_of(GetParam(), options);
+    EXPECT_LE(worst_of(GetParam(), table), tolerance) << table.nodes() << " nodes";
+  }
+}
+
+TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
+  const Table table = table_of(GetParam());
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.path("table.h5");
+  write_table(table, file);
+  const Table again = read_table(file);
+  EXPECT_EQ(again.value, table.value);
+  EXPECT_EQ(to_text(again.combine), to_text(table.combine));
+  EXPECT_EQ(again.constants, table.constants);
+  EXPECT_EQ(again.text_attributes, table.text_attributes);
+  EXPECT_EQ(again.number_attributes, table.number_attributes);
+  ASSERT_EQ(again.axes.size(), table.axes.size());
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    EXPECT_EQ(again.axes[a].nodes, table.axes[a].nodes);
+    EXPECT_EQ(again.axes[a].log, table.axes[a].log);
+  }
+}
+
+TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
+  const std::string python = FRICTAB_PYTHON;
+  if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, xarray"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -xarray are not installed";
+  const Table table = table_of(GetParam());
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("table.h5"));
+  const TableFunction function(table);
+  const auto states = test::random_states(function.inputs(), 500, 17);
+  std::string csv;
+  for (const std::string& name : function.inputs())
+    csv += name + ",";
+  csv += "tau_R_MPa\n";
+  for (std::size_t i = 0; i < 500; ++i) {
+    std::vector<double> state;
+    for (const auto& column : states) {
+      state.push_back(column[i]);
+      csv += fmt::format("{},", column[i]);
+    }
+    csv += fmt::format("{}\n", function(state));
+  }
+  const std::string file = directory.write("states.csv", csv);
+  const auto result =
+      test::run_command({python, std::string(FRICTAB_SOURCE_DIR) + "/tests/support/rebuild_tau.py",
+                         directory.path("table.h5"), file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.substr(0, 3), "ok ") << result.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+
+TEST(Table, ProductsOfPowersAndLogarithmsNeedTwoNodesPerAxis) {
+  for (const char* law : {"log_coulomb", "exp_coulomb"}) {
+    const Table table = table_of(law);
+    for (const TableAxis& axis : table.axes)
+      EXPECT_EQ(axis.nodes.size(), 2U) << law << axis.name;
+    EXPECT_LT(worst_of(law, table), 1e-11) << law;
+  }
+}
+
+TEST(Table, ClampOfALawGetsANode) {
+  const Table table = table_of("wzl");
+  const auto& v = table.axes[1];
+  ASSERT_EQ(v.name, "v_rel_mm_s");
+  EXPECT_NE(std::find(v.nodes.begin(), v.nodes.end(), 10.0), v.nodes.end());
+  EXPECT_LT(worst_of("wzl", table), 1e-11);
+}
+
+TEST(Table, ShearLimitIsCombinedAfterInterpolationNotTabulatedAcross) {
+  EXPECT_EQ(to_text(table_of("orowan").combine),
+            "minimum(maximum(minimum(value*sigma_n_MPa, m*(0.5773502691896258*sigma_f_MPa)), 0), "
+            "0.5773502691896258*sigma_f_MPa)");
+  EXPECT_LT(worst_of("orowan", table_of("orowan")), 1e-11);
+  // The same law as one table of tau_R over sigma_N and sigma_f, 33 x 33 nodes across the kink.
+  Table naive = table_of("orowan");
+  const Model model = test::plausible_model(*find_law("orowan"));
+  for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"}) {
+    TableAxis axis{name, "MPa", name, false, {}};
+    const double low = naive.number_attributes[std::string("range_low_") + name];
+    const double high = naive.number_attributes[std::string("range_high_") + name];
+    for (int i = 0; i <= 32; ++i)
+      axis.nodes.push_back(low + (high - low) * i / 32);
+    naive.axes.push_back(axis);
+  }
+  const LawFunction law(model, {"sigma_n_MPa", "sigma_f_MPa"});
+  naive.value.clear();
+  for (const double sigma_n : naive.axes[0].nodes)
+    for (const double sigma_f : naive.axes[1].nodes) {
+      const std::vector<double> state{sigma_n, sigma_f};
+      naive.value.push_back(law(state));
+    }
+  naive.combine = Expr::symbol("value");
+  naive.constants.clear();
+  EXPECT_GT(worst_of("orowan", naive), 1.0);
+}
+
+TEST(Table, MultilinearInterpolationConvergesWithTheSquareOfTheSpacing) {
+  double error[3];
+  const std::size_t nodes[3] = {17, 33, 65};
+  for (int i = 0; i < 3; ++i) {
+    TableOptions options;
+    for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"})
+      options.axes[name].nodes = nodes[i];
+    error[i] = worst_of("levanov", table_of("levanov", options));
+  }
+  EXPECT_GT(std::log2(error[0] / error[1]), 1.9);
+  EXPECT_GT(std::log2(error[1] / error[2]), 1.9);
+}
+
+TEST(Table, JobSetsRangeNodesAndSpacing) {
+  TableOptions options;
+  options.axes["sigma_n_MPa"].range = {100, 3000};
+  options.axes["sigma_n_MPa"].nodes = 5;
+  options.axes["sigma_n_MPa"].spacing = "linear";
+  const Table table = table_of("levanov", options);
+  EXPECT_EQ(table.axes[0].nodes, (std::vector<double>{100, 825, 1550, 2275, 3000}));
+  EXPECT_FALSE(table.axes[0].log);
+}
+
+TEST(Table, GridThatDoesNotFitIntoMemoryIsRefused) {
+  TableOptions options;
+  options.place = {"job.toml", 9, 1};
+  for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C"})
+    options.axes[name].nodes = 1000;
+  try {
+    table_of("log_coulomb", options);
+    FAIL() << "8 TB were accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("job.toml:9:1: error: the table needs 7450.6 GiB "
+                        "(1,000,000,000,000 nodes: sigma_n_MPa 1000, "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Table, LogarithmicAxisFromZeroIsRefused) {
+  TableOptions options;
+  options.axes["sigma_n_MPa"].range = {0, 3000};
+  options.axes["sigma_n_MPa"].spacing = "log";
+  options.axes["sigma_n_MPa"].place = {"job.toml", 12, 3};
+  try {
+    table_of("levanov", options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "job.toml:12:3: error: the axis sigma_n_MPa cannot be logarithmic: its range starts "
+              "at 0\n  hint: spacing = \"linear\", or a range that starts above 0");
+  }
+}
+
+TEST(TableFunction, ReportsEveryClampedAxisAndKeepsNaN) {
+  const Table table = table_of("log_coulomb");
+  const TableFunction function(table);
+  ASSERT_EQ(function.inputs(), (std::vector<std::string>{"sigma_n_MPa", "psi", "v_rel_mm_s",
+                                                         "T_contact_C", "sigma_f_MPa"}));
+  std::vector<double> state{1500, 3, 50, 100, 500};
+  unsigned outside = 99;
+  const double inside = function(state, &outside);
+  EXPECT_EQ(outside, 0U);
+  state[2] = 1e5;
+  EXPECT_TRUE(std::isfinite(function(state, &outside)));
+  EXPECT_EQ(outside, 4U);
+  state[0] = 0;
+  function(state, &outside);
+  EXPECT_EQ(outside, 5U);
+  state = {1500, std::nan(""), 50, 100, 500};
+  EXPECT_TRUE(std::isnan(function(state)));
+  EXPECT_GT(inside, 0);
+}
+
+TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.path("foreign.h5");
+  {
+    Hdf5Writer out(file);
+    const std::size_t shape[] = {3};
+    const std::vector<double> nodes{1, 1, 2}, value{0.1, 0.2, 0.3};
+    out.dataset("psi", shape, nodes);
+    out.attribute("psi", "units", std::string("%"));
+    out.attribute("psi", "transform", std::string("cubic"));
+    out.dataset("value", shape, value);
+    out.dimension_scale("value", 0, "psi");
+    out.attribute("value", "quantity", std::string("mu"));
+    out.attribute("value", "interpolation", std::string("linear"));
+    out.close();
+  }
+  try {
+    read_table(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 4U) << error.what();
+    for (const char* part :
+         {"'value' has no text attribute 'transform'", "attribute 'transform' of 'psi' is 'cubic'",
+          "axis 'psi' does not ascend at node 1", "axis 'psi' is in '%'"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part;
+  }
+}
+
+TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
+  Table table = table_of("orowan");
+  const test::TemporaryDirectory directory;
+  table.constants.clear();
+  write_table(table, directory.path("t.h5"));
+  EXPECT_THROW(read_table(directory.path("t.h5")), InputError);
+}
+
+TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
+  const test::TemporaryDirectory directory;
+  write_table(table_of("levanov"), directory.path("t.h5"));
+  const std::string bytes = directory.read("t.h5");
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    std::string broken = bytes.substr(0, random.below(bytes.size()));
+    if (i % 2) { // same length, some bytes changed
+      broken = bytes;
+      for (int k = 0; k < 8; ++k)
+        broken[random.below(broken.size())] = static_cast<char>(random.below(256));
+    }
+    const std::string file = directory.write("broken.h5", broken);
+    try {
+      TableFunction function(read_table(file)); // luck: the change did not matter
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST(Table, DoesNotDependOnTheNumberOfThreads) {
+  set_threads(1);
+  const Table one = table_of("wanheim_bay");
+  set_threads(2);
+  const Table two = table_of("wanheim_bay");
+  set_threads(0);
+  EXPECT_EQ(one.value, two.value);
+  EXPECT_EQ(one.text_attributes, two.text_attributes);
+}
+
+} // namespace
+} // namespace frictab
