@@ -145,8 +145,8 @@ Exporter exporter() {
       "node "
       "without area or normal force gets no friction. Surface expansion and flow stress are not "
       "known to the solver: [export.inputs] says per state constant:VALUE, property or field:N; a "
-      "property or field the deck does not give takes the mean of the training data or the middle "
-      "of the axis, as the header of the source says. DEPVAR=3: accumulated slip, friction work "
+      "property or field the deck does not give takes the middle of the range the table was made "
+      "for, as the header of the source says. DEPVAR=3: accumulated slip, friction work "
       "per "
       "area, peak pressure, each by surface node. Works with the single- and the double-precision "
       "solver; table and arithmetic are double in both.";

@@ -63,10 +63,8 @@ std::vector<std::string> states(const ExportRequest& request,
                                 const std::vector<VfricInput>& inputs) {
   std::vector<std::string> lines;
   for (const VfricInput& input : inputs) {
-    const auto& axis = input.argument.axis;
-    lines.push_back(fmt::format("{}: {}{}", input.argument.argument, source_text(input),
-                                axis ? "; " + range_text(input.argument, request.table.axes[*axis])
-                                     : std::string()));
+    lines.push_back(fmt::format("{}: {}; {}", input.argument.argument, source_text(input),
+                                range_text(input.argument, request.table)));
   }
   if (lines.empty()) lines.push_back("none");
   return lines;

@@ -68,10 +68,15 @@ std::vector<std::string> about(const ExportRequest& request) {
 Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   std::vector<std::string> lines;
   for (const InputArgument& input : inputs) {
-    std::string range = input.used ? "no axis, any value" : "not used by this law";
-    if (input.axis) range = range_text(input, request.table.axes[*input.axis]);
-    lines.push_back(comment_text(
-        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range)));
+    const std::string range =
+        input.used ? range_text(input, request.table) : "not used by this law";
+    const std::string text = comment_text(
+        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range));
+    std::string indent;
+    for (const std::string& piece : wrap_text(text, 88)) {
+      lines.push_back(indent + piece);
+      indent = "    ";
+    }
   }
   return items(lines);
 }

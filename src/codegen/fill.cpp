@@ -96,15 +96,26 @@ std::vector<InputArgument> entry_arguments(const Table& table, std::string_view 
   return arguments;
 }
 
+std::optional<std::pair<double, double>> known_range(const Table& table, const std::string& name) {
+  for (const TableAxis& axis : table.axes)
+    if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
+  const auto low = table.number_attributes.find("range_low_" + name);
+  const auto high = table.number_attributes.find("range_high_" + name);
+  if (low == table.number_attributes.end() || high == table.number_attributes.end() ||
+      !std::isfinite(low->second) || !std::isfinite(high->second))
+    return std::nullopt;
+  return {{low->second, high->second}};
+}
+
 std::optional<double> typical_value(const Table& table, const std::string& name) {
-  const auto known = table.number_attributes.find("training_mean_" + name);
-  if (known != table.number_attributes.end() && std::isfinite(known->second)) return known->second;
-  for (const TableAxis& axis : table.axes) {
-    if (axis.name != name) continue;
-    const double low = axis.nodes.front(), high = axis.nodes.back();
-    return axis.log ? std::sqrt(low * high) : 0.5 * (low + high);
-  }
-  return std::nullopt;
+  const auto range = known_range(table, name);
+  if (!range) return std::nullopt;
+  const Quantity* known = find_quantity(name);
+  bool log = known && known->log_axis;
+  for (const TableAxis& axis : table.axes)
+    if (axis.name == name) log = axis.log;
+  const auto [low, high] = *range;
+  return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
 }
 
 void check_table(const Table& table) {
@@ -159,11 +170,14 @@ std::string fortran_number(double value) {
   return mantissa + "D" + exponent;
 }
 
-std::string range_text(const InputArgument& input, const TableAxis& axis) {
-  const std::string range =
-      fmt::format("{:.6g} .. {:.6g}", input.solver.from_canonical(axis.nodes.front()),
-                  input.solver.from_canonical(axis.nodes.back()));
-  return input.solver.name == "1" ? range : range + " " + input.solver.name;
+std::string range_text(const InputArgument& input, const Table& table) {
+  const auto known = known_range(table, input.name);
+  if (!known) return "no axis, any value";
+  const SolverUnit& unit = input.solver;
+  std::string text = fmt::format("{:.6g} .. {:.6g}", unit.from_canonical(known->first),
+                                 unit.from_canonical(known->second));
+  if (unit.name != "1") text += " " + unit.name;
+  return input.axis ? text : text + " (no axis: any value, verified there)";
 }
 
 std::string drift_text(const Table& table) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "expr/expr.h"
@@ -43,8 +44,12 @@ struct InputArgument {
 // table's further inputs.
 std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units);
 
-// The value an input has where the solver gives none: what the table says is typical (number
-// attribute "training_mean_<name>"), or the middle of its axis; nullopt where neither is known.
+// The states a table was made and verified for: its axis, or the attributes range_low_<name> and
+// range_high_<name> of a state that only the formula uses; nullopt where neither is there.
+std::optional<std::pair<double, double>> known_range(const Table& table, const std::string& name);
+
+// The value an input has where the solver gives none: the middle of its range (of its logarithms
+// where that is the quantity's coordinate); nullopt where no range is known.
 std::optional<double> typical_value(const Table& table, const std::string& name);
 
 // Throws InputError where a table cannot be made into code: values that are not finite, sizes that
@@ -58,8 +63,8 @@ std::string comment_text(std::string_view text);
 std::string c_number(double value);
 std::string fortran_number(double value);
 
-// "500 .. 2750 MPa" in the solver's unit.
-std::string range_text(const InputArgument& input, const TableAxis& axis);
+// "500 .. 2750 MPa" in the solver's unit, with a remark where the state is no axis.
+std::string range_text(const InputArgument& input, const Table& table);
 
 // "worst drift ..., measured in verification" or "not known"; from the table's attributes.
 std::string drift_text(const Table& table);

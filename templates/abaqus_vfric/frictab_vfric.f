@@ -6,7 +6,7 @@ C
 C     @{line.text}
 @end
 C
-C     States (of these the table's axes, with their range):
+C     States, where they come from and the table's range:
 @for line in states
 C     @{line.text}
 @end

@@ -80,7 +80,8 @@ Table four_axis_table() {
   table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
   table.constants = {{"m", 0.8}};
   table.text_attributes = {{"data_origin", "synthetic (frictab twin)"}};
-  table.number_attributes = {{"worst_case_MPa", 0.31}, {"training_mean_sigma_f_MPa", 480}};
+  table.number_attributes = {
+      {"worst_case_MPa", 0.31}, {"range_low_sigma_f_MPa", 240}, {"range_high_sigma_f_MPa", 960}};
   return table;
 }
 

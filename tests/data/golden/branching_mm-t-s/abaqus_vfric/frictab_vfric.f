@@ -17,12 +17,13 @@ C       number))) + tanh(maximum(value*sigma_n_MPa/(sigma_f_MPa/2),
 C       1e-09)) - sqrt(maximum(value*sigma_n_MPa/(sigma_f_MPa/2),
 C       1e-09))), sigma_f_MPa/2)
 C
-C     States (of these the table's axes, with their range):
-C     sigma_n_MPa: fNormal/areaSec of the surface node
+C     States, where they come from and the table's range:
+C     sigma_n_MPa: fNormal/areaSec of the surface node; no axis, any
+C       value
 C     v_rel_mm_s: |dSlipFric|/dTimCur (0 where dTimCur = 0); 0 .. 50
 C       mm/s
 C     s_mm: STATEV(1), accumulated slip under pressure; 0 .. 40 mm
-C     sigma_f_MPa: property 1
+C     sigma_f_MPa: property 1; no axis, any value
 C     Outside the range the table's value at the nearest edge is
 C     used; stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out; such a point's STATEV stay as they were.

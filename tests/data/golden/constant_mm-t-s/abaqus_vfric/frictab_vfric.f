@@ -9,8 +9,9 @@ C     Worst drift from the law: not measured here; see verify.json of
 C       the run that wrote this file
 C     tau_R_MPa = value*sigma_n_MPa
 C
-C     States (of these the table's axes, with their range):
-C     sigma_n_MPa: fNormal/areaSec of the surface node
+C     States, where they come from and the table's range:
+C     sigma_n_MPa: fNormal/areaSec of the surface node; no axis, any
+C       value
 C     Outside the range the table's value at the nearest edge is
 C     used; stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out; such a point's STATEV stay as they were.

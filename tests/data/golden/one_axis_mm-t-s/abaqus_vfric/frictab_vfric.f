@@ -9,7 +9,7 @@ C     Worst drift from the law: 0.25 MPa, the largest found over the
 C       whole range
 C     tau_R_MPa = value
 C
-C     States (of these the table's axes, with their range):
+C     States, where they come from and the table's range:
 C     psi: property 1; 1 .. 20
 C     Outside the range the table's value at the nearest edge is
 C     used; stress and flow stress enter the formula unchanged.
