@@ -107,13 +107,12 @@ void check_axes(JobReader& reader) {
   }
 }
 
-// "best" and "all" stand alone; a law asked for by a later stage is among those calibrated.
+// "all" stands alone; a law asked for by a later stage is among those calibrated.
 void check_models(JobReader& reader, const std::string& path,
                   const std::vector<std::string>& models) {
-  for (const char* word : {"best", "all"})
-    if (models.size() > 1 && std::count(models.begin(), models.end(), word))
-      reader.fault(reader.place_of(path), fmt::format("'{}' stands alone in {}", word, path),
-                   fmt::format("{} = \"{}\", or a list of names", path, word));
+  if (models.size() > 1 && std::count(models.begin(), models.end(), "all"))
+    reader.fault(reader.place_of(path), fmt::format("'all' stands alone in {}", path),
+                 fmt::format("{} = \"all\", or a list of names", path));
   const std::vector<std::string>& use = reader.job.models.use;
   if (use.empty() || path == "export.targets") return;
   for (const std::string& name : models)

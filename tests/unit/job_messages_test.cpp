@@ -264,9 +264,9 @@ TEST(JobMessages, SayWhatContradictsItself) {
             "job.toml:4:7: error: models.use is an empty list\n"
             "  hint: leave the key out for: all that the columns allow");
   EXPECT_EQ(with("[table]\n"
-                 "model = [\"best\", \"coulomb\"]"),
-            "job.toml:4:9: error: 'best' stands alone in table.model\n"
-            "  hint: table.model = \"best\", or a list of names");
+                 "model = [\"all\", \"coulomb\"]"),
+            "job.toml:4:9: error: 'all' stands alone in table.model\n"
+            "  hint: table.model = \"all\", or a list of names");
   EXPECT_EQ(with("[models]\n"
                  "use = \"coulomb\"\n"
                  "[table]\n"
