@@ -74,10 +74,9 @@ struct Hdf5Writer::Data {
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
   silence();
-  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  data_ =
-      std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  // The library's earliest format: newer root groups carry the time of writing.
+  data_ = std::make_unique<Data>(
+      H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   must(data_->file.ok(), "create " + file.string());
 }
 
