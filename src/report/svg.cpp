@@ -167,7 +167,7 @@ std::string Plot::text(std::string_view title, std::string_view description) con
   const std::string frame =
       fmt::format("<path class=\"frame\" d=\"M{} {}H{}V{}H{}z\"/>", pixel(left), pixel(top),
                   pixel(right), pixel(bottom), pixel(left));
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" "
+  return fmt::format("<svg class=\"plot\" role=\"img\" "
                      "viewBox=\"0 0 {} {}\" aria-label=\"{}. {}\">\n"
                      "<title>{}</title>\n<desc>{}</desc>\n{}{}{}\n</svg>",
                      pixel(frame_.width), pixel(frame_.height), escape(title), escape(description),
