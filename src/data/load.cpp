@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -25,7 +27,9 @@ struct Part {
   Dataset data;
   CsvTable raw;
   std::vector<std::size_t> row; // raw row
+  bool measured_tau = true;
   FaultList faults;
+  std::vector<MappedFile::CellFault> cell_faults; // not told yet
 
   Column* find(std::string_view name) {
     for (Column& column : data.columns)
@@ -41,14 +45,23 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& file
   const std::size_t rows = part.raw.rows();
   std::map<std::string, std::size_t> index;
   std::vector<std::vector<std::size_t>> members;
+  const auto name_of = [&](std::size_t i) -> const std::string& {
+    return mapped.experiment.empty() ? file_name : mapped.experiment[i];
+  };
+  std::size_t current = 0; // rows of one experiment mostly follow each other
   for (std::size_t i = 0; i < rows; ++i) {
-    const std::string& name = mapped.experiment.empty() ? file_name : mapped.experiment[i];
+    const std::string& name = name_of(i);
+    if (i > 0 && name == name_of(i - 1)) {
+      members[current].push_back(i);
+      continue;
+    }
     const auto [found, is_new] = index.emplace(name, members.size());
     if (is_new) {
       members.emplace_back();
       data.experiments.push_back(name);
     }
-    members[found->second].push_back(i);
+    current = found->second;
+    members[current].push_back(i);
   }
   for (const auto& rows_of_one : members) {
     part.row.insert(part.row.end(), rows_of_one.begin(), rows_of_one.end());
@@ -61,6 +74,7 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& file
     data.columns.push_back(std::move(sorted));
   }
   data.notes = std::move(mapped.notes);
+  part.cell_faults = std::move(mapped.cell_faults);
 }
 
 // Slope of the least-squares line of y over t in a window of `width` rows around each row.
@@ -82,7 +96,7 @@ std::vector<double> local_slopes(std::span<const double> t, std::span<const doub
       stt += (t[j] - mt) * (t[j] - mt);
       sty += (t[j] - mt) * (y[j] - my);
     }
-    slopes[i] = stt > 0 ? sty / stt : 0;
+    slopes[i] = sty / stt; // NaN where time stands still
   }
   return slopes;
 }
@@ -126,7 +140,8 @@ void derive_shear_stress(Part& part) {
   }
   if (!stress) return; // told by check_needed
   Column tau{"tau_R_MPa", "MPa", std::vector<double>(stress->values.size()), {}};
-  // No load, no coefficient: NaN, which check_values reports unless the row is left out before.
+  part.measured_tau = false;
+  // No load, no coefficient: NaN; check_values reports the load unless the row is left out before.
   for (std::size_t i = 0; i < tau.values.size(); ++i)
     tau.values[i] = normal->values[i] > 0
                         ? friction->values[i] / normal->values[i] * stress->values[i]
@@ -186,13 +201,34 @@ void drop_rows(Part& part, const DataOptions& options) {
   data.first_row = std::move(first);
 }
 
+// Faults of cells in the rows that are kept; what was to be computed from such a cell follows them.
+void tell_cells(Part& part) {
+  if (part.cell_faults.empty()) return;
+  const std::set<std::size_t> kept(part.row.begin(), part.row.end());
+  for (MappedFile::CellFault& cell : part.cell_faults)
+    if (kept.count(cell.row) > 0)
+      part.faults.add(cell.fault.place, cell.fault.what, cell.fault.hint);
+  part.cell_faults.clear();
+}
+
+// A value that could not be computed though every cell of its row is a number.
+void check_computed(Part& part) {
+  if (!part.faults.empty()) return;
+  for (const Column& column : part.data.columns)
+    for (std::size_t i = 0; find_quantity(column.name) && i < column.values.size(); ++i)
+      if (!std::isfinite(column.values[i]))
+        part.faults.add(part.place(i), column.name + " cannot be computed here",
+                        "time stands still, a neighbouring row holds no number, or the numbers "
+                        "are too large");
+}
+
 void check_values(Part& part) {
   for (const Column& column : part.data.columns) {
     const Quantity* quantity = find_quantity(column.name);
     if (!quantity) continue;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
-      if (column.name == "tau_R_MPa" && std::isnan(column.values[i]) && part.find("F_N_N"))
-        part.faults.add(part.place(i), "F_N_N is not positive: there is no friction coefficient",
+      if (column.name == "F_N_N" && !part.measured_tau && column.values[i] == 0)
+        part.faults.add(part.place(i), "F_N_N is 0: there is no friction coefficient",
                         "leave rows without load out: data.drop = { F_N_N = { below = 1 } }");
       if (!(column.values[i] < quantity->lowest)) continue;
       std::string hint = fmt::format("a {} cannot be below {} {}", quantity->meaning,
@@ -260,9 +296,11 @@ Part load_part(const std::string& file, const DataOptions& options) {
     take_slopes(part, options);
     derive_shear_stress(part);
     drop_rows(part, options);
+    tell_cells(part);
     check_values(part);
     check_experiments(part);
     integrate_distance(part);
+    check_computed(part);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults())
       part.faults.add(fault.place, fault.what, fault.hint);
@@ -327,7 +365,11 @@ Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& o
     try {
       part.faults.throw_if_any();
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults())
+      std::vector<Fault> sorted = error.faults();
+      std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+        return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+      });
+      for (const Fault& fault : sorted)
         faults.add(fault.place, fault.what, fault.hint);
     }
   }

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
+#include "io/number.h"
 
 namespace frictab {
 
@@ -22,6 +25,18 @@ std::string strip_brackets(std::string unit) {
       std::string("])").find(unit.back()) != std::string::npos)
     unit = unit.substr(1, unit.size() - 2);
   return unit;
+}
+
+// "nan", "-Inf", "1e999".
+bool is_not_finite(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && !std::isfinite(value);
+}
+
+// A cell without a value: empty, or the word that spreadsheets and pandas put there.
+bool is_missing(const std::string& text) {
+  return text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "n/a";
 }
 
 class Mapper {
@@ -87,31 +102,53 @@ private:
     return found;
   }
 
+  // `what` follows the column's name and, in HDF5, the row.
+  void cell_fault(std::size_t row, std::size_t place, const std::string& name,
+                  const std::string& what, const std::string& hint) {
+    const std::string where = raw_.header_line > 0 ? "" : fmt::format(" (row {})", raw_.line[row]);
+    out_.cell_faults.push_back(
+        {row, {row_place(raw_, row, place), fmt::format("{}{}: {}", name, where, what), hint}});
+  }
+
+  std::string number_hint(const std::string& text) const {
+    const auto looks_like = [&](char decimal) {
+      double ignored = 0;
+      return scan_number(text.data(), text.data() + text.size(), decimal, ignored) ==
+             text.data() + text.size();
+    };
+    if (options_.decimal == '.' && looks_like(','))
+      return "a decimal comma? set data.decimal = \",\"";
+    if (options_.decimal == ',' && looks_like('.'))
+      return "a decimal point? set data.decimal = \".\"";
+    return "";
+  }
+
   // All cells of a column as numbers; a fault for each that is none.
   std::vector<double> numbers(const CsvColumn& column, const std::string& canonical) {
-    for (const CsvColumn::Text& cell : column.texts) {
-      const bool comma = options_.decimal == '.' && cell.text.find(',') != std::string::npos;
-      faults_.add(row_place(raw_, cell.row),
-                  cell.text.empty() ? fmt::format("{}: the cell is empty", canonical)
-                                    : fmt::format("{}: '{}' is not a number", canonical, cell.text),
-                  comma ? "a decimal comma? set data.decimal = \",\"" : "");
-    }
+    for (const CsvColumn::Text& cell : column.texts)
+      if (is_not_finite(cell.text))
+        not_finite(cell.row, cell.column, canonical, cell.text);
+      else if (cell.text.empty())
+        cell_fault(cell.row, cell.column, canonical, "the cell is empty",
+                   "leave the row out, or repair it");
+      else
+        cell_fault(cell.row, cell.column, canonical, fmt::format("'{}' is not a number", cell.text),
+                   number_hint(cell.text));
     std::size_t text = 0;
     for (std::size_t i = 0; i < column.numbers.size(); ++i) {
       while (text < column.texts.size() && column.texts[text].row < i)
         ++text;
       const bool is_text = text < column.texts.size() && column.texts[text].row == i;
       if (!is_text && !std::isfinite(column.numbers[i]))
-        faults_.add(row_place(raw_, i),
-                    fmt::format("{}: {} is not a finite number{}", canonical, column.numbers[i],
-                                row_text(i)),
-                    "leave the row out, or repair it");
+        not_finite(i, 0, canonical, shortest(column.numbers[i]));
     }
     return column.numbers;
   }
 
-  std::string row_text(std::size_t row) const {
-    return raw_.header_line > 0 ? "" : fmt::format(" (row {})", raw_.line[row]);
+  void not_finite(std::size_t row, std::size_t place, const std::string& canonical,
+                  const std::string& text) {
+    cell_fault(row, place, canonical, text + " is not a finite number",
+               "leave the row out, or repair it");
   }
 
   void map_quantity(const Quantity& quantity) {
@@ -166,8 +203,8 @@ private:
       const bool is_text = text < column->texts.size() && column->texts[text].row == i;
       out_.experiment[i] = is_text ? column->texts[text].text : shortest(column->numbers[i]);
       if (out_.experiment[i].empty())
-        faults_.add(row_place(raw_, i), "experiment: the cell is empty",
-                    "every row needs the name of its test");
+        cell_fault(i, 0, experiment_column, "the cell is empty",
+                   "every row needs the name of its test");
     }
   }
 
@@ -209,39 +246,49 @@ private:
   }
 
   void add_bystander(const CsvColumn& raw) {
-    const auto empty = static_cast<std::size_t>(
+    const auto missing = static_cast<std::size_t>(
         std::count_if(raw.texts.begin(), raw.texts.end(),
-                      [](const CsvColumn::Text& cell) { return cell.text.empty(); }));
+                      [](const CsvColumn::Text& cell) { return is_missing(cell.text); }));
+    const std::size_t words = raw.texts.size() - missing;
     Column column{raw.name, "", raw.numbers, {}};
-    if (raw.texts.size() > empty) {
-      if (raw.texts.size() - empty < raw_.rows() / 2) {
-        for (const CsvColumn::Text& cell : raw.texts)
-          if (!cell.text.empty())
-            faults_.add(row_place(raw_, cell.row),
-                        fmt::format("{}: '{}' is not a number, as most of the column is", raw.name,
-                                    cell.text),
-                        "repair the cell, or leave the column out by listing the others in "
-                        "data.bystanders");
-        return;
-      }
+    if (words > 0 && words >= raw_.rows() / 2) {
       make_categorical(column, raw);
-    } else if (empty > 0)
-      out_.notes.push_back(fmt::format("{}: {} cells are empty", raw.name, thousands(empty)));
+      out_.columns.push_back(std::move(column));
+      return;
+    }
+    for (const CsvColumn::Text& cell : raw.texts)
+      if (!is_missing(cell.text))
+        cell_fault(cell.row, cell.column, raw.name,
+                   fmt::format("'{}' is not a number, as most of the column is", cell.text),
+                   "repair the cell, or leave the column out by listing the others in "
+                   "data.bystanders");
+    for (std::size_t i = 0; i < raw.numbers.size(); ++i)
+      if (std::isinf(raw.numbers[i])) not_finite(i, 0, raw.name, shortest(raw.numbers[i]));
+    const auto empty = std::count_if(raw.numbers.begin(), raw.numbers.end(),
+                                     [](double value) { return std::isnan(value); });
+    if (empty > 0)
+      out_.notes.push_back(fmt::format("{}: {} cells are empty", raw.name,
+                                       thousands(static_cast<std::size_t>(empty))));
     out_.columns.push_back(std::move(column));
   }
 
   void make_categorical(Column& column, const CsvColumn& raw) {
-    std::vector<std::string> cells(raw_.rows());
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      cells[i] = shortest(raw.numbers[i]);
+    std::vector<std::string> numeric(raw_.rows());
+    std::vector<std::string_view> cells(raw_.rows());
     for (const CsvColumn::Text& cell : raw.texts)
       cells[cell.row] = cell.text;
-    std::set<std::string> levels(cells.begin(), cells.end());
-    column.levels.assign(levels.begin(), levels.end());
     for (std::size_t i = 0; i < cells.size(); ++i)
-      column.values[i] = static_cast<double>(
-          std::lower_bound(column.levels.begin(), column.levels.end(), cells[i]) -
-          column.levels.begin());
+      if (!std::isnan(raw.numbers[i])) cells[i] = numeric[i] = shortest(raw.numbers[i]);
+    std::unordered_map<std::string_view, double> index;
+    for (const std::string_view cell : cells)
+      index.emplace(cell, 0);
+    for (const auto& [level, code] : index)
+      column.levels.emplace_back(level);
+    std::sort(column.levels.begin(), column.levels.end());
+    for (std::size_t i = 0; i < column.levels.size(); ++i)
+      index[column.levels[i]] = static_cast<double>(i);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      column.values[i] = index[cells[i]];
   }
 
   const CsvTable& raw_;

@@ -11,9 +11,14 @@ struct MappedFile {
   std::vector<Column> columns;
   std::vector<std::string> experiment; // per row; empty where the file has no such column
   std::vector<std::string> notes;
+  struct CellFault { // of one cell: told only where its row is not left out
+    std::size_t row;
+    Fault fault;
+  };
+  std::vector<CellFault> cell_faults;
 };
 
-// Adds every fault of the file's columns and cells to `faults`.
+// Adds every fault of the file's columns to `faults`; those of cells are in the result.
 MappedFile map_columns(const CsvTable& raw, const DataOptions& options, FaultList& faults);
 
 } // namespace frictab

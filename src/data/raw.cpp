@@ -37,7 +37,7 @@ CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList&
       column.numbers.assign(rows, std::numeric_limits<double>::quiet_NaN());
       std::size_t row = 0;
       for (std::string& text : in.texts(name))
-        column.texts.push_back({row++, std::move(text)});
+        column.texts.push_back({row++, std::move(text), 0});
     } else
       column.numbers = in.values(name);
     table.columns.push_back(std::move(column));
@@ -52,15 +52,25 @@ CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList&
 
 } // namespace
 
-Place row_place(const CsvTable& table, std::size_t row) {
-  return {table.file, table.header_line > 0 ? table.line[row] : 0, 0};
+Place row_place(const CsvTable& table, std::size_t row, std::size_t column) {
+  if (table.header_line == 0) return {table.file, 0, 0};
+  return {table.file, table.line[row], column};
 }
 
 CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                   FaultList& faults) {
   if (looks_like_hdf5(path)) return read_hdf5(path, named, faults);
-  const CsvFormat format{options.delimiter, options.decimal, options.skip_rows, options.skip_footer,
-                         options.units_row};
+  CsvFormat format{options.delimiter,
+                   options.decimal,
+                   options.skip_rows,
+                   options.skip_footer,
+                   options.units_row,
+                   {"experiment"},
+                   0};
+  if (const auto named_so = options.columns.find("experiment"); named_so != options.columns.end()) {
+    format.text_columns = named_so->second.names;
+    format.text_number = named_so->second.number;
+  }
   return parse_csv(read_file(path), named, format, faults);
 }
 

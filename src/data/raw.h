@@ -9,7 +9,7 @@ namespace frictab {
 
 // Where a row of a raw table stands, for messages: file:line, or file with the row number in
 // `what`.
-Place row_place(const CsvTable& table, std::size_t row);
+Place row_place(const CsvTable& table, std::size_t row, std::size_t column = 0);
 
 // CSV, or HDF5 where the file starts like it (then `line` counts rows from 1 and header_line is 0).
 CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,

@@ -1,12 +1,13 @@
 // A CSV reader that goes over the text once.
 #include "io/csv.h"
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "io/number.h"
 
 namespace frictab {
 
@@ -25,21 +26,41 @@ std::string_view trim(std::string_view s) {
 // The number a cell holds; false where it holds anything else.
 bool parse_number(std::string_view cell, char decimal, double& value) {
   cell = trim(cell);
-  if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
-  if (cell.empty()) return false;
-  char buffer[64];
-  const char* begin = cell.data();
-  std::size_t size = cell.size();
-  if (decimal != '.') {
-    if (size >= sizeof buffer) return false;
-    for (std::size_t i = 0; i < size; ++i) {
-      if (cell[i] == '.') return false; // a point is no decimal mark here
-      buffer[i] = cell[i] == decimal ? '.' : cell[i];
-    }
-    begin = buffer;
+  const char* const end = cell.data() + cell.size();
+  return !cell.empty() && scan_number(cell.data(), end, decimal, value) == end;
+}
+
+bool valid_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c < 0x80) continue;
+    const std::size_t more = c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : 3;
+    if (c < 0xc2 || c > 0xf4 || i + more >= text.size()) return false;
+    for (std::size_t k = 1; k <= more; ++k)
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
+    const auto next = static_cast<unsigned char>(text[i + 1]);
+    if ((c == 0xe0 && next < 0xa0) || (c == 0xed && next > 0x9f) || (c == 0xf0 && next < 0x90) ||
+        (c == 0xf4 && next > 0x8f))
+      return false;
+    i += more;
   }
-  const auto [end, code] = std::from_chars(begin, begin + size, value);
-  return code == std::errc() && end == begin + size;
+  return true;
+}
+
+// What is not UTF-8 is taken as Latin-1, as older measuring programs write it.
+std::string to_utf8(std::string_view text) {
+  if (valid_utf8(text)) return std::string(text);
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return out;
 }
 
 // Walks over the text cell by cell.
@@ -51,7 +72,26 @@ public:
   std::size_t line() const { return line_; }
   std::size_t column() const { return at_ - line_start_ + 1; }
   std::size_t position() const { return at_; }
-  bool unclosed() const { return unclosed_; }
+  std::size_t unclosed_line() const { return unclosed_line_; } // 0 = none
+
+  // Takes the cell if it is a plain number: the way most cells of a file go.
+  bool number(char decimal, double& value, bool& last) {
+    const char* p = text_.data() + at_;
+    const char* const end = text_.data() + text_.size();
+    while (p != end && is_padding(*p))
+      ++p;
+    if (p == end) return false;
+    p = scan_number(p, end, decimal, value);
+    if (!p) return false;
+    while (p != end && is_padding(*p))
+      ++p;
+    const bool blank_follows =
+        delimiter_ == ' ' && (p[-1] == ' ' || p[-1] == '\t' || p[-1] == '\r');
+    if (p != end && *p != delimiter_ && *p != '\n' && !blank_follows) return false;
+    at_ = static_cast<std::size_t>(p - text_.data());
+    finish(last);
+    return true;
+  }
 
   std::string_view take_line() {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
@@ -76,6 +116,10 @@ public:
   }
 
 private:
+  bool is_padding(char c) const {
+    return c == ' ' || c == '\r' || (c == '\t' && delimiter_ != '\t');
+  }
+
   void next_line() {
     if (at_ < text_.size()) ++at_;
     ++line_;
@@ -98,10 +142,11 @@ private:
 
   std::string_view quoted(bool& last, std::string& storage) {
     storage.clear();
+    const std::size_t opened = line_;
     ++at_;
     for (;; ++at_) {
       if (at_end()) {
-        unclosed_ = true;
+        unclosed_line_ = opened;
         break;
       }
       if (text_[at_] == '"') {
@@ -112,7 +157,7 @@ private:
       storage += text_[at_];
     }
     while (!at_end() && text_[at_] != delimiter_ && text_[at_] != '\n')
-      ++at_; // blanks, \r
+      storage += text_[at_++]; // blanks and \r are trimmed; anything else makes the cell text
     finish(last);
     return storage;
   }
@@ -122,22 +167,31 @@ private:
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   std::size_t line_start_ = 0;
-  bool unclosed_ = false;
+  std::size_t unclosed_line_ = 0;
 };
 
-// The separator of a header: the one that occurs most, blanks where there is none.
-char find_delimiter(std::string_view header) {
+std::size_t count_cells(std::string_view line, char delimiter) {
+  std::size_t count = 1;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    count += c == delimiter && !quoted;
+  }
+  return count;
+}
+
+// The separator of a header: the one that occurs most, blanks where there is none. One that cuts
+// the line below alike goes first: names hold commas too ("Load (N, mean)").
+char find_delimiter(std::string_view header, std::string_view below, char decimal) {
   char best = ' ';
   std::size_t most = 0;
   for (const char candidate : {'\t', ';', ',', '|'}) {
-    std::size_t count = 0;
-    bool quoted = false;
-    for (const char c : header) {
-      if (c == '"') quoted = !quoted;
-      count += c == candidate && !quoted;
-    }
-    if (count > most) {
-      most = count;
+    const std::size_t count = count_cells(header, candidate);
+    if (candidate == decimal || count < 2) continue;
+    const bool agrees = count_cells(below, candidate) == count;
+    const std::size_t score = count + (agrees ? header.size() : 0);
+    if (score > most) {
+      most = score;
       best = candidate;
     }
   }
@@ -168,10 +222,52 @@ std::vector<std::string> read_names(Scanner& scanner) {
   return names;
 }
 
+// Which columns are kept as text.
+std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
+  std::vector<char> is_text(table.columns.size());
+  for (std::size_t i = 0; i < is_text.size(); ++i)
+    is_text[i] = i + 1 == format.text_number ||
+                 std::count(format.text_columns.begin(), format.text_columns.end(),
+                            table.columns[i].name) > 0;
+  return is_text;
+}
+
+// Reads one line's cells into row `row` of the columns; returns how many there are.
+std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
+                       const std::vector<char>& is_text, std::size_t row) {
+  std::string storage;
+  std::size_t cells = 0;
+  for (bool last = false; !last; ++cells) {
+    const bool known = cells < is_text.size();
+    double value = nan;
+    if (known && !is_text[cells] && scanner.number(decimal, value, last)) {
+      table.columns[cells].numbers.push_back(value);
+      continue;
+    }
+    const std::size_t place = scanner.column();
+    const std::string_view cell = trim(scanner.cell(last, storage));
+    if (!known) continue;
+    if (is_text[cells] || !parse_number(cell, decimal, value)) {
+      table.columns[cells].texts.push_back({row, to_utf8(cell), place});
+      value = nan;
+    }
+    table.columns[cells].numbers.push_back(value);
+  }
+  return cells;
+}
+
+void forget_row(CsvTable& table, std::size_t row) {
+  for (CsvColumn& column : table.columns) {
+    column.numbers.resize(row);
+    while (!column.texts.empty() && column.texts.back().row == row)
+      column.texts.pop_back();
+  }
+}
+
 void read_rows(CsvTable& table, Scanner& scanner, std::string_view text, const CsvFormat& format,
                FaultList& faults) {
   const std::size_t width = table.columns.size();
-  std::string storage;
+  const std::vector<char> is_text = text_columns(table, format);
   while (!scanner.at_end()) {
     if (is_blank(text, scanner.position())) {
       scanner.take_line();
@@ -179,32 +275,60 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text, const C
     }
     const std::size_t line = scanner.line();
     const std::size_t row = table.line.size();
-    std::size_t cells = 0;
-    for (bool last = false; !last; ++cells) {
-      const std::string_view cell = scanner.cell(last, storage);
-      if (cells >= width) continue;
-      CsvColumn& column = table.columns[cells];
-      double value = nan;
-      if (!parse_number(cell, format.decimal, value)) {
-        column.texts.push_back({row, std::string(trim(cell))});
-        value = nan;
-      }
-      column.numbers.push_back(value);
-    }
+    const std::size_t cells = read_cells(table, scanner, format.decimal, is_text, row);
     if (cells == width) {
       table.line.push_back(line);
       continue;
     }
     faults.add({table.file, line, 0}, fmt::format("{} cells, the header has {}", cells, width),
                "a delimiter too many or too few, or a line that is no data (skip_footer)");
-    for (CsvColumn& column : table.columns) {
-      column.numbers.resize(row);
-      while (!column.texts.empty() && column.texts.back().row == row)
-        column.texts.pop_back();
-    }
+    forget_row(table, row);
   }
-  if (scanner.unclosed())
-    faults.add({table.file, scanner.line(), 0}, "a quotation mark is never closed");
+  if (scanner.unclosed_line() > 0)
+    faults.add({table.file, scanner.unclosed_line(), 0},
+               "a quotation mark opens here and is never closed");
+}
+
+// The header of the table, checked; moves `scanner` behind it.
+void read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
+  std::size_t numeric = 0;
+  double ignored = 0;
+  for (const std::string& name : read_names(scanner)) {
+    numeric += parse_number(name, format.decimal, ignored);
+    table.columns.push_back({to_utf8(name), "", {}, {}});
+  }
+  if (2 * numeric > table.columns.size())
+    throw InputError({table.file, table.header_line, 0},
+                     fmt::format("{} of the {} column names in this line are numbers", numeric,
+                                 table.columns.size()),
+                     "the header is another line: data.skip_rows counts the lines before it");
+}
+
+void read_units(CsvTable& table, Scanner& scanner, FaultList& faults) {
+  const std::size_t line = scanner.line();
+  const auto units = read_names(scanner);
+  if (units.size() != table.columns.size())
+    faults.add({table.file, line, 0}, fmt::format("the units row has {} cells, the header {}",
+                                                  units.size(), table.columns.size()));
+  for (std::size_t i = 0; i < std::min(units.size(), table.columns.size()); ++i)
+    table.columns[i].unit = to_utf8(units[i]);
+}
+
+std::string_view line_at(std::string_view text, std::size_t begin) {
+  return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin)
+                             : std::string_view();
+}
+
+// Moves over the preamble to the header line. Throws where there is none.
+void find_header(Scanner& lines, std::string_view text, const std::string& file,
+                 std::size_t skip_rows) {
+  for (std::size_t i = 0; i < skip_rows && !lines.at_end(); ++i)
+    lines.take_line();
+  while (!lines.at_end() && is_blank(text, lines.position()))
+    lines.take_line();
+  if (lines.at_end())
+    throw InputError({file, 0, 0}, fmt::format("no header after {} skipped lines", skip_rows),
+                     "check data.skip_rows");
 }
 
 } // namespace
@@ -216,47 +340,32 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   if (without_footer(text, 0).empty()) throw InputError({file, 0, 0}, "the file is empty");
   if (text.find('\0') != std::string_view::npos)
-    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+    throw InputError({file, 0, 0}, "this is no text file",
+                     "give CSV text (UTF-8, not UTF-16) or HDF5");
+  std::string unix_lines; // of a file whose lines end with CR alone
+  if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos) {
+    unix_lines = text;
+    std::replace(unix_lines.begin(), unix_lines.end(), '\r', '\n');
+    text = unix_lines;
+  }
   text = without_footer(text, format.skip_footer);
   Scanner lines(text, '\n');
-  for (std::size_t i = 0; i < format.skip_rows && !lines.at_end(); ++i)
-    lines.take_line();
-  while (!lines.at_end() && is_blank(text, lines.position()))
-    lines.take_line();
-  if (lines.at_end())
-    throw InputError({file, 0, 0},
-                     fmt::format("no header after {} skipped lines", format.skip_rows),
-                     "check data.skip_rows");
+  find_header(lines, text, file, format.skip_rows);
   table.header_line = lines.line();
   const std::size_t header = lines.position();
-  const std::string_view header_text = text.substr(header, text.find('\n', header) - header);
-  const char delimiter = format.delimiter ? format.delimiter : find_delimiter(header_text);
-  Scanner scanner(text, delimiter);
+  const std::string_view header_text = lines.take_line();
+  if (format.units_row) lines.take_line();
+  const std::string_view below = line_at(text, lines.position());
+  Scanner scanner(text, format.delimiter ? format.delimiter
+                                         : find_delimiter(header_text, below, format.decimal));
   while (scanner.position() < header)
     scanner.take_line();
-  std::size_t numeric = 0;
-  double ignored = 0;
-  for (std::string& name : read_names(scanner)) {
-    numeric += parse_number(name, format.decimal, ignored);
-    table.columns.push_back({std::move(name), "", {}, {}});
-  }
-  if (2 * numeric > table.columns.size())
-    throw InputError({file, table.header_line, 0},
-                     fmt::format("{} of the {} column names in this line are numbers", numeric,
-                                 table.columns.size()),
-                     "the header is another line: data.skip_rows counts the lines before it");
-  if (format.units_row && !scanner.at_end()) {
-    const std::size_t line = scanner.line();
-    const auto units = read_names(scanner);
-    if (units.size() != table.columns.size())
-      faults.add({file, line, 0}, fmt::format("the units row has {} cells, the header {}",
-                                              units.size(), table.columns.size()));
-    for (std::size_t i = 0; i < std::min(units.size(), table.columns.size()); ++i)
-      table.columns[i].unit = units[i];
-  }
-  const std::size_t estimate = text.size() / (header_text.size() / 2 + 8) + 16;
+  read_header(table, scanner, format);
+  if (format.units_row && !scanner.at_end()) read_units(table, scanner, faults);
+  const std::size_t estimate = text.size() / (below.size() + 1) + 16;
   for (CsvColumn& column : table.columns)
-    column.numbers.reserve(estimate);
+    column.numbers.reserve(std::min(estimate, text.size()));
+  table.line.reserve(std::min(estimate, text.size()));
   read_rows(table, scanner, text, format, faults);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");

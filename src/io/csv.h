@@ -15,6 +15,9 @@ struct CsvFormat {
   std::size_t skip_rows = 0;   // physical lines before the header
   std::size_t skip_footer = 0; // physical lines at the end, blank ones not counted
   bool units_row = false;
+  // Columns whose cells stay text even where they are numbers ("007"): by name, or number from 1.
+  std::vector<std::string> text_columns;
+  std::size_t text_number = 0;
 };
 
 // One column of a file. A cell that is no number is NaN in `numbers` and listed in `texts`.
@@ -24,7 +27,8 @@ struct CsvColumn {
   std::vector<double> numbers;
   struct Text {
     std::size_t row;
-    std::string text; // what stands there; empty where the cell is empty
+    std::string text;       // what stands there, in UTF-8; empty where the cell is empty
+    std::size_t column = 0; // of its first byte in its line, from 1; 0 = unknown
   };
   std::vector<Text> texts; // ascending rows
 };
@@ -37,10 +41,10 @@ struct CsvTable {
   std::size_t rows() const { return line.size(); }
 };
 
-// Handles UTF-8 BOM, CRLF, quoted cells with delimiters and line breaks inside, blank lines,
-// empty column names. Ragged rows and an unclosed quote are added to `faults`; rows that are
-// ragged are left out of the result (the caller throws). Throws InputError where there is no
-// header or no row.
+// Handles UTF-8 BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells with delimiters
+// and line breaks inside, blank lines, empty column names. Ragged rows and an unclosed quote are
+// added to `faults`; rows that are ragged are left out of the result (the caller throws). Throws
+// InputError where there is no header or no row.
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 

@@ -1,0 +1,93 @@
+// Decimal text to the nearest double: short numbers directly, all others by std::from_chars.
+#include "io/number.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace frictab {
+
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool is_exponent(char c) {
+  return c == 'e' || c == 'E' || c == 'd' || c == 'D';
+}
+
+// The digits of a number, and its power of ten.
+struct Digits {
+  std::uint64_t mantissa = 0;
+  int significant = 0; // digits of the mantissa without leading zeros; over 19 it has overflowed
+  int scale = 0;       // digits behind the decimal sign
+  int exponent = 0;
+
+  void take(char c) {
+    mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
+    significant += mantissa != 0;
+  }
+};
+
+const char* scan_exponent(const char* p, const char* end, int& exponent) {
+  const char* q = p + 1;
+  const bool negative = q != end && *q == '-';
+  if (q != end && (*q == '-' || *q == '+')) ++q;
+  if (q == end || !is_digit(*q)) return p;
+  for (; q != end && is_digit(*q); ++q)
+    if (exponent < 100000) exponent = exponent * 10 + (*q - '0');
+  if (negative) exponent = -exponent;
+  return q;
+}
+
+// The general case. from_chars wants a point, an e, and no plus sign.
+bool convert_slowly(const char* begin, const char* end, char decimal, double& value) {
+  std::string text(begin + (*begin == '+'), end);
+  for (char& c : text) {
+    if (c == decimal) c = '.';
+    if (c == 'd' || c == 'D') c = 'e';
+  }
+  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
+  return code != std::errc::invalid_argument && std::isfinite(value);
+}
+
+} // namespace
+
+const char* scan_number(const char* begin, const char* end, char decimal, double& value) {
+  static constexpr double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  const char* p = begin;
+  if (p != end && (*p == '-' || *p == '+')) ++p;
+  const char* const first = p;
+  Digits digits;
+  for (; p != end && is_digit(*p); ++p)
+    digits.take(*p);
+  bool any = p != first;
+  if (p != end && *p == decimal) {
+    const char* const behind = ++p;
+    for (; p != end && is_digit(*p); ++p)
+      digits.take(*p);
+    any = any || p != behind;
+    // A scale that overflows int needs a number of 2 GB: cells are shorter.
+    digits.scale = static_cast<int>(p - behind);
+  }
+  if (!any) return nullptr;
+  if (p != end && is_exponent(*p)) p = scan_exponent(p, end, digits.exponent);
+  const int power = digits.exponent - digits.scale;
+  // Both factors are exact doubles, so the one rounding is the right one (Clinger 1990).
+  if (digits.significant <= 19 && digits.mantissa <= (std::uint64_t{1} << 53) && power >= -22 &&
+      power <= 22) {
+    const double mantissa = static_cast<double>(digits.mantissa);
+    const double size = power < 0 ? mantissa / powers[-power] : mantissa * powers[power];
+    value = *begin == '-' ? -size : size;
+    return p;
+  }
+  return convert_slowly(begin, p, decimal, value) ? p : nullptr;
+}
+
+} // namespace frictab
