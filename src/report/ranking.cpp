@@ -90,8 +90,8 @@ Items ranking(const Calibration& calibration) {
   const svg::Axis axis = bar_scale(calibration);
   for (const ModelFit& fit : calibration.fits) {
     const Metrics& v = fit.validation;
-    items.emplace_back().text = {{"rank", std::to_string(items.size())},
-                                 {"css", items.size() == 1 ? "best" : "other"},
+    items.emplace_back().text = {{"rank", std::to_string(items.size() + 1)},
+                                 {"css", items.empty() ? "best" : "other"},
                                  {"name", svg::escape(fit.model.law->name)},
                                  {"title", svg::escape(fit.model.law->title)},
                                  {"mae", stress(v.mae_MPa)},

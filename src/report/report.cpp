@@ -41,7 +41,7 @@ Items plots(const ReportInput& input, const PlotSheet& sheet) {
   for (const LawPlots& law : sheet.laws) {
     const Law& about = *input.calibration.fits[items.size()].model.law;
     items.emplace_back().text = {
-        {"rank", std::to_string(items.size())},
+        {"rank", std::to_string(items.size() + 1)},
         {"name", svg::escape(about.name)},
         {"title", svg::escape(about.title)},
         {"formula", svg::escape(about.formula)},

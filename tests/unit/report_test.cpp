@@ -168,6 +168,14 @@ TEST(Report, LargeRunIsWellFormedSelfContainedAndBelowTwoMegabytes) {
     EXPECT_TRUE(svg.node().child("title")) << "a drawing without a title";
 }
 
+TEST(Report, RanksFromOneAndMarksTheBest) {
+  const std::string html = run_of(3, 30).html();
+  EXPECT_THAT(html, HasSubstr("<tr class=\"best\"><td class=\"r\">1</td><td><a href=\"#law-1\">"));
+  EXPECT_THAT(html, HasSubstr("<tr class=\"other\"><td class=\"r\">3</td>"));
+  EXPECT_THAT(html, HasSubstr("<section class=\"law\" id=\"law-1\">"));
+  EXPECT_THAT(html, Not(HasSubstr("law-0")));
+}
+
 TEST(Report, SameValuesGiveSameBytes) {
   EXPECT_EQ(run_of(4, 30).html(), run_of(4, 30).html());
 }
