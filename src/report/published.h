@@ -1,28 +1,34 @@
-// What the paper ("benchmark of friction models on shear-stress level for cold forging") published,
-// beside what this run found. The paper's figures refer to its own measurements.
+// Figures of the paper that this program follows, to stand beside a user's own.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "calibrate/calibration.h"
 
 namespace frictab {
 
+// Mean absolute errors of tau_R, MPa, on the paper's own measured data.
 struct PublishedFigure {
-  std::string what;      // "standard constants"
-  std::string published; // "24 to 95": MAE of tau_R in MPa
-  std::string ours;      // the same laws in this run, or "not in this run"
+  std::string what;
+  std::string mae_MPa;
 };
+std::span<const PublishedFigure> published_figures();
 
-std::vector<PublishedFigure> published_figures(const Calibration& calibration);
+inline constexpr const char* published_source =
+    "Benchmark of friction models on shear-stress level for cold forging";
+inline constexpr const char* published_warning =
+    "The published figures refer to the paper's own measured data, not to yours; they show the "
+    "order of magnitude.";
 
-// Parameters as one line: "mu = 0.0712 ± 0.0008, m = 0.31 ± 0.02"; many are only counted.
-std::string parameters_text(const ModelFit& fit);
+// What this calibration has in the place of published_figures()[index]: "24.2 to 94.8", or empty
+// where it has nothing of the kind.
+std::string counterpart(const Calibration& calibration, std::size_t index);
 
-// "9.80 to 12.51", or "none: one experiment" and the like where resampling says nothing.
-std::string interval_text(const Metrics& metrics, const Interval& interval);
-
-bool has_interval(const Metrics& metrics);
+// Smallest and largest validation MAE of the laws of one kind.
+enum class LawKind { literature, constants, calibrated, network }; // constants: means of the data
+LawKind kind_of(const Law& law);
+std::optional<Interval> mae_span(const Calibration& calibration, LawKind kind);
 
 } // namespace frictab

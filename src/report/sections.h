@@ -1,27 +1,27 @@
-// The parts of report.html as template values. All text in them is HTML, escaped where it comes
-// from users or files.
+// The parts of report.html as values of its template, one function per section.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "codegen/template.h"
 #include "report/report.h"
 
-namespace frictab::report {
+namespace frictab {
 
-using Items = std::vector<TemplateValues>;
+// One paragraph (HTML): the best law on unseen experiments, and what the fixed constants give.
+std::string verdict(const ReportInput& input);
 
-Items verdict(const ReportInput& input); // paragraphs, `html`
+void add_drift_summary(TemplateValues& page, const ReportInput& input);
+void add_ranking(TemplateValues& page, const ReportInput& input); // with the plots
+void add_published_figures(TemplateValues& page, const ReportInput& input);
+void add_data(TemplateValues& page, const ReportInput& input);
+void add_tables(TemplateValues& page, const ReportInput& input);
+void add_drift(TemplateValues& page, const ReportInput& input);
 
-// Ranking rows, and the axis above their bars.
-Items ranking(const Calibration& calibration);
-std::string bar_axis(const Calibration& calibration);
-std::string ranking_note(const Calibration& calibration);
+// An absolute path of a user's machine becomes the file's name.
+std::string shown_path(const std::string& path);
 
-Items data_sets(const ReportInput& input);
-Items columns(const ReportInput& input); // canonical quantities with their ranges
-Items tables(const std::vector<Table>& tables);
-Items records(const Verification& verification);
+// Escaped; "degC" as people write it, nothing for "1".
+std::string shown_unit(const std::string& unit);
 
-} // namespace frictab::report
+} // namespace frictab

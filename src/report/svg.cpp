@@ -2,6 +2,7 @@
 #include "report/svg.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,196 +11,268 @@ namespace frictab::svg {
 
 namespace {
 
-double nice_step(double span, int wanted) {
-  const double raw = span / wanted;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (raw <= factor * power * 1.0000001) return factor * power;
-  return 10 * power;
+constexpr double left = 58, right = 14, top = 10, bottom = 46;
+
+// Light to dark blue-green; the lightest is still told from white, on screen and in print.
+constexpr std::array<std::array<int, 3>, 5> ramp = {
+    {{205, 226, 240}, {134, 188, 214}, {67, 138, 187}, {29, 84, 145}, {10, 34, 84}}};
+
+std::string begin_svg(double width, double height, std::string_view css, std::string_view title,
+                      std::string_view description) {
+  std::string text =
+      fmt::format("<svg class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
+                  "<title>{}</title>",
+                  css, pixel(width), pixel(height), escape(title), escape(title));
+  if (!description.empty()) text += fmt::format("<desc>{}</desc>", escape(description));
+  return text;
 }
 
-std::string tick_label(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
-  for (std::size_t i = text.find('.') == std::string::npos ? text.size() : text.find('.'); i > 3;
-       i -= 3)
-    if (text.size() > 4) text.insert(i - 3, ",");
-  const bool zero = text.find_first_not_of("0.,") == std::string::npos;
-  return value < 0 && !zero ? "\u2212" + text : text;
+// Escaped, with "_R" as a subscript.
+std::string axis_label(std::string_view text) {
+  std::string label = escape(text);
+  const std::size_t mark = label.find("_R");
+  if (mark == std::string::npos) return label;
+  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">R</tspan><tspan dy=\"-3\">" +
+         label.substr(mark + 2) + "</tspan>";
 }
 
-std::size_t cell_of(double value, const Axis& axis, std::size_t cells) {
-  const double share = (value - axis.low) / (axis.high - axis.low);
-  return std::min(cells - 1, static_cast<std::size_t>(share * static_cast<double>(cells)));
+std::string label_at(double x, double y, std::string_view anchor, std::string_view text) {
+  return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>", pixel(x), pixel(y),
+                     anchor, escape(text));
 }
 
-bool within(double value, const Axis& axis) {
-  return value >= axis.low && value <= axis.high; // false for NaN
+// One path per class: runs of neighbouring cells of a row are one rectangle.
+std::string runs_of_class(const Density& d, std::uint32_t from, std::uint32_t to) {
+  std::string path;
+  for (std::size_t row = 0; row < d.ny; ++row)
+    for (std::size_t i = 0; i < d.nx; ++i) {
+      const auto inside = [&](std::size_t cell) {
+        const std::uint32_t count = d.counts[row * d.nx + cell];
+        return count >= from && count < to;
+      };
+      if (!inside(i)) continue;
+      const std::size_t first = i;
+      while (i + 1 < d.nx && inside(i + 1))
+        ++i;
+      path += fmt::format("M{} {}h{}v1h-{}z", first, row, i + 1 - first, i + 1 - first);
+    }
+  return path;
 }
 
 } // namespace
 
-Axis nice_axis(double low, double high, std::string title, int wanted) {
-  if (!std::isfinite(low) || !std::isfinite(high)) low = 0, high = 1;
-  if (low > high) std::swap(low, high);
-  const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= 1e-9 * size || size == 0) {
-    const double room = size == 0 ? 1 : 0.1 * size;
-    low -= room;
-    high += room;
+std::string pixel(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  while (text.back() == '0')
+    text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+Axis nice_axis(double low, double high, int wanted, std::string label) {
+  Axis axis;
+  axis.label = std::move(label);
+  if (!std::isfinite(low)) low = 0;
+  if (!std::isfinite(high)) high = low + 1;
+  if (high < low) std::swap(low, high);
+  const double size = std::max({std::abs(low), std::abs(high), 1e-12});
+  if (high - low < 1e-9 * size) {
+    low -= 0.5 * size;
+    high += 0.5 * size;
   }
-  const double step = nice_step(high - low, wanted);
-  const double first = std::floor(low / step + 1e-9);
-  const double last = std::ceil(high / step - 1e-9);
-  Axis axis{first * step, last * step, std::move(title), {}, 0};
+  const double rough = (high - low) / std::max(wanted, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (rough <= factor * power * (1 + 1e-9)) step = factor * power;
+  // A thousandth of a step does not make another tick.
+  const double first = std::floor(low / step + 1e-3);
+  const double last = std::max(std::ceil(high / step - 1e-3), first + 1);
   for (double i = first; i <= last; ++i)
     axis.ticks.push_back(i * step);
-  axis.decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 12);
+  axis.low = axis.ticks.front();
+  axis.high = axis.ticks.back();
+  axis.decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 12);
   return axis;
 }
 
-std::uint32_t Density::largest() const {
-  return count.empty() ? 0 : *std::max_element(count.begin(), count.end());
+std::string tick_label(const Axis& axis, double tick) {
+  const std::string digits = fmt::format("{:.{}f}", std::abs(tick), axis.decimals);
+  const bool zero = digits.find_first_not_of("0.") == std::string::npos;
+  return (tick < 0 && !zero ? "\u2212" : "") + digits;
 }
 
 Density bin(std::span<const double> x, std::span<const double> y, const Axis& x_axis,
-            const Axis& y_axis, std::size_t columns, std::size_t rows) {
-  Density density{columns, rows, std::vector<std::uint32_t>(columns * rows), 0};
+            const Axis& y_axis, std::size_t nx, std::size_t ny) {
+  Density d{nx, ny, std::vector<std::uint32_t>(nx * ny, 0), 0};
+  const auto cell = [](double value, const Axis& axis, std::size_t cells) {
+    const auto n = static_cast<double>(cells);
+    return std::min(std::floor((value - axis.low) / (axis.high - axis.low) * n), n - 1);
+  };
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!within(x[i], x_axis) || !within(y[i], y_axis)) {
-      ++density.outside;
+    const bool inside = x[i] >= x_axis.low && x[i] <= x_axis.high && y[i] >= y_axis.low &&
+                        y[i] <= y_axis.high; // false for NaN
+    if (!inside) {
+      ++d.outside;
       continue;
     }
-    ++density.count[cell_of(y[i], y_axis, rows) * columns + cell_of(x[i], x_axis, columns)];
+    const auto column = static_cast<std::size_t>(cell(x[i], x_axis, nx));
+    const auto row = ny - 1 - static_cast<std::size_t>(cell(y[i], y_axis, ny));
+    ++d.counts[row * nx + column];
   }
-  return density;
+  return d;
 }
 
-std::vector<std::uint32_t> colour_steps(std::uint32_t largest, std::size_t colours) {
-  std::vector<std::uint32_t> steps;
-  for (std::uint64_t power = 1; power <= largest; power *= 10)
-    for (const std::uint64_t factor : {1u, 2u, 5u})
-      if (factor * power <= largest) steps.push_back(static_cast<std::uint32_t>(factor * power));
-  if (steps.size() > colours) steps.erase(steps.begin() + 1, steps.end() - (colours - 1));
-  return steps;
+std::vector<std::uint32_t> count_classes(std::uint32_t largest, std::size_t classes) {
+  std::vector<std::uint32_t> bounds{1};
+  const double factor = std::pow(std::max<double>(largest, 1),
+                                 1.0 / static_cast<double>(std::max<std::size_t>(classes, 1)));
+  for (std::size_t i = 1; i < classes; ++i) {
+    const auto next =
+        static_cast<std::uint32_t>(std::ceil(std::pow(factor, static_cast<double>(i)) - 1e-9));
+    const std::uint32_t bound = std::max(next, bounds.back() + 1);
+    if (bound > largest) break;
+    bounds.push_back(bound);
+  }
+  return bounds;
 }
 
-Plot::Plot(Axis x, Axis y, Frame frame) : x_(std::move(x)), y_(std::move(y)), frame_(frame) {}
-
-double Plot::px(double x) const {
-  const double width = frame_.width - frame_.left - frame_.right;
-  return frame_.left + width * (x - x_.low) / (x_.high - x_.low);
+std::string class_colour(std::size_t index, std::size_t classes) {
+  const double x = classes > 1 ? static_cast<double>(index) / static_cast<double>(classes - 1) *
+                                     static_cast<double>(ramp.size() - 1)
+                               : 2;
+  const std::size_t i = std::min(static_cast<std::size_t>(x), ramp.size() - 2);
+  const double share = x - static_cast<double>(i);
+  std::string text = "#";
+  for (std::size_t c = 0; c < 3; ++c)
+    text += fmt::format("{:02x}", static_cast<int>(std::lround(
+                                      ramp[i][c] + share * (ramp[i + 1][c] - ramp[i][c]))));
+  return text;
 }
 
-double Plot::py(double y) const {
-  const double height = frame_.height - frame_.top - frame_.bottom;
-  return frame_.height - frame_.bottom - height * (y - y_.low) / (y_.high - y_.low);
+Plot::Plot(double width, double height, Axis x, Axis y)
+    : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {}
+
+double Plot::place_x(double value) const {
+  return (value - x_.low) / (x_.high - x_.low) * width_;
 }
 
-// One path per colour, neighbours in a row joined, in units of cells: small, and no hairlines.
-void Plot::density(const Density& density, std::span<const std::uint32_t> steps) {
-  const auto colour = [&](std::size_t row, std::size_t column) {
-    const std::uint32_t n = density.count[row * density.columns + column];
-    return std::upper_bound(steps.begin(), steps.end(), n) - steps.begin() - 1; // -1: empty
-  };
-  std::vector<std::string> paths(steps.size());
-  for (std::size_t row = 0; row < density.rows; ++row)
-    for (std::size_t column = 0, end = 0; column < density.columns; column = end) {
-      const auto c = colour(row, column);
-      end = column + 1;
-      while (end < density.columns && colour(row, end) == c)
-        ++end;
-      if (c >= 0)
-        paths[static_cast<std::size_t>(c)] +=
-            fmt::format("M{} {}h{}v1h-{}z", column, row, end - column, end - column);
-    }
-  const double sx = (px(x_.high) - px(x_.low)) / static_cast<double>(density.columns);
-  const double sy = (py(y_.low) - py(y_.high)) / static_cast<double>(density.rows);
-  marks_ += fmt::format("<g transform=\"translate({} {}) scale({:.4f} {:.4f})\">",
-                        pixel(px(x_.low)), pixel(py(y_.low)), sx, -sy);
-  for (std::size_t c = 0; c < paths.size(); ++c)
-    if (!paths[c].empty()) marks_ += fmt::format("<path class=\"d{}\" d=\"{}\"/>", c, paths[c]);
-  marks_ += "</g>\n";
+double Plot::place_y(double value) const {
+  return height_ - (value - y_.low) / (y_.high - y_.low) * height_;
 }
 
-void Plot::line(const Points& points, std::string_view css_class) {
-  if (points.empty()) return;
+void Plot::density(const Density& d, std::span<const std::uint32_t> classes) {
+  body_ += fmt::format("<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" "
+                       "preserveAspectRatio=\"none\" shape-rendering=\"crispEdges\">",
+                       pixel(width_), pixel(height_), d.nx, d.ny);
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const bool last = c + 1 == classes.size();
+    const std::string path =
+        runs_of_class(d, classes[c], last ? std::uint32_t(-1) : classes[c + 1]);
+    if (!path.empty())
+      body_ += fmt::format("\n<path fill=\"{}\" d=\"{}\"/>", class_colour(c, classes.size()), path);
+  }
+  body_ += "</svg>";
+}
+
+void Plot::line(std::span<const double> x, std::span<const double> y, const Stroke& stroke) {
   std::string path;
-  for (const auto& [x, y] : points)
-    path += fmt::format("{}{} {}", path.empty() ? "M" : "L", pixel(px(x)), pixel(py(y)));
-  marks_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", css_class, path);
-}
-
-void Plot::band(const Points& low, const Points& high, std::string_view css_class) {
-  Points outline = low;
-  outline.insert(outline.end(), high.rbegin(), high.rend());
-  if (!outline.empty()) outline.push_back(outline.front());
-  line(outline, css_class);
-}
-
-void Plot::label(double x, double y, std::string_view text, std::string_view css_class) {
-  marks_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", css_class, pixel(px(x)),
-                        pixel(py(y)), escape(text));
+  bool pen_down = false;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+      pen_down = false;
+      continue;
+    }
+    // Far beyond the edge is as good as beyond it, and keeps the numbers short.
+    const double px = std::clamp(place_x(x[i]), -10 * width_, 10 * width_);
+    const double py = std::clamp(place_y(y[i]), -10 * height_, 10 * height_);
+    path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', pixel(px), pixel(py));
+    pen_down = true;
+  }
+  if (path.empty()) return;
+  if (stroke.halo)
+    body_ += fmt::format("\n<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.85\" "
+                         "stroke-width=\"{}\" d=\"{}\"/>",
+                         pixel(stroke.width + 2.5), path);
+  body_ += fmt::format(
+      "\n<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{} d=\"{}\"/>", stroke.colour,
+      pixel(stroke.width),
+      stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash), path);
 }
 
 std::string Plot::axes() const {
-  const double left = px(x_.low), right = px(x_.high), top = py(y_.high), bottom = py(y_.low);
-  std::string grid, text;
+  std::string grid, labels;
   for (const double tick : x_.ticks) {
-    grid += fmt::format("M{} {}V{}", pixel(px(tick)), pixel(top), pixel(bottom + 4));
-    text += fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>",
-                        pixel(px(tick)), pixel(bottom + 17), tick_label(tick, x_.decimals));
+    const double x = left + place_x(tick);
+    grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
+    labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, tick));
   }
   for (const double tick : y_.ticks) {
-    grid += fmt::format("M{} {}H{}", pixel(left - 4), pixel(py(tick)), pixel(right));
-    text += fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>",
-                        pixel(left - 7), pixel(py(tick) + 4), tick_label(tick, y_.decimals));
+    const double y = top + place_y(tick);
+    grid += fmt::format("M{} {}h{}", pixel(left - 4), pixel(y), pixel(width_ + 4));
+    labels += label_at(left - 8, y + 4, "end", tick_label(y_, tick));
   }
-  text += fmt::format("<text class=\"axis\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>",
-                      pixel((left + right) / 2), pixel(frame_.height - 8), escape(x_.title));
-  text += fmt::format("<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(15 {}) "
-                      "rotate(-90)\">{}</text>",
-                      pixel((top + bottom) / 2), escape(y_.title));
-  return fmt::format("<path class=\"grid\" d=\"{}\"/>\n{}\n", grid, text);
+  const double middle = top + height_ / 2;
+  return fmt::format("<path class=\"grid\" d=\"{}\"/>\n{}\n"
+                     "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
+                     "<text class=\"label\" text-anchor=\"middle\" "
+                     "transform=\"translate(14 {}) rotate(-90)\">{}</text>\n",
+                     grid, labels, pixel(left + width_ / 2), pixel(top + height_ + 36),
+                     axis_label(x_.label), pixel(middle), axis_label(y_.label));
 }
 
 std::string Plot::text(std::string_view title, std::string_view description) const {
-  const double left = px(x_.low), right = px(x_.high), top = py(y_.high), bottom = py(y_.low);
-  const std::string frame =
-      fmt::format("<path class=\"frame\" d=\"M{} {}H{}V{}H{}z\"/>", pixel(left), pixel(top),
-                  pixel(right), pixel(bottom), pixel(left));
-  return fmt::format("<svg class=\"plot\" role=\"img\" "
-                     "viewBox=\"0 0 {} {}\" aria-label=\"{}. {}\">\n"
-                     "<title>{}</title>\n<desc>{}</desc>\n{}{}{}\n</svg>",
-                     pixel(frame_.width), pixel(frame_.height), escape(title), escape(description),
-                     escape(title), escape(description), axes(), marks_, frame);
+  return begin_svg(left + width_ + right, top + height_ + bottom, "plot", title, description) +
+         "\n" + axes() +
+         fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n"
+                     "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></svg>",
+                     pixel(left), pixel(top), pixel(width_), pixel(height_), body_, pixel(left),
+                     pixel(top), pixel(width_), pixel(height_));
 }
 
-std::string escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\'')
-      out += "&#39;";
-    else if ((code < 32 && c != '\n' && c != '\t') || code == 127)
-      out += "\uFFFD";
-    else
-      out += c;
+std::string bar(const Bar& b, const Axis& axis, double width, double height) {
+  const auto place = [&](double value) { return value / axis.high * width; };
+  std::string text = begin_svg(width, height, "bar", b.description, "");
+  const double middle = height / 2;
+  if (std::isfinite(b.value)) {
+    const bool cut = b.value > axis.high;
+    const double end = std::clamp(place(b.value), 0.0, width);
+    text += fmt::format("<rect x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>",
+                        pixel(middle - 5), pixel(end), pixel(10), b.colour);
+    if (cut)
+      text +=
+          fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\" "
+                      "d=\"M{} {}l4 4l-4 4l4 4M{} {}l4 4l-4 4l4 4\"/>",
+                      pixel(width - 16), pixel(middle - 6), pixel(width - 10), pixel(middle - 6));
   }
-  return out;
+  if (std::isfinite(b.reference))
+    text += fmt::format("<path stroke=\"#b45309\" stroke-dasharray=\"2 2\" d=\"M{} 0v{}\"/>",
+                        pixel(place(b.reference)), pixel(height));
+  if (std::isfinite(b.low) && std::isfinite(b.high) && b.low < axis.high) {
+    // An end beyond the axis has no cap: the interval goes on.
+    const bool whole = b.high <= axis.high;
+    text += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" "
+                        "d=\"M{} {}v8M{} {}H{}{}\"/>",
+                        pixel(place(b.low)), pixel(middle - 4), pixel(place(b.low)), pixel(middle),
+                        pixel(std::min(place(b.high), width)), whole ? "m0 -4v8" : "");
+  }
+  return text + "</svg>";
 }
 
-std::string pixel(double value) {
-  std::string text = fmt::format("{:.1f}", value);
-  if (text.ends_with(".0")) text.resize(text.size() - 2);
-  return text == "-0" ? "0" : text;
+std::string bar_scale(const Axis& axis, double width, double height) {
+  std::string text = begin_svg(width, height, "bar", "scale of the bars, " + axis.label, "");
+  std::string marks;
+  for (const double tick : axis.ticks) {
+    const double x = tick / axis.high * width;
+    marks += fmt::format("M{} {}v4", pixel(std::clamp(x, 0.5, width - 0.5)), pixel(height - 4));
+    const bool first = tick <= 0, last = tick >= axis.high;
+    text += label_at(x, height - 7,
+                     first  ? "start"
+                     : last ? "end"
+                            : "middle",
+                     tick_label(axis, tick));
+  }
+  return text + fmt::format("<path stroke=\"#444\" d=\"{}\"/></svg>", marks);
 }
 
 } // namespace frictab::svg

@@ -1,5 +1,5 @@
-// Small SVG plots: axes with nice ticks, binned density, lines, bands. Text only: no files, no
-// scripts. Colours come from the classes that templates/report/page.html styles.
+// Small SVG plots for reports: nice axes, binned density, lines, bands, bars. Text in, text out;
+// the same input gives the same bytes. Looks (fonts, grid) come from the page's CSS classes.
 #pragma once
 
 #include <cstdint>
@@ -11,78 +11,92 @@
 
 namespace frictab::svg {
 
+// Characters that XML gives a meaning become entities; what XML and UTF-8 do not allow becomes
+// U+FFFD. Safe in text and in quoted attributes.
+std::string escape(std::string_view text);
+
+// A coordinate in pixels: at most two decimals, no trailing zeros, never "-0".
+std::string pixel(double value);
+
+// A linear axis. Ticks are multiples of 1, 2 or 5 times a power of ten.
 struct Axis {
   double low = 0;
   double high = 1;
-  std::string title;         // with its unit: "measured tau_R, MPa"
-  std::vector<double> ticks; // within [low, high]
-  int decimals = 0;          // of the tick labels
+  std::vector<double> ticks;
+  int decimals = 0;  // of the ticks' labels
+  std::string label; // "_R" is set as a subscript
 };
 
-// Low and high rounded outwards to ticks at 1, 2 or 5 times a power of ten, about `wanted` steps.
-// An empty or one-point range, or one that is not finite, gets room of its own.
-Axis nice_axis(double low, double high, std::string title, int wanted = 6);
+// low and high are moved outwards to ticks, about `wanted` of them. Values that are not finite, or
+// equal, give an axis around what is there.
+Axis nice_axis(double low, double high, int wanted, std::string label);
 
-// Where the axes are on the drawing, in pixels.
-struct Frame {
-  double width = 560;
-  double height = 400;
-  double left = 66;
-  double right = 12;
-  double top = 12;
-  double bottom = 50;
-};
+// Tick label with the axis' decimals and a proper minus sign.
+std::string tick_label(const Axis& axis, double tick);
 
-// How many points fall into each cell of a regular grid over both axes.
+// Counts of points per cell of an even grid over two axes, row by row from the top.
 struct Density {
-  std::size_t columns = 0;
-  std::size_t rows = 0;
-  std::vector<std::uint32_t> count; // row-major, first row at the low end of y
-  std::size_t outside = 0;          // points beyond the axes, or not finite
-
-  std::uint32_t largest() const;
+  std::size_t nx = 0;
+  std::size_t ny = 0;
+  std::vector<std::uint32_t> counts;
+  std::size_t outside = 0; // beyond the axes, or not finite
 };
 
-// x and y have the same length. The high end of an axis belongs to its last cell.
+// x and y have the same length.
 Density bin(std::span<const double> x, std::span<const double> y, const Axis& x_axis,
-            const Axis& y_axis, std::size_t columns, std::size_t rows);
+            const Axis& y_axis, std::size_t nx, std::size_t ny);
 
-// Smallest counts of each colour, lightest first: 1, 2, 5, 10, ... up to `largest`; at most
-// `colours` of them, the first always 1. Empty where largest is 0.
-std::vector<std::uint32_t> colour_steps(std::uint32_t largest, std::size_t colours = 8);
+// Lower bounds of at most `classes` classes of counts, 1 first, growing by about the same factor up
+// to the largest count.
+std::vector<std::uint32_t> count_classes(std::uint32_t largest, std::size_t classes);
 
-using Points = std::vector<std::pair<double, double>>; // x, y in units of the axes
+// Sequential colours from light to dark, one per class.
+std::string class_colour(std::size_t index, std::size_t classes);
 
-// A plot under construction; what is added later lies on top. Class names are CSS classes.
+struct Stroke {
+  std::string colour = "#222";
+  double width = 1.5;
+  std::string dash;  // "4 3"; empty: solid
+  bool halo = false; // white edge, to be seen on dark cells
+};
+
+// One plot of given size of its drawing area in pixels; margins come on top.
 class Plot {
 public:
-  Plot(Axis x, Axis y, Frame frame = {});
+  Plot(double width, double height, Axis x, Axis y);
 
-  // Cells in the colour classes d0, d1, ... of `steps`.
-  void density(const Density& density, std::span<const std::uint32_t> steps);
-  void line(const Points& points, std::string_view css_class);
-  // Between two lines over the same x.
-  void band(const Points& low, const Points& high, std::string_view css_class);
-  void label(double x, double y, std::string_view text, std::string_view css_class);
+  // Cells of `density`, coloured by class; all cells of one class are one path.
+  void density(const Density& density, std::span<const std::uint32_t> classes);
+  // Straight pieces from point to point, cut at the edge of the drawing area. Points that are not
+  // finite interrupt the line.
+  void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
 
-  // The whole <svg> element. Title and description are escaped, and read out by screen readers.
+  // A figure with <title> and <desc> for those who cannot see it.
   std::string text(std::string_view title, std::string_view description) const;
 
 private:
-  double px(double x) const;
-  double py(double y) const;
+  double place_x(double value) const;
+  double place_y(double value) const;
   std::string axes() const;
 
-  Axis x_;
-  Axis y_;
-  Frame frame_;
-  std::string marks_;
+  double width_, height_;
+  Axis x_, y_;
+  std::string body_;
 };
 
-// Text as content or attribute of HTML and XML; control characters XML forbids become U+FFFD.
-std::string escape(std::string_view text);
+// One value with its interval as a horizontal bar on 0..axis.high. Longer bars are cut, with a mark
+// at the end.
+struct Bar {
+  double value = 0;
+  double low = 0; // of the interval; not finite: none
+  double high = 0;
+  double reference = 0; // thin line across; not finite: none
+  std::string colour;
+  std::string description; // for those who cannot see it
+};
+std::string bar(const Bar& bar, const Axis& axis, double width, double height);
 
-// A coordinate in pixels: at most one decimal, no "-0".
-std::string pixel(double value);
+// The scale that belongs to a column of bars.
+std::string bar_scale(const Axis& axis, double width, double height);
 
 } // namespace frictab::svg

@@ -1,110 +1,123 @@
-// The verdict in plain words: which law, how good, against what; and whether the drift holds.
+// The page's first paragraph: what came out, in plain words.
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "report/number.h"
+#include "report/numbers.h"
 #include "report/published.h"
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab::report {
+namespace frictab {
 
 namespace {
 
-std::string code(std::string_view text) {
-  return "<code>" + svg::escape(text) + "</code>";
+const ModelFit* best_of_literature(const Calibration& calibration) {
+  for (const ModelFit& fit : calibration.fits)
+    if (kind_of(*fit.model.law) == LawKind::literature) return &fit;
+  return nullptr;
 }
 
-std::string best_law(const Calibration& calibration) {
+std::string best_sentence(const Calibration& calibration) {
   const ModelFit& best = calibration.fits.front();
   const Metrics& v = best.validation;
-  std::string text = fmt::format(
-      "On experiments it was not calibrated with, <strong>{}</strong> ({}) is the best of {} laws: "
-      "mean absolute error <strong>{} MPa</strong>",
-      code(best.model.law->name), svg::escape(best.model.law->title), calibration.fits.size(),
-      stress(v.mae_MPa));
-  if (has_interval(v))
-    text += fmt::format(" (95 % interval by experiment {} MPa)", interval_text(v, v.mae_interval));
-  else
-    text += " (no interval: " + interval_text(v, v.mae_interval).substr(6) + ")";
-  return text + fmt::format(", over {} experiments with {} rows.", thousands(v.n_experiments),
-                            thousands(v.n_rows));
+  return fmt::format("On {} that no law was calibrated on, <strong>{}</strong> predicts "
+                     "\u03C4<sub>R</sub> best: it is off by <strong>{} MPa</strong> on average "
+                     "(mean absolute error; 95 % interval {} to {} MPa).",
+                     count_of(v.n_experiments, "experiment"), svg::escape(best.model.law->name),
+                     figures(v.mae_MPa), figures(v.mae_interval.low), figures(v.mae_interval.high));
 }
 
-std::string against_constants(const Calibration& calibration) {
-  const ModelFit& best = calibration.fits.front();
-  const ModelFit *low = nullptr, *high = nullptr; // ranked: the first is the best constant
-  for (const ModelFit& fit : calibration.fits)
-    if (fit.model.law->calibrated == Calibrated::fixed) {
-      if (!low) low = &fit;
-      high = &fit;
-    }
-  if (!low) return "No fixed constant of the literature is among the laws to compare with.";
-  if (low == &best) return "No calibrated law does better than this constant of the literature.";
-  const double from = low->validation.mae_MPa, mine = best.validation.mae_MPa;
-  std::string text = "The fixed constants of the literature miss by " + stress(from);
-  text += low == high ? " MPa" : fmt::format(" to {} MPa", stress(high->validation.mae_MPa));
-  return text + fmt::format("; against the best of them, {}, the error is {} % lower.",
-                            code(low->model.law->name), number(100 * (1 - mine / from), 2));
-}
-
-// Two intervals that overlap are no test, but a ranking inside them is not settled by them either.
-std::string close_laws(const Calibration& calibration) {
-  const Metrics& best = calibration.fits.front().validation;
-  if (!has_interval(best)) return "";
+// Laws that the best one's interval does not tell apart from it.
+std::string runners_up(const Calibration& calibration) {
   std::vector<std::string> names;
   for (std::size_t i = 1; i < calibration.fits.size(); ++i)
-    if (calibration.fits[i].validation.mae_interval.low <= best.mae_interval.high)
-      names.push_back(code(calibration.fits[i].model.law->name));
-  if (names.empty()) return " Its interval lies below those of all other laws.";
-  return " Its interval overlaps those of " + join(names, ", ") +
-         ": the intervals alone do not settle the order among these.";
+    if (calibration.fits[i].validation.mae_MPa <=
+        calibration.fits.front().validation.mae_interval.high)
+      names.push_back(svg::escape(calibration.fits[i].model.law->name));
+  if (names.empty()) return "";
+  const bool one = names.size() == 1;
+  return fmt::format(
+      " {} {} within that interval, too: these experiments do not rank {} for certain.",
+      join(names, ", "), one ? "lies" : "lie", one ? "the two" : "them");
 }
 
-std::string drift(const Verification& verification) {
-  if (verification.records.empty()) return "Drift of tables and sources was not verified.";
-  std::size_t compared = 0, failed = 0, not_run = 0;
+std::string literature_sentence(const Calibration& calibration) {
+  const auto span = mae_span(calibration, LawKind::literature);
+  const ModelFit* best = best_of_literature(calibration);
+  if (!span || best == &calibration.fits.front()) return "";
+  const std::string low = figures(span->low), high = figures(span->high);
+  const double ratio = span->low / calibration.fits.front().validation.mae_MPa;
+  std::string text =
+      low == high ? fmt::format(" The fixed constant of the literature ({}) is off by {} MPa",
+                                svg::escape(best->model.law->name), low)
+                  : fmt::format(" The fixed constants of the literature are off by {} to {} MPa",
+                                low, high);
+  if (std::isfinite(ratio))
+    text += fmt::format(": even the best of them ({}) by {} times as much",
+                        svg::escape(best->model.law->name), figures(ratio, 2));
+  return text + ".";
+}
+
+// Records of one kind: how many, the largest drift, and where it failed.
+struct Group {
+  std::size_t ran = 0;
+  std::size_t failed = 0;
+  std::size_t not_run = 0;
   double worst = 0;
-  for (const DriftRecord& r : verification.records) {
+  void add(const DriftRecord& r) {
     if (!r.ran) {
       ++not_run;
-      continue;
+      return;
     }
-    ++compared;
-    failed += !r.passed;
-    worst = std::max({worst, r.worst_case_MPa, r.rows.max_abs});
+    ++ran;
+    if (!r.passed) ++failed;
+    // NaN must show, not vanish in a comparison.
+    if (!(r.worst_case_MPa <= worst)) worst = r.worst_case_MPa;
   }
-  const std::string left = not_run ? fmt::format(" {} could not be run here and {} unverified.",
-                                                 not_run, not_run == 1 ? "is" : "are")
-                                   : "";
-  if (compared == 0) return "<span class=\"badge idle\">Drift: not run.</span>" + left;
-  const std::string result = failed ? "fail\">Drift: failed." : "pass\">Drift: passed.";
-  std::string text =
-      fmt::format("<span class=\"badge {}</span> {} tables and generated sources were compared "
-                  "with their laws; "
-                  "the largest drift found is {} MPa, allowed {} MPa.",
-                  result, compared, number(worst), number(verification.max_drift_MPa));
-  if (failed) text += fmt::format(" {} of {} over the tolerance.", failed, compared);
-  return text + left;
+};
+
+std::string group_sentence(const Group& group, const std::string& noun) {
+  if (group.ran + group.not_run == 0) return "";
+  std::string text;
+  if (group.ran > 0)
+    text = fmt::format("{}: largest drift from the law {} MPa.", count_of(group.ran, noun),
+                       group.worst > 0 && group.worst < 1e-9 ? "below 1e-9" : figures(group.worst));
+  if (group.not_run > 0)
+    text += fmt::format("{}{} could not be run here and {} unproven.", text.empty() ? "" : " ",
+                        count_of(group.not_run, noun), group.not_run == 1 ? "is" : "are");
+  return text + " ";
 }
 
 } // namespace
 
-Items verdict(const ReportInput& input) {
-  Items items;
-  const auto add = [&](std::string html) { items.emplace_back().text["html"] = std::move(html); };
+std::string verdict(const ReportInput& input) {
   const Calibration& calibration = input.calibration;
-  if (calibration.fits.empty()) {
-    add("No law was calibrated.");
-  } else {
-    add(best_law(calibration));
-    add(against_constants(calibration) + close_laws(calibration));
-  }
-  add(drift(input.verification));
-  return items;
+  if (calibration.fits.empty()) return "No law was calibrated.";
+  return best_sentence(calibration) + runners_up(calibration) + literature_sentence(calibration);
 }
 
-} // namespace frictab::report
+void add_drift_summary(TemplateValues& page, const ReportInput& input) {
+  Group tables, sources;
+  for (const DriftRecord& r : input.verification.records)
+    (r.subject == "table" ? tables : sources).add(r);
+  const std::size_t ran = tables.ran + sources.ran;
+  const std::size_t failed = tables.failed + sources.failed;
+  std::string& summary = page.text["drift_summary"];
+  if (input.verification.records.empty()) {
+    summary = "No table or source was compared with its law.";
+  } else {
+    summary = group_sentence(tables, "table") + group_sentence(sources, "generated source");
+    summary += fmt::format("Allowed: {} MPa anywhere in the range.",
+                           short_figures(input.verification.max_drift_MPa));
+    if (failed > 0) summary += fmt::format(" {} of {} comparisons exceed it.", failed, ran);
+  }
+  page.text["drift_badge"] = ran == 0 ? "Drift not checked"
+                             : failed ? "Drift failed"
+                                      : "Drift passed";
+  page.text["drift_class"] = ran == 0 ? "none" : failed ? "fail" : "pass";
+}
+
+} // namespace frictab
