@@ -30,6 +30,8 @@ constexpr std::array units = {
     Unit{"m/s", Dimension::speed, 1e3},
     Unit{"cm/s", Dimension::speed, 10},
     Unit{"um/s", Dimension::speed, 1e-3},
+    Unit{"µm/s", Dimension::speed, 1e-3},
+    Unit{"micron/s", Dimension::speed, 1e-3},
     Unit{"m/min", Dimension::speed, 1e3 / 60},
     Unit{"mm/min", Dimension::speed, 1.0 / 60},
     Unit{"mm", Dimension::length, 1},
@@ -37,6 +39,9 @@ constexpr std::array units = {
     Unit{"cm", Dimension::length, 10},
     Unit{"um", Dimension::length, 1e-3},
     Unit{"micron", Dimension::length, 1e-3},
+    Unit{"microns", Dimension::length, 1e-3},
+    Unit{"µm", Dimension::length, 1e-3}, // U+00B5
+    Unit{"μm", Dimension::length, 1e-3}, // U+03BC
     Unit{"in", Dimension::length, 25.4},
     Unit{"s", Dimension::time, 1},
     Unit{"ms", Dimension::time, 1e-3},

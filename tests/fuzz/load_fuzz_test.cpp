@@ -1,0 +1,161 @@
+// Damaged data files: whatever the bytes, reading gives a Dataset or an InputError.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "data/load.h"
+#include "data/quantity.h"
+#include "io/atomic_file.h"
+#include "io/hdf5.h"
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string mutated(std::string bytes, Random& random, std::size_t most) {
+  static const std::string spice[] = {"\"", "\n",   "\r\n", ",",     "\t",   ";",    "nan", "-",
+                                      "",   "\"\"", "e",    "1e999", "\xff", "\xc3", " ",   "inf"};
+  for (std::size_t k = 1 + random.below(most); k > 0 && !bytes.empty(); --k) {
+    const std::size_t at = random.below(bytes.size());
+    switch (random.below(5)) {
+    case 0:
+      bytes[at] = static_cast<char>(random.below(256));
+      break;
+    case 1:
+      bytes.insert(at, spice[random.below(std::size(spice))]);
+      break;
+    case 2:
+      bytes.erase(at, 1 + random.below(8));
+      break;
+    case 3:
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+      break;
+    default:
+      if (random.below(8) == 0) bytes.resize(at);
+    }
+  }
+  return bytes;
+}
+
+// What a Dataset promises, so that a fault that slips through is seen.
+bool is_sound(const Dataset& data) {
+  if (data.rows() == 0 || data.first_row.size() != data.experiments.size() + 1) return false;
+  for (const Column& column : data.columns) {
+    if (column.values.size() != data.rows()) return false;
+    const Quantity* quantity = find_quantity(column.name);
+    for (const double value : column.values) {
+      if (quantity && !(std::isfinite(value) && value >= quantity->lowest)) return false;
+      if (!column.levels.empty() && !(value >= 0 && value < double(column.levels.size())))
+        return false;
+    }
+  }
+  return data.has("sigma_n_MPa") && data.has("tau_R_MPa");
+}
+
+enum Outcome { read_well, refused, unsound, other_error };
+
+Outcome load(const std::string& file, const DataOptions& options) {
+  try {
+    return is_sound(load_dataset({file}, options)) ? read_well : unsound;
+  } catch (const InputError& error) {
+    return error.faults().empty() ? other_error : refused;
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    return other_error;
+  }
+}
+
+class LoadFuzz : public testing::Test {
+protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    file_ = fs::path(testing::TempDir()) / (std::string("frictab_fuzz_") + test->name());
+  }
+  void TearDown() override { fs::remove(file_); }
+  void write(const std::string& bytes) { std::ofstream(file_, std::ios::binary) << bytes; }
+  fs::path file_;
+};
+
+TEST_F(LoadFuzz, DamagedCsvGivesADatasetOrAnInputError) {
+  const std::string comma = "experiment,time_s,sigma_n_MPa,v_rel_mm_s,tau_R_MPa,lot\n"
+                            "a,0,1000,5,80,\"x,1\"\na,1,1001,6,81,y\nb,0,1200,7,90,y\n"
+                            "b,1,1300,8,91,\"q \"\"z\"\"\"\n";
+  const std::string tabs = "preamble\r\nsigma_n_MPa\tF_R_N\tF_N_N\tpsi\r\n[Pa]\t[N]\t[kN]\t[-]\r\n"
+                           "1800,\t1,5\t3\t1,0\r\n1900,5\t1,7\t4\t1,25\r\nend of test\r\n";
+  DataOptions german;
+  german.decimal = ',';
+  german.skip_rows = 1;
+  german.skip_footer = 1;
+  german.units_row = true;
+  Random random(11);
+  std::size_t outcomes[4] = {};
+  for (int i = 0; i < 6000; ++i) {
+    const bool is_comma = random.below(2) == 0;
+    const std::string bytes = mutated(is_comma ? comma : tabs, random, 6);
+    write(bytes);
+    const Outcome outcome = load(file_.string(), is_comma ? DataOptions{} : german);
+    ++outcomes[outcome];
+    ASSERT_TRUE(outcome == read_well || outcome == refused) << "case " << i << ":\n" << bytes;
+  }
+  EXPECT_GT(outcomes[read_well], 100u); // the mutations reach both sides
+  EXPECT_GT(outcomes[refused], 1000u);
+}
+
+// Runs in a child process: the HDF5 library itself may fall over a damaged file, which is told
+// apart from faults of this code by the case number it reached.
+TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
+  {
+    const std::vector<double> values{1, 2, 3, 4};
+    const std::size_t rows[] = {4};
+    Hdf5Writer out(file_);
+    for (const char* name : {"sigma_n_MPa", "tau_R_MPa", "v_rel_mm_s", "room_C"})
+      out.dataset(name, rows, values, name[0] == 'r' ? 4 : 0);
+    out.attribute("sigma_n_MPa", "units", "MPa");
+    out.dataset("experiment", std::vector<std::string>{"a", "a", "b", "b"});
+    out.close();
+  }
+  const std::string valid = read_file(file_);
+  Random random(12);
+  std::size_t outcomes[4] = {};
+  for (int i = 0; i < 2000; ++i) {
+    const std::string bytes = mutated(valid, random, 1 + i % 20);
+    write(bytes);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      alarm(20); // an endless loop is a fault too
+      _exit(load(file_.string(), {}));
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << "case " << i << " ended by signal " << WTERMSIG(status);
+    ASSERT_LE(WEXITSTATUS(status), 3) << "case " << i;
+    ++outcomes[WEXITSTATUS(status)];
+    ASSERT_TRUE(WEXITSTATUS(status) == read_well || WEXITSTATUS(status) == refused)
+        << "case " << i << ": " << WEXITSTATUS(status);
+  }
+  EXPECT_GT(outcomes[read_well], 50u);
+  EXPECT_GT(outcomes[refused], 200u);
+}
+
+TEST_F(LoadFuzz, RandomBytesGiveAnInputError) {
+  Random random(13);
+  for (int i = 0; i < 1000; ++i) {
+    std::string bytes(random.below(300), '\0');
+    for (char& c : bytes)
+      c = static_cast<char>(random.below(256));
+    if (random.below(3) == 0) bytes.insert(0, std::string("\x89HDF\r\n\x1a\n", 8));
+    write(bytes);
+    ASSERT_EQ(load(file_.string(), {}), refused) << "case " << i;
+  }
+}
+
+} // namespace
+} // namespace frictab

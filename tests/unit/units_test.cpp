@@ -1,0 +1,45 @@
+// Units: every one converts within its dimension, and to none outside it.
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+
+namespace frictab {
+namespace {
+
+TEST(Units, ConvertsToCanonicalUnits) {
+  const auto value = [](double x, const char* from, const char* to) {
+    return (*convert(from, to))(x);
+  };
+  EXPECT_DOUBLE_EQ(value(2e6, "Pa", "MPa"), 2);
+  EXPECT_DOUBLE_EQ(value(2, "GPa", "MPa"), 2000);
+  EXPECT_DOUBLE_EQ(value(3, "N/mm2", "MPa"), 3);
+  EXPECT_DOUBLE_EQ(value(0.15, "m/s", "mm/s"), 150);
+  EXPECT_DOUBLE_EQ(value(6, "m/min", "mm/s"), 100);
+  EXPECT_DOUBLE_EQ(value(250, "micron", "mm"), 0.25);
+  EXPECT_DOUBLE_EQ(value(250, "microns", "mm"), 0.25);
+  EXPECT_DOUBLE_EQ(value(250, "\u00b5m", "mm"), 0.25);
+  EXPECT_DOUBLE_EQ(value(2, "min", "s"), 120);
+  EXPECT_DOUBLE_EQ(value(1.5, "h", "s"), 5400);
+  EXPECT_DOUBLE_EQ(value(3, "kN", "N"), 3000);
+  EXPECT_EQ(value(300, "K", "degC"), 300 - 273.15); // 26.85 less the cancellation
+  EXPECT_DOUBLE_EQ(value(212, "degF", "degC"), 100);
+  EXPECT_DOUBLE_EQ(value(13, "%", "1"), 0.13);
+  EXPECT_DOUBLE_EQ(value(20, "degC", "K"), 293.15);
+}
+
+TEST(Units, RefusesUnknownUnitsAndOtherDimensions) {
+  EXPECT_FALSE(convert("kN", "MPa"));
+  EXPECT_FALSE(convert("mpa", "MPa"));
+  EXPECT_FALSE(convert("", "MPa"));
+}
+
+TEST(Units, ThereAndBackIsTheSameWithinRounding) {
+  for (const char* base : {"MPa", "mm/s", "mm", "s", "N", "degC", "1"})
+    for (const std::string& unit : units_like(base)) {
+      ASSERT_TRUE(convert(unit, base)) << unit;
+      EXPECT_NEAR((*convert(base, unit))((*convert(unit, base))(12.5)), 12.5, 1e-12) << unit;
+    }
+}
+
+} // namespace
+} // namespace frictab
