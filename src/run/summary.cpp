@@ -81,7 +81,8 @@ void add_tables(std::string& out, const Pipeline& p) {
     for (const TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out += fmt::format("  {:<14}{} nodes, {}: {}\n", table.model, thousands(table.nodes()),
+    out += fmt::format("  {:<14}{} node{}, {}: {}\n", table.model, thousands(table.nodes()),
+                       table.nodes() == 1 ? "" : "s",
                        human_bytes(static_cast<double>(table.bytes())), grid);
   }
 }

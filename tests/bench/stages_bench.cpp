@@ -1,0 +1,79 @@
+// Speed of calibration and of table queries, each beside a reference in the same run.
+#include <benchmark/benchmark.h>
+
+#include "calibrate/calibration.h"
+#include "data/twin.h"
+#include "support/sample_data.h"
+#include "table/drift.h"
+
+namespace frictab {
+namespace {
+
+const Twin& campaign() {
+  static const Twin twin = make_twin({});
+  return twin;
+}
+
+// One law on the 44,550 rows of the synthetic campaign, standard errors included.
+void calibrate_law(benchmark::State& state, const char* law, Loss loss) {
+  CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
+  input.models.use = {law};
+  input.options.loss = loss;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(calibrate(input).fits.front());
+}
+BENCHMARK_CAPTURE(calibrate_law, coulomb_L2, "coulomb", Loss::l2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_law, orowan_L2, "orowan", Loss::l2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_law, orowan_L1, "orowan", Loss::l1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_law, log_coulomb_L2, "log_coulomb", Loss::l2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_law, log_coulomb_L1, "log_coulomb", Loss::l1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_law, wzl_L2, "wzl", Loss::l2)->Unit(benchmark::kMillisecond);
+
+// Queries at random states: the table as the tool evaluates it, and the law itself.
+struct Query {
+  explicit Query(const char* name) : model(test::plausible_model(*find_law(name))) {
+    const Dataset data = test::sample_data(model);
+    table = build_table(model, state_ranges(model, data, {}), {});
+    states = test::random_states(table.inputs(), count, 5);
+    for (const auto& column : states)
+      columns.push_back(column.data());
+    tau.resize(count);
+  }
+  static constexpr std::size_t count = 4096;
+  Model model;
+  Table table;
+  std::vector<std::vector<double>> states;
+  std::vector<const double*> columns;
+  std::vector<double> tau;
+};
+
+void query_table(benchmark::State& state, const char* law) {
+  Query query(law);
+  const TableFunction function(query.table);
+  for (auto _ : state) {
+    function.evaluate(Query::count, query.columns, query.tau);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * Query::count));
+}
+
+void query_law(benchmark::State& state, const char* law) {
+  Query query(law);
+  const LawFunction function(query.model, query.table.inputs());
+  for (auto _ : state) {
+    function.evaluate(Query::count, query.columns, query.tau.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * Query::count));
+}
+BENCHMARK_CAPTURE(query_table, log_coulomb, "log_coulomb");
+BENCHMARK_CAPTURE(query_law, log_coulomb, "log_coulomb");
+BENCHMARK_CAPTURE(query_table, wanheim_bay, "wanheim_bay");
+BENCHMARK_CAPTURE(query_law, wanheim_bay, "wanheim_bay");
+
+} // namespace
+} // namespace frictab
+
+BENCHMARK_MAIN();
