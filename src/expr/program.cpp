@@ -81,7 +81,7 @@ template <class F> void binary(std::size_t n, Register a, Register b, double* ou
       out[i] = f(*a.data, b[i]);
 }
 
-void run(Op op, std::size_t n, const Register* r, double* out) {
+void run_operation(Op op, std::size_t n, const Register* r, double* out) {
   switch (op) { // the cheap operations get loops the compiler vectorises
   case Op::add:
     return binary(n, r[0], r[1], out, [](double a, double b) { return a + b; });
@@ -105,6 +105,11 @@ void run(Op op, std::size_t n, const Register* r, double* out) {
 }
 
 const double zero = 0;
+
+// What an operation reads; unused places read zero.
+struct Operands {
+  Register r[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+};
 
 } // namespace
 
@@ -200,11 +205,11 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
           target = in.kind == Kind::data ? Register{columns[in.index] + first, 1}
                                          : Register{&scalars[in.index], 0};
         else {
-          Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+          Operands operands;
           for (std::size_t k = 0; k < in.operands; ++k)
-            operands[k] = work.registers[in.a[k]];
+            operands.r[k] = work.registers[in.a[k]];
           const std::size_t count = in.kind == Kind::scalar ? 1 : n;
-          run(in.op, count, operands, work.slot(i));
+          run_operation(in.op, count, operands.r, work.slot(i));
           target = {work.slot(i), in.kind == Kind::scalar ? std::size_t{0} : std::size_t{1}};
         }
       }
@@ -233,129 +238,168 @@ BoundProgram::BoundProgram(const Program& program, std::size_t rows,
   for (std::size_t i = 0; i < program.code_.size(); ++i) {
     const auto& in = program.code_[i];
     if (!wanted[i] || in.kind != Kind::data || in.op == Op::symbol) continue;
-    Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
+    Operands operands;
     for (std::size_t k = 0; k < in.operands; ++k) {
       const auto& from = program.code_[in.a[k]];
       if (from.op == Op::constant)
-        operands[k] = {&from.value, 0};
+        operands.r[k] = {&from.value, 0};
       else if (from.op == Op::symbol)
-        operands[k] = {columns_[from.index], 1};
+        operands.r[k] = {columns_[from.index], 1};
       else
-        operands[k] = {cached_[in.a[k]].data(), 1};
+        operands.r[k] = {cached_[in.a[k]].data(), 1};
     }
     cached_[i].resize(rows);
-    run(in.op, rows, operands, cached_[i].data());
+    run_operation(in.op, rows, operands.r, cached_[i].data());
   }
 }
 
+// One sweep over all blocks: values forward, derivatives by each scalar backward.
+class BoundProgram::Sweep {
+public:
+  Sweep(const BoundProgram& bound, std::span<const double> scalars, bool derivatives)
+      : bound_(bound), code_(bound.program_.code_), parameters_(bound.program_.scalars_.size()),
+        work_(code_.size()), value_(code_.size()), slope_(code_.size() * parameters_) {
+    evaluate_scalars(scalars);
+    if (!derivatives) return;
+    adjoint_.resize(code_.size() * block);
+    gradient_.resize(parameters_ * block);
+    touched_.resize(code_.size());
+  }
+
+  Block run(std::size_t first, std::size_t count) {
+    forward(first, count);
+    const std::size_t last = code_.size() - 1;
+    if (work_.registers[last].stride == 0) { // a formula without columns
+      std::fill_n(work_.slot(last), count, value_[last]);
+      work_.registers[last] = {work_.slot(last), 1};
+    }
+    Block result{first, count, work_.registers[last].data, {}};
+    if (adjoint_.empty()) return result;
+    backward(count);
+    for (std::size_t p = 0; p < parameters_; ++p)
+      result.derivative.push_back(gradient_.data() + p * block);
+    return result;
+  }
+
+private:
+  using Kind = Program::Kind;
+  static constexpr std::size_t block = Program::block;
+
+  // Nodes without columns: once, with their derivatives by each parameter in forward mode.
+  void evaluate_scalars(std::span<const double> scalars) {
+    for (std::size_t i = 0; i < code_.size(); ++i) {
+      const auto& in = code_[i];
+      if (in.op == Op::constant) value_[i] = in.value;
+      if (in.kind != Kind::scalar || in.op == Op::constant) continue;
+      if (in.op == Op::symbol) {
+        value_[i] = scalars[in.index];
+        slope_[i * parameters_ + in.index] = 1;
+        continue;
+      }
+      double v[4] = {};
+      for (std::size_t k = 0; k < in.operands; ++k)
+        v[k] = value_[in.a[k]];
+      value_[i] = apply(in.op, v[0], v[1], v[2], v[3]);
+      for (std::size_t k = 0; k < in.operands; ++k)
+        for (std::size_t p = 0; p < parameters_; ++p)
+          if (const double s = slope_[in.a[k] * parameters_ + p]; s != 0)
+            slope_[i * parameters_ + p] += partial(in.op, k, v, value_[i]) * s;
+    }
+  }
+
+  void forward(std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < code_.size(); ++i) {
+      const auto& in = code_[i];
+      const auto& cached = bound_.cached_[i];
+      Register& target = work_.registers[i];
+      if (in.kind == Kind::scalar)
+        target = {&value_[i], 0};
+      else if (in.op == Op::symbol)
+        target = {bound_.columns_[in.index] + first, 1};
+      else if (in.kind == Kind::data)
+        target = {cached.empty() ? nullptr : cached.data() + first, 1};
+      else {
+        Operands operands;
+        for (std::size_t k = 0; k < in.operands; ++k)
+          operands.r[k] = work_.registers[in.a[k]];
+        run_operation(in.op, count, operands.r, work_.slot(i));
+        target = {work_.slot(i), 1};
+      }
+    }
+  }
+
+  void backward(std::size_t count) {
+    std::fill(gradient_.begin(), gradient_.end(), 0.0);
+    std::fill(touched_.begin(), touched_.end(), 0);
+    const std::size_t last = code_.size() - 1;
+    std::fill_n(adjoint_.data() + last * block, count, 1.0);
+    touched_[last] = 1;
+    for (std::size_t i = code_.size(); i-- > 0;) {
+      const auto& in = code_[i];
+      if (!touched_[i] || in.kind == Kind::data) continue;
+      if (in.kind == Kind::scalar)
+        add_to_gradient(i, count);
+      else
+        for (std::size_t k = 0; k < in.operands; ++k)
+          pass_on(i, k, count);
+    }
+  }
+
+  void add_to_gradient(std::size_t i, std::size_t count) {
+    const double* a = adjoint_.data() + i * block;
+    for (std::size_t p = 0; p < parameters_; ++p)
+      if (const double s = slope_[i * parameters_ + p]; s != 0)
+        for (std::size_t j = 0; j < count; ++j)
+          gradient_[p * block + j] += a[j] * s;
+  }
+
+  // Adds the adjoint of node i, times its derivative by operand k, to that operand's adjoint.
+  void pass_on(std::size_t i, std::size_t k, std::size_t count) {
+    const auto& in = code_[i];
+    const std::size_t to = in.a[k];
+    if (code_[to].kind == Kind::data || code_[to].op == Op::constant) return;
+    const double* a = adjoint_.data() + i * block;
+    double* b = adjoint_.data() + to * block;
+    if (!touched_[to]) std::fill_n(b, count, 0.0);
+    touched_[to] = 1;
+    if (in.op == Op::add || (in.op == Op::subtract && k == 0)) {
+      for (std::size_t j = 0; j < count; ++j)
+        b[j] += a[j];
+      return;
+    }
+    if (in.op == Op::multiply) {
+      const Register other = work_.registers[in.a[1 - k]];
+      for (std::size_t j = 0; j < count; ++j)
+        b[j] += a[j] * other[j];
+      return;
+    }
+    Operands operands;
+    for (std::size_t o = 0; o < in.operands; ++o)
+      operands.r[o] = work_.registers[in.a[o]];
+    const double* out = work_.registers[i].data;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (a[j] == 0) continue; // keeps an infinite slope of a branch not taken out
+      const double v[4] = {operands.r[0][j], operands.r[1][j], operands.r[2][j], operands.r[3][j]};
+      b[j] += a[j] * partial(in.op, k, v, out[j]);
+    }
+  }
+
+  const BoundProgram& bound_;
+  const std::vector<Program::Instruction>& code_;
+  std::size_t parameters_;
+  Workspace work_;
+  std::vector<double> value_;    // of scalar nodes
+  std::vector<double> slope_;    // of scalar nodes, by parameter
+  std::vector<double> adjoint_;  // per node and row of the block
+  std::vector<double> gradient_; // per parameter and row of the block
+  std::vector<char> touched_;
+};
+
 void BoundProgram::sweep(std::span<const double> scalars, bool derivatives,
                          const std::function<void(const Block&)>& take) const {
-  using Kind = Program::Kind;
-  const auto& code = program_.code_;
-  const std::size_t size = code.size();
-  const std::size_t parameters = program_.scalars_.size();
-  constexpr std::size_t block = Program::block;
-  Workspace work(size);
-  // Scalar nodes once, with their derivatives by each parameter (forward mode).
-  std::vector<double> value(size), slope(size * parameters);
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto& in = code[i];
-    if (in.op == Op::constant) value[i] = in.value;
-    if (in.kind != Kind::scalar || in.op == Op::constant) continue;
-    if (in.op == Op::symbol) {
-      value[i] = scalars[in.index];
-      slope[i * parameters + in.index] = 1;
-      continue;
-    }
-    double v[4] = {};
-    for (std::size_t k = 0; k < in.operands; ++k)
-      v[k] = value[in.a[k]];
-    value[i] = apply(in.op, v[0], v[1], v[2], v[3]);
-    for (std::size_t k = 0; k < in.operands; ++k)
-      for (std::size_t p = 0; p < parameters; ++p)
-        if (const double s = slope[in.a[k] * parameters + p]; s != 0)
-          slope[i * parameters + p] += partial(in.op, k, v, value[i]) * s;
-  }
-  std::vector<double> adjoint(derivatives ? size * block : 0);
-  std::vector<double> gradient(derivatives ? parameters * block : 0);
-  std::vector<char> touched(size);
-  for (std::size_t first = 0; first < rows_; first += block) {
-    const std::size_t n = std::min(block, rows_ - first);
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto& in = code[i];
-      Register& target = work.registers[i];
-      if (in.kind == Kind::scalar)
-        target = {&value[i], 0};
-      else if (in.op == Op::symbol)
-        target = {columns_[in.index] + first, 1};
-      else if (in.kind == Kind::data)
-        target = {cached_[i].empty() ? nullptr : cached_[i].data() + first, 1};
-      else {
-        Register operands[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
-        for (std::size_t k = 0; k < in.operands; ++k)
-          operands[k] = work.registers[in.a[k]];
-        run(in.op, n, operands, work.slot(i));
-        target = {work.slot(i), 1};
-      }
-    }
-    const std::size_t last = size - 1;
-    if (work.registers[last].stride == 0) // a formula without columns
-      std::fill_n(work.slot(last), n, value[last]);
-    Block result{first,
-                 n,
-                 work.registers[last].stride == 0 ? work.slot(last) : work.registers[last].data,
-                 {}};
-    if (derivatives) {
-      std::fill(gradient.begin(), gradient.end(), 0.0);
-      std::fill(touched.begin(), touched.end(), 0);
-      std::fill_n(adjoint.data() + last * block, n, 1.0);
-      touched[last] = 1;
-      for (std::size_t i = size; i-- > 0;) {
-        const auto& in = code[i];
-        if (!touched[i] || in.kind == Kind::data) continue;
-        const double* a = adjoint.data() + i * block;
-        if (in.kind == Kind::scalar) {
-          for (std::size_t p = 0; p < parameters; ++p)
-            if (const double s = slope[i * parameters + p]; s != 0)
-              for (std::size_t j = 0; j < n; ++j)
-                gradient[p * block + j] += a[j] * s;
-          continue;
-        }
-        for (std::size_t k = 0; k < in.operands; ++k) {
-          const std::size_t to = in.a[k];
-          if (code[to].kind == Kind::data || code[to].op == Op::constant) continue;
-          double* b = adjoint.data() + to * block;
-          if (!touched[to]) std::fill_n(b, n, 0.0);
-          touched[to] = 1;
-          const Register r0 = work.registers[in.a[0]], r1 = work.registers[in.a[1]],
-                         r2 = work.registers[in.a[2]], r3 = work.registers[in.a[3]];
-          const double* out = work.registers[i].data;
-          if (in.op == Op::add || (in.op == Op::subtract && k == 0)) {
-            for (std::size_t j = 0; j < n; ++j)
-              b[j] += a[j];
-          } else if (in.op == Op::multiply) {
-            const Register other = k == 0 ? r1 : r0;
-            if (other.stride == 1)
-              for (std::size_t j = 0; j < n; ++j)
-                b[j] += a[j] * other.data[j];
-            else
-              for (std::size_t j = 0; j < n; ++j)
-                b[j] += a[j] * *other.data;
-          } else {
-            for (std::size_t j = 0; j < n; ++j) {
-              if (a[j] == 0) continue; // keeps an infinite slope of a branch not taken out
-              const double v[4] = {r0[j], in.operands > 1 ? r1[j] : 0, in.operands > 2 ? r2[j] : 0,
-                                   in.operands > 3 ? r3[j] : 0};
-              b[j] += a[j] * partial(in.op, k, v, out[j]);
-            }
-          }
-        }
-      }
-      for (std::size_t p = 0; p < parameters; ++p)
-        result.derivative.push_back(gradient.data() + p * block);
-    }
-    take(result);
-  }
+  Sweep sweep(*this, scalars, derivatives);
+  for (std::size_t first = 0; first < rows_; first += Program::block)
+    take(sweep.run(first, std::min(Program::block, rows_ - first)));
 }
 
 } // namespace frictab

@@ -68,6 +68,7 @@ public:
              const std::function<void(const Block&)>& take) const;
 
 private:
+  class Sweep;
   const Program& program_;
   std::size_t rows_;
   std::vector<const double*> columns_;

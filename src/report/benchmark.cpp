@@ -1,0 +1,91 @@
+// benchmark.md: the ranking as a table to read anywhere.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "report/numbers.h"
+#include "report/published.h"
+#include "report/report.h"
+
+namespace frictab {
+
+namespace {
+
+// A cell must not end its column or its row, nor be read as markup.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '\\' || c == '<' || c == '*' || c == '`') out += '\\';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string parameters(const ModelFit& fit) {
+  const std::vector<Parameter>& list = fit.model.law->parameters;
+  if (list.size() > 8) return fmt::format("{} parameters", list.size());
+  std::string text;
+  for (std::size_t i = 0; i < list.size() && i < fit.model.parameters.size(); ++i) {
+    const double error = i < fit.std_error.size() ? fit.std_error[i] : std::nan("");
+    ValueText v = with_error(fit.model.parameters[i], error);
+    if (fit.model.law->calibrated == Calibrated::fixed)
+      v = {short_figures(fit.model.parameters[i]), ""};
+    text += (text.empty() ? "" : ", ") + list[i].name + " = " + v.value;
+    if (!v.std_error.empty()) text += " \u00B1 " + v.std_error;
+    if (!list[i].unit.empty() && list[i].unit != "1") text += " " + list[i].unit;
+  }
+  return text;
+}
+
+std::string row(const ModelFit& fit, std::size_t rank, int decimals) {
+  const Metrics& v = fit.validation;
+  const std::string remarks = join(fit.remarks, "; ");
+  return fmt::format("| {} | {} | {} | {} to {} | {} | {} | {} | {} | {} |\n", rank,
+                     cell(fit.model.law->name), fixed(v.mae_MPa, decimals),
+                     fixed(v.mae_interval.low, decimals), fixed(v.mae_interval.high, decimals),
+                     fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals),
+                     fixed(fit.training.mae_MPa, decimals), cell(parameters(fit)), cell(remarks));
+}
+
+void add_published(std::string& out, const Calibration& calibration) {
+  out += fmt::format("\n## Published figures beside these\n\n"
+                     "{} (*{}*)\n\n| | published MAE / MPa | here MAE / MPa |\n|---|---|---|\n",
+                     published_warning, published_source);
+  const auto figures = published_figures();
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const std::string ours = counterpart(calibration, i);
+    out += fmt::format("| {} | {} | {} |\n", figures[i].what, figures[i].mae_MPa,
+                       ours.empty() ? "\u2013" : ours);
+  }
+}
+
+} // namespace
+
+std::string benchmark_md(const Calibration& calibration) {
+  std::string out = "# Friction laws on experiments they were not calibrated on\n\n";
+  if (calibration.synthetic) out += "**Synthetic data: nothing here was measured.**\n\n";
+  if (calibration.fits.empty()) {
+    out += "No law was calibrated.\n";
+  } else {
+    const Metrics& v = calibration.fits.front().validation;
+    const Metrics& t = calibration.fits.front().training;
+    out += fmt::format(
+        "Errors of tau_R in MPa, residual = measured \u2212 predicted. Calibrated on {} of {}, "
+        "validated on {} of {}. Intervals: 95 %, by resampling whole experiments.\n\n"
+        "| | law | MAE | 95 % interval | RMSE | bias | training MAE | parameters \u00B1 standard "
+        "error | remarks |\n|--:|---|--:|---|--:|--:|--:|---|---|\n",
+        count_of(t.n_rows, "row"), count_of(t.n_experiments, "experiment"),
+        count_of(v.n_rows, "row"), count_of(v.n_experiments, "experiment"));
+    const int decimals = error_decimals(calibration);
+    for (std::size_t i = 0; i < calibration.fits.size(); ++i)
+      out += row(calibration.fits[i], i + 1, decimals);
+  }
+  if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
+  for (const std::string& left : calibration.left_out)
+    out += "- " + cell(left) + "\n";
+  add_published(out, calibration);
+  return out;
+}
+
+} // namespace frictab

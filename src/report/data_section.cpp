@@ -1,0 +1,90 @@
+// What the laws were calibrated on: files, rows, what was left out, ranges.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/quantity.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab {
+
+namespace {
+
+// Escaped lines, one below the other.
+std::string lines(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& line : list)
+    text += (text.empty() ? "" : "<br/>") + svg::escape(line);
+  return text.empty() ? "\u2013" : text;
+}
+
+std::vector<std::string> files_of(const Dataset& data) {
+  std::vector<std::string> files;
+  for (const std::string& source : data.sources)
+    files.push_back(shown_path(source));
+  return files;
+}
+
+std::vector<std::string> dropped_of(const Dataset& data) {
+  std::vector<std::string> list;
+  for (const Dataset::Dropped& dropped : data.dropped)
+    list.push_back(fmt::format("{}: {}", count_of(dropped.rows, "row"), dropped.rule));
+  return list;
+}
+
+std::vector<std::string> bystanders_of(const Dataset& data) {
+  std::vector<std::string> list;
+  for (const Column& column : data.columns)
+    if (!find_quantity(column.name)) list.push_back(column.name);
+  return list.empty() ? list : std::vector<std::string>{join(list, ", ")};
+}
+
+std::string range_of(const Dataset& data, const std::string& name) {
+  const Column* column = data.find(name);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  if (column)
+    for (const double value : column->values)
+      if (std::isfinite(value)) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+  if (low > high) return "\u2013";
+  return low == high ? short_figures(low) : short_figures(low) + " to " + short_figures(high);
+}
+
+} // namespace
+
+void add_data(TemplateValues& page, const ReportInput& input) {
+  const Dataset &t = input.training, &v = input.validation;
+  std::vector<TemplateValues>& rows = page.lists["data"];
+  const auto add = [&](const char* what, const std::string& training,
+                       const std::string& validation) {
+    rows.push_back({{{"what", what}, {"training", training}, {"validation", validation}}, {}, {}});
+  };
+  add("Files", lines(files_of(t)), lines(files_of(v)));
+  add("Experiments", thousands(t.experiments.size()), thousands(v.experiments.size()));
+  add("Rows", thousands(t.rows()), thousands(v.rows()));
+  add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
+  add("Derived", lines(t.notes), lines(v.notes));
+  add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
+
+  std::vector<TemplateValues>& ranges = page.lists["ranges"];
+  for (const Quantity& quantity : quantities()) {
+    if (!t.has(quantity.name) && !v.has(quantity.name)) continue;
+    ranges.push_back({{{"meaning", svg::escape(quantity.meaning)},
+                       {"name", svg::escape(quantity.name)},
+                       {"unit", shown_unit(quantity.unit)},
+                       {"training", range_of(t, quantity.name)},
+                       {"validation", range_of(v, quantity.name)}},
+                      {},
+                      {}});
+  }
+  page.flags["has_ranges"] = !ranges.empty();
+}
+
+} // namespace frictab

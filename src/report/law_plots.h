@@ -1,0 +1,48 @@
+// The two plots of a law: measured against predicted, and residual against measured tau_R.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/report.h"
+#include "report/svg.h"
+
+namespace frictab {
+
+// Axes, cells and colour classes that all laws share, so that their plots can be compared.
+struct PlotFrame {
+  svg::Axis predicted;
+  svg::Axis measured;
+  svg::Axis residual;
+  std::vector<std::uint32_t> classes; // lower bounds of counts per cell
+};
+
+struct LawPlots {
+  std::string predicted; // SVG
+  std::string residual;  // SVG
+  std::string note;      // rows that no plot shows; empty where all are shown
+};
+
+// tau_R axes hold every measured row. The residual axis holds 99.8 % of the rows of every law that
+// was calibrated, and the quartiles of the laws with constants of the literature, which would
+// otherwise squeeze all others.
+PlotFrame plot_frame(const ReportInput& input);
+
+// Of input.calibration.fits[law].
+LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& frame);
+
+// Colours and lines of these plots, explained once.
+std::string plot_legend(const PlotFrame& frame);
+
+// Running quantiles of y over x: groups of neighbours in x, each at least 20 rows and a thirtieth
+// of the range of x. Empty below 60 rows.
+struct RunningBand {
+  std::vector<double> x;                 // median of the group
+  std::vector<double> low, median, high; // 10 %, 50 %, 90 %
+};
+RunningBand running_band(std::span<const double> x, std::span<const double> y);
+
+// Linear between order statistics; `sorted` is ascending and not empty.
+double quantile(std::span<const double> sorted, double share);
+
+} // namespace frictab

@@ -1,0 +1,71 @@
+// Numbers as people read them in tables.
+#include "report/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+
+namespace frictab {
+
+namespace {
+
+const std::string dash = "\u2013";
+
+// Decimal power of the first digit after rounding to `digits`.
+int exponent_of(double value, int digits) {
+  const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+} // namespace
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return dash;
+  std::string text = fmt::format("{:.{}f}", std::abs(value), std::max(decimals, 0));
+  const bool zero = text.find_first_not_of("0.") == std::string::npos;
+  const std::size_t point = std::min(text.find('.'), text.size());
+  for (std::size_t i = point; i > 3; i -= 3)
+    text.insert(i - 3, ",");
+  return (value < 0 && !zero ? "\u2212" : "") + text;
+}
+
+std::string figures(double value, int digits) {
+  if (!std::isfinite(value)) return dash;
+  if (value == 0) return "0";
+  const int exponent = exponent_of(value, digits);
+  if (exponent < -4 || exponent > 8)
+    return (value < 0 ? "\u2212" : "") + fmt::format("{:.{}e}", std::abs(value), digits - 1);
+  return fixed(value, digits - 1 - exponent);
+}
+
+int error_decimals(const Calibration& calibration) {
+  if (calibration.fits.empty()) return 2;
+  const double best = calibration.fits.front().validation.mae_MPa;
+  if (!std::isfinite(best) || best <= 0) return 2;
+  return std::clamp(2 - static_cast<int>(std::floor(std::log10(best))), 2, 6);
+}
+
+std::string short_figures(double value, int digits) {
+  std::string text = figures(value, digits);
+  if (text.find('.') == std::string::npos || text.find('e') != std::string::npos) return text;
+  while (text.back() == '0')
+    text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+ValueText with_error(double value, double std_error) {
+  if (!std::isfinite(std_error) || std_error <= 0) return {figures(value, 4), ""};
+  const int exponent = exponent_of(std_error, 2);
+  if (exponent < -7 || exponent > 6) return {figures(value, 4), figures(std_error, 2)};
+  return {fixed(value, 1 - exponent), fixed(std_error, 1 - exponent)};
+}
+
+std::string count_of(std::size_t count, const std::string& noun) {
+  return thousands(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+} // namespace frictab

@@ -1,0 +1,32 @@
+// Numbers as people read them in tables.
+#pragma once
+
+#include <string>
+
+#include "calibrate/calibration.h"
+
+namespace frictab {
+
+// `digits` significant digits: 12,345 or 0.00123 or 1.2e-15; a dash where not finite.
+std::string figures(double value, int digits = 3);
+
+// The same without zeros at the end: 500, 0.5, 2,750.
+std::string short_figures(double value, int digits = 4);
+
+// `decimals` behind the point with thousands separators and a minus sign; a dash where not finite.
+std::string fixed(double value, int decimals);
+
+// Decimals that show three digits of the best law's error, so that a column lines up.
+int error_decimals(const Calibration& calibration);
+
+// Value and standard error with as many digits as the error is known to: "0.1276", "0.0005".
+struct ValueText {
+  std::string value;
+  std::string std_error; // empty where there is none
+};
+ValueText with_error(double value, double std_error);
+
+// "1 row", "16,500 rows".
+std::string count_of(std::size_t count, const std::string& noun);
+
+} // namespace frictab

@@ -1,0 +1,55 @@
+// Figures of the paper that this program follows, to stand beside a user's own.
+#include "report/published.h"
+
+#include <array>
+
+#include "report/numbers.h"
+
+namespace frictab {
+
+// The paper's abstract; it does not say which of its constants 51.38 belongs to.
+std::span<const PublishedFigure> published_figures() {
+  static const std::array<PublishedFigure, 4> figures = {{{"standard constants", "24 to 95"},
+                                                          {"of these, a Coulomb constant", "51.38"},
+                                                          {"calibrated constants", "12 to 15"},
+                                                          {"neural network", "9.35"}}};
+  return figures;
+}
+
+LawKind kind_of(const Law& law) {
+  if (law.calibrated == Calibrated::fixed) return LawKind::literature;
+  if (law.calibrated == Calibrated::mean) return LawKind::constants;
+  return law.name == "neural_network" ? LawKind::network : LawKind::calibrated;
+}
+
+std::optional<Interval> mae_span(const Calibration& calibration, LawKind kind) {
+  std::optional<Interval> span;
+  for (const ModelFit& fit : calibration.fits) {
+    if (kind_of(*fit.model.law) != kind) continue;
+    const double mae = fit.validation.mae_MPa;
+    if (!span) span = Interval{mae, mae};
+    span->low = std::min(span->low, mae);
+    span->high = std::max(span->high, mae);
+  }
+  return span;
+}
+
+std::string counterpart(const Calibration& calibration, std::size_t index) {
+  if (index == 1) {
+    std::string text;
+    for (const ModelFit& fit : calibration.fits)
+      if (kind_of(*fit.model.law) == LawKind::literature &&
+          fit.model.law->name.rfind("coulomb", 0) == 0)
+        text += (text.empty() ? "" : ", ") + figures(fit.validation.mae_MPa) + " (" +
+                fit.model.law->name + ")";
+    return text;
+  }
+  const std::array<LawKind, 4> kinds = {LawKind::literature, LawKind::literature,
+                                        LawKind::constants, LawKind::network};
+  const auto span = mae_span(calibration, kinds.at(index));
+  if (!span) return "";
+  const std::string low = figures(span->low), high = figures(span->high);
+  return low == high ? low : low + " to " + high;
+}
+
+} // namespace frictab

@@ -1,0 +1,34 @@
+// Figures of the paper that this program follows, to stand beside a user's own.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "calibrate/calibration.h"
+
+namespace frictab {
+
+// Mean absolute errors of tau_R, MPa, on the paper's own measured data.
+struct PublishedFigure {
+  std::string what;
+  std::string mae_MPa;
+};
+std::span<const PublishedFigure> published_figures();
+
+inline constexpr const char* published_source =
+    "Benchmark of friction models on shear-stress level for cold forging";
+inline constexpr const char* published_warning =
+    "The published figures refer to the paper's own measured data, not to yours; they show the "
+    "order of magnitude.";
+
+// What this calibration has in the place of published_figures()[index]: "24.2 to 94.8", or empty
+// where it has nothing of the kind.
+std::string counterpart(const Calibration& calibration, std::size_t index);
+
+// Smallest and largest validation MAE of the laws of one kind.
+enum class LawKind { literature, constants, calibrated, network }; // constants: means of the data
+LawKind kind_of(const Law& law);
+std::optional<Interval> mae_span(const Calibration& calibration, LawKind kind);
+
+} // namespace frictab

@@ -1,0 +1,189 @@
+// The ranking table and the plots of each law.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "report/law_plots.h"
+#include "report/numbers.h"
+#include "report/published.h"
+#include "report/sections.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr double bar_width = 220, bar_height = 22;
+
+std::string kind_text(const Law& law) {
+  switch (law.calibrated) {
+  case Calibrated::fixed:
+    return "literature, fixed";
+  case Calibrated::mean:
+    return "means of the training data";
+  case Calibrated::fit:
+    return "fitted";
+  }
+  return "";
+}
+
+std::string bar_colour(const Law& law) {
+  return law.calibrated == Calibrated::fixed  ? "#9aa4af"
+         : law.calibrated == Calibrated::mean ? "#86b0d6"
+                                              : "#3f83bd";
+}
+
+// Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
+svg::Axis bar_axis(const Calibration& calibration) {
+  const double best = calibration.fits.front().validation.mae_MPa;
+  double high = best;
+  for (const ModelFit& fit : calibration.fits) {
+    const Metrics& v = fit.validation;
+    const double end = std::isfinite(v.mae_interval.high) ? v.mae_interval.high : v.mae_MPa;
+    if (!(v.mae_MPa > 4 * best)) high = std::max(high, end);
+  }
+  if (!std::isfinite(high) || high <= 0) high = 1;
+  return svg::nice_axis(0, high, 5, "MPa");
+}
+
+std::string bar_of(const ModelFit& fit, double best, const svg::Axis& axis) {
+  const Metrics& v = fit.validation;
+  svg::Bar bar;
+  bar.value = v.mae_MPa;
+  bar.low = v.mae_interval.low;
+  bar.high = v.mae_interval.high;
+  bar.reference = best;
+  bar.colour = bar_colour(*fit.model.law);
+  bar.description =
+      fmt::format("{}: {} MPa, 95 % interval {} to {} MPa", fit.model.law->name, figures(v.mae_MPa),
+                  figures(v.mae_interval.low), figures(v.mae_interval.high));
+  return svg::bar(bar, axis, bar_width, bar_height);
+}
+
+std::string parameter_text(const Parameter& parameter, double value, double std_error,
+                           bool fixed_law) {
+  ValueText v = with_error(value, std_error);
+  if (fixed_law) v = {short_figures(value), ""};
+  std::string text =
+      fmt::format("<span class=\"parameter\">{} = {}", svg::escape(parameter.name), v.value);
+  if (!v.std_error.empty())
+    text += " \u00B1 " + v.std_error;
+  else if (!fixed_law)
+    text += " (\u00B1 not determined)";
+  if (!parameter.unit.empty() && parameter.unit != "1") text += " " + svg::escape(parameter.unit);
+  return text + "</span>";
+}
+
+std::string parameters(const ModelFit& fit) {
+  const Law& law = *fit.model.law;
+  const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
+  if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
+  std::string text;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double error =
+        i < fit.std_error.size() ? fit.std_error[i] : std::numeric_limits<double>::quiet_NaN();
+    text += parameter_text(law.parameters[i], fit.model.parameters[i], error,
+                           law.calibrated == Calibrated::fixed);
+  }
+  return text;
+}
+
+TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
+  const Metrics& v = fit.validation;
+  TemplateValues row;
+  row.text = {{"rank", std::to_string(rank)},
+              {"row_class", rank == 1 ? "best" : "other"},
+              {"name", svg::escape(fit.model.law->name)},
+              {"title", svg::escape(fit.model.law->title)},
+              {"formula", svg::escape(fit.model.law->formula)},
+              {"kind", kind_text(*fit.model.law)},
+              {"mae", fixed(v.mae_MPa, decimals)},
+              {"interval",
+               fixed(v.mae_interval.low, decimals) + " to " + fixed(v.mae_interval.high, decimals)},
+              {"rmse", fixed(v.rmse_MPa, decimals)},
+              {"bias", fixed(v.bias_MPa, decimals)},
+              {"training_mae", fixed(fit.training.mae_MPa, decimals)},
+              {"parameters", parameters(fit)}};
+  std::vector<TemplateValues>& remarks = row.lists["remarks"];
+  for (const std::string& remark : fit.remarks)
+    remarks.push_back({{{"text", svg::escape(remark)}}, {}, {}});
+  return row;
+}
+
+std::string made_by(const Calibration& calibration) {
+  const char* loss = calibration.loss == Loss::l2   ? "L2 (least squares)"
+                     : calibration.loss == Loss::l1 ? "L1 (least absolute errors)"
+                                                    : "Huber";
+  std::vector<std::string> methods;
+  for (const ModelFit& fit : calibration.fits)
+    if (fit.model.law->calibrated != Calibrated::fixed && !fit.std_error_method.empty() &&
+        std::find(methods.begin(), methods.end(), fit.std_error_method) == methods.end())
+      methods.push_back(fit.std_error_method);
+  std::string text = fmt::format("Loss: {}. Seed {}. Data fingerprint {}.", loss, calibration.seed,
+                                 svg::escape(calibration.data_hash));
+  if (!methods.empty()) text += " Standard errors: " + svg::escape(join(methods, "; ")) + ".";
+  return text;
+}
+
+void add_plots(TemplateValues& page, const ReportInput& input, std::vector<TemplateValues>& laws) {
+  const bool has_plots = input.validation.has("tau_R_MPa") && input.validation.rows() > 0 &&
+                         input.predicted.size() == laws.size() && !laws.empty();
+  page.flags["has_plots"] = has_plots;
+  const PlotFrame frame = has_plots ? plot_frame(input) : PlotFrame{};
+  page.text["legend"] = has_plots ? plot_legend(frame) : "";
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const LawPlots plots = has_plots ? law_plots(input, i, frame) : LawPlots{};
+    const std::string& name = laws[i].text["name"];
+    laws[i].text["link"] = has_plots ? fmt::format("<a href=\"#law-{}\">{}</a>", name, name) : name;
+    laws[i].text["plot_predicted"] = plots.predicted;
+    laws[i].text["plot_residual"] = plots.residual;
+    laws[i].text["note"] = plots.note;
+    laws[i].flags["has_note"] = !plots.note.empty();
+  }
+}
+
+} // namespace
+
+void add_ranking(TemplateValues& page, const ReportInput& input) {
+  const Calibration& calibration = input.calibration;
+  const bool has_laws = !calibration.fits.empty();
+  std::vector<TemplateValues>& laws = page.lists["laws"];
+  page.flags["has_laws"] = has_laws;
+  page.text["made_by"] = made_by(calibration);
+  page.text["validation_size"] = page.text["bar_scale"] = "";
+  if (has_laws) {
+    const Metrics& v = calibration.fits.front().validation;
+    const svg::Axis axis = bar_axis(calibration);
+    page.text["validation_size"] =
+        count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
+    page.text["bar_scale"] = svg::bar_scale(axis, bar_width, bar_height);
+    for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
+      laws.push_back(law_row(calibration.fits[i], i + 1, error_decimals(calibration)));
+      laws.back().text["bar"] = bar_of(calibration.fits[i], v.mae_MPa, axis);
+    }
+  }
+  add_plots(page, input, laws);
+  std::vector<TemplateValues>& left_out = page.lists["left_out"];
+  for (const std::string& left : calibration.left_out)
+    left_out.push_back({{{"text", svg::escape(left)}}, {}, {}});
+  page.flags["has_left_out"] = !left_out.empty();
+}
+
+void add_published_figures(TemplateValues& page, const ReportInput& input) {
+  page.text["published_warning"] = published_warning;
+  page.text["published_source"] = published_source;
+  std::vector<TemplateValues>& list = page.lists["published"];
+  const auto figures = published_figures();
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const std::string ours = counterpart(input.calibration, i);
+    list.push_back({{{"what", figures[i].what},
+                     {"published", figures[i].mae_MPa},
+                     {"ours", ours.empty() ? "\u2013" : svg::escape(ours)}},
+                    {},
+                    {}});
+  }
+}
+
+} // namespace frictab

@@ -1,0 +1,41 @@
+// report.html: fills templates/report/report.html section by section.
+#include "report/report.h"
+
+#include <filesystem>
+
+#include "codegen/template.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab {
+
+std::string shown_path(const std::string& path) {
+  const std::filesystem::path p(path);
+  return p.is_absolute() ? p.filename().string() : path;
+}
+
+std::string shown_unit(const std::string& unit) {
+  if (unit == "degC") return "\u00B0C";
+  return unit.empty() || unit == "1" ? "\u2013" : svg::escape(unit);
+}
+
+std::string report_html(const ReportInput& input) {
+  TemplateValues page;
+  page.text["title"] = svg::escape(shown_path(input.title));
+  page.text["style"] = std::string(embedded_template("report/style.css"));
+  page.flags["synthetic"] = input.calibration.synthetic;
+  page.text["verdict"] = verdict(input);
+  add_drift_summary(page, input);
+  add_ranking(page, input);
+  add_published_figures(page, input);
+  add_data(page, input);
+  add_tables(page, input);
+  add_drift(page, input);
+  std::vector<TemplateValues>& files = page.lists["files"];
+  for (const std::string& file : input.files)
+    files.push_back({{{"path", svg::escape(shown_path(file))}}, {}, {}});
+  page.flags["has_files"] = !files.empty();
+  return render_template("report/report.html", page);
+}
+
+} // namespace frictab

@@ -1,0 +1,278 @@
+// Plots as SVG text.
+#include "report/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace frictab::svg {
+
+namespace {
+
+constexpr double left = 58, right = 14, top = 10, bottom = 46;
+
+// Light to dark blue-green; the lightest is still told from white, on screen and in print.
+constexpr std::array<std::array<int, 3>, 5> ramp = {
+    {{205, 226, 240}, {134, 188, 214}, {67, 138, 187}, {29, 84, 145}, {10, 34, 84}}};
+
+std::string begin_svg(double width, double height, std::string_view css, std::string_view title,
+                      std::string_view description) {
+  std::string text =
+      fmt::format("<svg class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
+                  "<title>{}</title>",
+                  css, pixel(width), pixel(height), escape(title), escape(title));
+  if (!description.empty()) text += fmt::format("<desc>{}</desc>", escape(description));
+  return text;
+}
+
+// Escaped, with "_R" as a subscript.
+std::string axis_label(std::string_view text) {
+  std::string label = escape(text);
+  const std::size_t mark = label.find("_R");
+  if (mark == std::string::npos) return label;
+  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">R</tspan><tspan dy=\"-3\">" +
+         label.substr(mark + 2) + "</tspan>";
+}
+
+std::string label_at(double x, double y, std::string_view anchor, std::string_view text) {
+  return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>", pixel(x), pixel(y),
+                     anchor, escape(text));
+}
+
+// One path per class: runs of neighbouring cells of a row are one rectangle.
+std::string runs_of_class(const Density& d, std::uint32_t from, std::uint32_t to) {
+  std::string path;
+  for (std::size_t row = 0; row < d.ny; ++row)
+    for (std::size_t i = 0; i < d.nx; ++i) {
+      const auto inside = [&](std::size_t cell) {
+        const std::uint32_t count = d.counts[row * d.nx + cell];
+        return count >= from && count < to;
+      };
+      if (!inside(i)) continue;
+      const std::size_t first = i;
+      while (i + 1 < d.nx && inside(i + 1))
+        ++i;
+      path += fmt::format("M{} {}h{}v1h-{}z", first, row, i + 1 - first, i + 1 - first);
+    }
+  return path;
+}
+
+} // namespace
+
+std::string pixel(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  while (text.back() == '0')
+    text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+Axis nice_axis(double low, double high, int wanted, std::string label) {
+  Axis axis;
+  axis.label = std::move(label);
+  if (!std::isfinite(low)) low = 0;
+  if (!std::isfinite(high)) high = low + 1;
+  if (high < low) std::swap(low, high);
+  const double size = std::max({std::abs(low), std::abs(high), 1e-12});
+  if (high - low < 1e-9 * size) {
+    low -= 0.5 * size;
+    high += 0.5 * size;
+  }
+  const double rough = (high - low) / std::max(wanted, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (rough <= factor * power * (1 + 1e-9)) step = factor * power;
+  // A thousandth of a step does not make another tick.
+  const double first = std::floor(low / step + 1e-3);
+  const double last = std::max(std::ceil(high / step - 1e-3), first + 1);
+  for (double i = first; i <= last; ++i)
+    axis.ticks.push_back(i * step);
+  axis.low = axis.ticks.front();
+  axis.high = axis.ticks.back();
+  axis.decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 12);
+  return axis;
+}
+
+std::string tick_label(const Axis& axis, double tick) {
+  const std::string digits = fmt::format("{:.{}f}", std::abs(tick), axis.decimals);
+  const bool zero = digits.find_first_not_of("0.") == std::string::npos;
+  return (tick < 0 && !zero ? "\u2212" : "") + digits;
+}
+
+Density bin(std::span<const double> x, std::span<const double> y, const Axis& x_axis,
+            const Axis& y_axis, std::size_t nx, std::size_t ny) {
+  Density d{nx, ny, std::vector<std::uint32_t>(nx * ny, 0), 0};
+  const auto cell = [](double value, const Axis& axis, std::size_t cells) {
+    const auto n = static_cast<double>(cells);
+    return std::min(std::floor((value - axis.low) / (axis.high - axis.low) * n), n - 1);
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool inside = x[i] >= x_axis.low && x[i] <= x_axis.high && y[i] >= y_axis.low &&
+                        y[i] <= y_axis.high; // false for NaN
+    if (!inside) {
+      ++d.outside;
+      continue;
+    }
+    const auto column = static_cast<std::size_t>(cell(x[i], x_axis, nx));
+    const auto row = ny - 1 - static_cast<std::size_t>(cell(y[i], y_axis, ny));
+    ++d.counts[row * nx + column];
+  }
+  return d;
+}
+
+std::vector<std::uint32_t> count_classes(std::uint32_t largest, std::size_t classes) {
+  std::vector<std::uint32_t> bounds{1};
+  const double factor = std::pow(std::max<double>(largest, 1),
+                                 1.0 / static_cast<double>(std::max<std::size_t>(classes, 1)));
+  for (std::size_t i = 1; i < classes; ++i) {
+    const auto next =
+        static_cast<std::uint32_t>(std::ceil(std::pow(factor, static_cast<double>(i)) - 1e-9));
+    const std::uint32_t bound = std::max(next, bounds.back() + 1);
+    if (bound > largest) break;
+    bounds.push_back(bound);
+  }
+  return bounds;
+}
+
+std::string class_colour(std::size_t index, std::size_t classes) {
+  const double x = classes > 1 ? static_cast<double>(index) / static_cast<double>(classes - 1) *
+                                     static_cast<double>(ramp.size() - 1)
+                               : 2;
+  const std::size_t i = std::min(static_cast<std::size_t>(x), ramp.size() - 2);
+  const double share = x - static_cast<double>(i);
+  std::string text = "#";
+  for (std::size_t c = 0; c < 3; ++c)
+    text += fmt::format("{:02x}", static_cast<int>(std::lround(
+                                      ramp[i][c] + share * (ramp[i + 1][c] - ramp[i][c]))));
+  return text;
+}
+
+Plot::Plot(double width, double height, Axis x, Axis y)
+    : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {}
+
+double Plot::place_x(double value) const {
+  return (value - x_.low) / (x_.high - x_.low) * width_;
+}
+
+double Plot::place_y(double value) const {
+  return height_ - (value - y_.low) / (y_.high - y_.low) * height_;
+}
+
+void Plot::density(const Density& d, std::span<const std::uint32_t> classes) {
+  body_ += fmt::format("<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" "
+                       "preserveAspectRatio=\"none\" shape-rendering=\"crispEdges\">",
+                       pixel(width_), pixel(height_), d.nx, d.ny);
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const bool last = c + 1 == classes.size();
+    const std::string path =
+        runs_of_class(d, classes[c], last ? std::uint32_t(-1) : classes[c + 1]);
+    if (!path.empty())
+      body_ += fmt::format("\n<path fill=\"{}\" d=\"{}\"/>", class_colour(c, classes.size()), path);
+  }
+  body_ += "</svg>";
+}
+
+void Plot::line(std::span<const double> x, std::span<const double> y, const Stroke& stroke) {
+  std::string path;
+  bool pen_down = false;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+      pen_down = false;
+      continue;
+    }
+    // Far beyond the edge is as good as beyond it, and keeps the numbers short.
+    const double px = std::clamp(place_x(x[i]), -10 * width_, 10 * width_);
+    const double py = std::clamp(place_y(y[i]), -10 * height_, 10 * height_);
+    path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', pixel(px), pixel(py));
+    pen_down = true;
+  }
+  if (path.empty()) return;
+  if (stroke.halo)
+    body_ += fmt::format("\n<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.85\" "
+                         "stroke-width=\"{}\" d=\"{}\"/>",
+                         pixel(stroke.width + 2.5), path);
+  body_ += fmt::format(
+      "\n<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{} d=\"{}\"/>", stroke.colour,
+      pixel(stroke.width),
+      stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash), path);
+}
+
+std::string Plot::axes() const {
+  std::string grid, labels;
+  for (const double tick : x_.ticks) {
+    const double x = left + place_x(tick);
+    grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
+    labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, tick));
+  }
+  for (const double tick : y_.ticks) {
+    const double y = top + place_y(tick);
+    grid += fmt::format("M{} {}h{}", pixel(left - 4), pixel(y), pixel(width_ + 4));
+    labels += label_at(left - 8, y + 4, "end", tick_label(y_, tick));
+  }
+  const double middle = top + height_ / 2;
+  return fmt::format("<path class=\"grid\" d=\"{}\"/>\n{}\n"
+                     "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
+                     "<text class=\"label\" text-anchor=\"middle\" "
+                     "transform=\"translate(14 {}) rotate(-90)\">{}</text>\n",
+                     grid, labels, pixel(left + width_ / 2), pixel(top + height_ + 36),
+                     axis_label(x_.label), pixel(middle), axis_label(y_.label));
+}
+
+std::string Plot::text(std::string_view title, std::string_view description) const {
+  return begin_svg(left + width_ + right, top + height_ + bottom, "plot", title, description) +
+         "\n" + axes() +
+         fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n"
+                     "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></svg>",
+                     pixel(left), pixel(top), pixel(width_), pixel(height_), body_, pixel(left),
+                     pixel(top), pixel(width_), pixel(height_));
+}
+
+std::string bar(const Bar& b, const Axis& axis, double width, double height) {
+  const auto place = [&](double value) { return value / axis.high * width; };
+  std::string text = begin_svg(width, height, "bar", b.description, "");
+  const double middle = height / 2;
+  if (std::isfinite(b.value)) {
+    const bool cut = b.value > axis.high;
+    const double end = std::clamp(place(b.value), 0.0, width);
+    text += fmt::format("<rect x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>",
+                        pixel(middle - 5), pixel(end), pixel(10), b.colour);
+    if (cut)
+      text +=
+          fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\" "
+                      "d=\"M{} {}l4 4l-4 4l4 4M{} {}l4 4l-4 4l4 4\"/>",
+                      pixel(width - 16), pixel(middle - 6), pixel(width - 10), pixel(middle - 6));
+  }
+  if (std::isfinite(b.reference))
+    text += fmt::format("<path stroke=\"#b45309\" stroke-dasharray=\"2 2\" d=\"M{} 0v{}\"/>",
+                        pixel(place(b.reference)), pixel(height));
+  if (std::isfinite(b.low) && std::isfinite(b.high) && b.low < axis.high) {
+    // An end beyond the axis has no cap: the interval goes on.
+    const bool whole = b.high <= axis.high;
+    text += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" "
+                        "d=\"M{} {}v8M{} {}H{}{}\"/>",
+                        pixel(place(b.low)), pixel(middle - 4), pixel(place(b.low)), pixel(middle),
+                        pixel(std::min(place(b.high), width)), whole ? "m0 -4v8" : "");
+  }
+  return text + "</svg>";
+}
+
+std::string bar_scale(const Axis& axis, double width, double height) {
+  std::string text = begin_svg(width, height, "bar", "scale of the bars, " + axis.label, "");
+  std::string marks;
+  for (const double tick : axis.ticks) {
+    const double x = tick / axis.high * width;
+    marks += fmt::format("M{} {}v4", pixel(std::clamp(x, 0.5, width - 0.5)), pixel(height - 4));
+    const bool first = tick <= 0, last = tick >= axis.high;
+    text += label_at(x, height - 7,
+                     first  ? "start"
+                     : last ? "end"
+                            : "middle",
+                     tick_label(axis, tick));
+  }
+  return text + fmt::format("<path stroke=\"#444\" d=\"{}\"/></svg>", marks);
+}
+
+} // namespace frictab::svg

@@ -1,0 +1,102 @@
+// Small SVG plots for reports: nice axes, binned density, lines, bands, bars. Text in, text out;
+// the same input gives the same bytes. Looks (fonts, grid) come from the page's CSS classes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace frictab::svg {
+
+// Characters that XML gives a meaning become entities; what XML and UTF-8 do not allow becomes
+// U+FFFD. Safe in text and in quoted attributes.
+std::string escape(std::string_view text);
+
+// A coordinate in pixels: at most two decimals, no trailing zeros, never "-0".
+std::string pixel(double value);
+
+// A linear axis. Ticks are multiples of 1, 2 or 5 times a power of ten.
+struct Axis {
+  double low = 0;
+  double high = 1;
+  std::vector<double> ticks;
+  int decimals = 0;  // of the ticks' labels
+  std::string label; // "_R" is set as a subscript
+};
+
+// low and high are moved outwards to ticks, about `wanted` of them. Values that are not finite, or
+// equal, give an axis around what is there.
+Axis nice_axis(double low, double high, int wanted, std::string label);
+
+// Tick label with the axis' decimals and a proper minus sign.
+std::string tick_label(const Axis& axis, double tick);
+
+// Counts of points per cell of an even grid over two axes, row by row from the top.
+struct Density {
+  std::size_t nx = 0;
+  std::size_t ny = 0;
+  std::vector<std::uint32_t> counts;
+  std::size_t outside = 0; // beyond the axes, or not finite
+};
+
+// x and y have the same length.
+Density bin(std::span<const double> x, std::span<const double> y, const Axis& x_axis,
+            const Axis& y_axis, std::size_t nx, std::size_t ny);
+
+// Lower bounds of at most `classes` classes of counts, 1 first, growing by about the same factor up
+// to the largest count.
+std::vector<std::uint32_t> count_classes(std::uint32_t largest, std::size_t classes);
+
+// Sequential colours from light to dark, one per class.
+std::string class_colour(std::size_t index, std::size_t classes);
+
+struct Stroke {
+  std::string colour = "#222";
+  double width = 1.5;
+  std::string dash;  // "4 3"; empty: solid
+  bool halo = false; // white edge, to be seen on dark cells
+};
+
+// One plot of given size of its drawing area in pixels; margins come on top.
+class Plot {
+public:
+  Plot(double width, double height, Axis x, Axis y);
+
+  // Cells of `density`, coloured by class; all cells of one class are one path.
+  void density(const Density& density, std::span<const std::uint32_t> classes);
+  // Straight pieces from point to point, cut at the edge of the drawing area. Points that are not
+  // finite interrupt the line.
+  void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
+
+  // A figure with <title> and <desc> for those who cannot see it.
+  std::string text(std::string_view title, std::string_view description) const;
+
+private:
+  double place_x(double value) const;
+  double place_y(double value) const;
+  std::string axes() const;
+
+  double width_, height_;
+  Axis x_, y_;
+  std::string body_;
+};
+
+// One value with its interval as a horizontal bar on 0..axis.high. Longer bars are cut, with a mark
+// at the end.
+struct Bar {
+  double value = 0;
+  double low = 0; // of the interval; not finite: none
+  double high = 0;
+  double reference = 0; // thin line across; not finite: none
+  std::string colour;
+  std::string description; // for those who cannot see it
+};
+std::string bar(const Bar& bar, const Axis& axis, double width, double height);
+
+// The scale that belongs to a column of bars.
+std::string bar_scale(const Axis& axis, double width, double height);
+
+} // namespace frictab::svg

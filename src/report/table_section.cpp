@@ -1,0 +1,135 @@
+// Tables and how far they, and the sources generated from them, are from their laws.
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/quantity.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab {
+
+namespace {
+
+std::string text_of(const Table& table, const std::string& name) {
+  const auto found = table.text_attributes.find(name);
+  return found == table.text_attributes.end() ? "" : found->second;
+}
+
+std::string summary_of(const Table& table) {
+  std::string grid;
+  for (const TableAxis& axis : table.axes)
+    grid += (grid.empty() ? "" : " \u00D7 ") + std::to_string(axis.nodes.size());
+  const std::string what =
+      (table.log_value ? "the logarithm of " : "") + svg::escape(table.quantity);
+  std::string text = "One constant, " + what + ". ";
+  if (!table.axes.empty())
+    text = fmt::format("{}{}, {}; holds {}, interpolated {}. ",
+                       table.axes.size() > 1 ? grid + " = " : "", count_of(table.nodes(), "node"),
+                       human_bytes(static_cast<double>(table.bytes())), what,
+                       table.interpolation == "cubic"    ? "cubically"
+                       : table.interpolation == "linear" ? "linearly"
+                                                         : svg::escape(table.interpolation));
+  text += "Inputs: ";
+  const std::vector<std::string> inputs = table.inputs();
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    text += (i ? ", " : "") + ("<code>" + svg::escape(inputs[i]) + "</code>");
+  if (inputs.empty()) text += "none";
+  return text + ".";
+}
+
+TemplateValues axis_row(const Table& table, const TableAxis& axis) {
+  const std::string why = text_of(table, "range_from_" + axis.name);
+  const bool any = !axis.nodes.empty();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return {{{"name", svg::escape(axis.name)},
+           {"unit", shown_unit(axis.unit)},
+           {"low", short_figures(any ? axis.nodes.front() : none)},
+           {"high", short_figures(any ? axis.nodes.back() : none)},
+           {"nodes", thousands(axis.nodes.size())},
+           {"spacing", axis.log ? "logarithm" : "the quantity itself"},
+           {"why", why.empty() ? "\u2013" : svg::escape(why)}},
+          {},
+          {}};
+}
+
+std::string state_text(const DriftRecord& record) {
+  std::string text;
+  const auto add = [&](const std::string& name, double value) {
+    text += (text.empty() ? "" : " ") +
+            fmt::format("<span>{} = {}</span>", svg::escape(name), short_figures(value));
+  };
+  for (const Quantity& quantity : quantities())
+    if (const auto at = record.worst_state.find(quantity.name); at != record.worst_state.end())
+      add(at->first, at->second);
+  for (const auto& [name, value] : record.worst_state)
+    if (!find_quantity(name)) add(name, value);
+  return text.empty() ? "\u2013" : text;
+}
+
+// Differences that are nothing but rounding do not deserve digits.
+std::string drift_figures(double value) {
+  return value > 0 && value < 1e-9 ? "&lt; 1e-9" : figures(value);
+}
+
+std::string outside_text(const DriftRecord& r) {
+  if (r.n_rows == 0) return "\u2013";
+  const double percent = 100 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
+  if (r.n_outside == 0) return "none";
+  return fmt::format("{} ({} %), up to {} MPa off", thousands(r.n_outside), figures(percent, 2),
+                     figures(r.max_abs_outside_MPa));
+}
+
+TemplateValues record_row(const DriftRecord& r) {
+  const bool any_rows = r.n_rows > r.n_outside;
+  const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
+  TemplateValues row;
+  row.flags["ran"] = r.ran;
+  row.text = {{"model", svg::escape(r.model)},
+              {"subject", svg::escape(r.subject)},
+              {"worst", drift_figures(r.worst_case_MPa)},
+              {"state", state_text(r)},
+              {"vs_table", r.subject == "table" ? "\u2013" : drift_figures(r.max_vs_table_MPa)},
+              {"max", on_rows(r.rows.max_abs)},
+              {"mean", on_rows(r.rows.mean_abs)},
+              {"rms", on_rows(r.rows.rms)},
+              {"p99", on_rows(r.rows.p99)},
+              {"outside", outside_text(r)},
+              {"result", r.passed ? "passed" : "failed"},
+              {"result_class", r.passed ? "pass" : "fail"},
+              {"why_not", svg::escape(r.why_not)}};
+  return row;
+}
+
+} // namespace
+
+void add_tables(TemplateValues& page, const ReportInput& input) {
+  std::vector<TemplateValues>& tables = page.lists["tables"];
+  for (const Table& table : input.tables) {
+    TemplateValues item;
+    const std::string refinement = text_of(table, "refinement");
+    item.text = {{"model", svg::escape(table.model)},
+                 {"summary", summary_of(table)},
+                 {"refinement", svg::escape(refinement)}};
+    item.flags = {{"has_axes", !table.axes.empty()},
+                  {"has_refinement", !refinement.empty() && !table.axes.empty()}};
+    item.lists["axes"] = {};
+    for (const TableAxis& axis : table.axes)
+      item.lists["axes"].push_back(axis_row(table, axis));
+    tables.push_back(std::move(item));
+  }
+  page.flags["has_tables"] = !tables.empty();
+}
+
+void add_drift(TemplateValues& page, const ReportInput& input) {
+  std::vector<TemplateValues>& records = page.lists["records"];
+  for (const DriftRecord& record : input.verification.records)
+    records.push_back(record_row(record));
+  page.flags["has_records"] = !records.empty();
+  page.text["allowed"] = short_figures(input.verification.max_drift_MPa);
+}
+
+} // namespace frictab

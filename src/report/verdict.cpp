@@ -1,0 +1,123 @@
+// The page's first paragraph: what came out, in plain words.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "report/numbers.h"
+#include "report/published.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab {
+
+namespace {
+
+const ModelFit* best_of_literature(const Calibration& calibration) {
+  for (const ModelFit& fit : calibration.fits)
+    if (kind_of(*fit.model.law) == LawKind::literature) return &fit;
+  return nullptr;
+}
+
+std::string best_sentence(const Calibration& calibration) {
+  const ModelFit& best = calibration.fits.front();
+  const Metrics& v = best.validation;
+  return fmt::format("On {} that no law was calibrated on, <strong>{}</strong> predicts "
+                     "\u03C4<sub>R</sub> best: it is off by <strong>{} MPa</strong> on average "
+                     "(mean absolute error; 95 % interval {} to {} MPa).",
+                     count_of(v.n_experiments, "experiment"), svg::escape(best.model.law->name),
+                     figures(v.mae_MPa), figures(v.mae_interval.low), figures(v.mae_interval.high));
+}
+
+// Laws that the best one's interval does not tell apart from it.
+std::string runners_up(const Calibration& calibration) {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i < calibration.fits.size(); ++i)
+    if (calibration.fits[i].validation.mae_MPa <=
+        calibration.fits.front().validation.mae_interval.high)
+      names.push_back(svg::escape(calibration.fits[i].model.law->name));
+  if (names.empty()) return "";
+  const bool one = names.size() == 1;
+  return fmt::format(
+      " {} {} within that interval, too: these experiments do not rank {} for certain.",
+      join(names, ", "), one ? "lies" : "lie", one ? "the two" : "them");
+}
+
+std::string literature_sentence(const Calibration& calibration) {
+  const auto span = mae_span(calibration, LawKind::literature);
+  const ModelFit* best = best_of_literature(calibration);
+  if (!span || best == &calibration.fits.front()) return "";
+  const std::string low = figures(span->low), high = figures(span->high);
+  const double ratio = span->low / calibration.fits.front().validation.mae_MPa;
+  std::string text =
+      low == high ? fmt::format(" The fixed constant of the literature ({}) is off by {} MPa",
+                                svg::escape(best->model.law->name), low)
+                  : fmt::format(" The fixed constants of the literature are off by {} to {} MPa",
+                                low, high);
+  if (std::isfinite(ratio))
+    text += fmt::format(": even the best of them ({}) by {} times as much",
+                        svg::escape(best->model.law->name), figures(ratio, 2));
+  return text + ".";
+}
+
+// Records of one kind: how many, the largest drift, and where it failed.
+struct Group {
+  std::size_t ran = 0;
+  std::size_t failed = 0;
+  std::size_t not_run = 0;
+  double worst = 0;
+  void add(const DriftRecord& r) {
+    if (!r.ran) {
+      ++not_run;
+      return;
+    }
+    ++ran;
+    if (!r.passed) ++failed;
+    // NaN must show, not vanish in a comparison.
+    if (!(r.worst_case_MPa <= worst)) worst = r.worst_case_MPa;
+  }
+};
+
+std::string group_sentence(const Group& group, const std::string& noun) {
+  if (group.ran + group.not_run == 0) return "";
+  std::string text;
+  if (group.ran > 0)
+    text = fmt::format("{}: largest drift from the law {} MPa.", count_of(group.ran, noun),
+                       group.worst > 0 && group.worst < 1e-9 ? "below 1e-9" : figures(group.worst));
+  if (group.not_run > 0)
+    text += fmt::format("{}{} could not be run here and {} unproven.", text.empty() ? "" : " ",
+                        count_of(group.not_run, noun), group.not_run == 1 ? "is" : "are");
+  return text + " ";
+}
+
+} // namespace
+
+std::string verdict(const ReportInput& input) {
+  const Calibration& calibration = input.calibration;
+  if (calibration.fits.empty()) return "No law was calibrated.";
+  return best_sentence(calibration) + runners_up(calibration) + literature_sentence(calibration);
+}
+
+void add_drift_summary(TemplateValues& page, const ReportInput& input) {
+  Group tables, sources;
+  for (const DriftRecord& r : input.verification.records)
+    (r.subject == "table" ? tables : sources).add(r);
+  const std::size_t ran = tables.ran + sources.ran;
+  const std::size_t failed = tables.failed + sources.failed;
+  std::string& summary = page.text["drift_summary"];
+  if (input.verification.records.empty()) {
+    summary = "No table or source was compared with its law.";
+  } else {
+    summary = group_sentence(tables, "table") + group_sentence(sources, "generated source");
+    summary += fmt::format("Allowed: {} MPa anywhere in the range.",
+                           short_figures(input.verification.max_drift_MPa));
+    if (failed > 0) summary += fmt::format(" {} of {} comparisons exceed it.", failed, ran);
+  }
+  page.text["drift_badge"] = ran == 0 ? "Drift not checked"
+                             : failed ? "Drift failed"
+                                      : "Drift passed";
+  page.text["drift_class"] = ran == 0 ? "none" : failed ? "fail" : "pass";
+}
+
+} // namespace frictab

@@ -1,0 +1,149 @@
+// Plots: axes, bins, colours, running quantiles, numbers.
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <pugixml.hpp>
+
+#include "report/law_plots.h"
+#include "report/numbers.h"
+#include "report/svg.h"
+
+namespace frictab {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Svg, AxisHoldsTheDataBetweenRoundTicks) {
+  const svg::Axis axis = svg::nice_axis(-35, 112, 9, "x");
+  EXPECT_THAT(axis.ticks, ElementsAre(-40, -20, 0, 20, 40, 60, 80, 100, 120));
+  EXPECT_EQ(axis.low, -40);
+  EXPECT_EQ(axis.high, 120);
+  EXPECT_EQ(svg::tick_label(axis, -40), "\u221240");
+  EXPECT_EQ(svg::tick_label(axis, -0.0), "0");
+}
+
+TEST(Svg, AxisOfSmallNumbersLabelsThemApart) {
+  const svg::Axis axis = svg::nice_axis(0, 0.05, 5, "x");
+  EXPECT_EQ(svg::tick_label(axis, axis.ticks[1]), "0.01");
+}
+
+TEST(Svg, AxisOfOneValueOrNoneIsStillAnAxis) {
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  const std::pair<double, double> cases[] = {{0, 0}, {42, 42}, {nan, nan}, {-inf, inf}, {5, 1}};
+  for (const auto& [low, high] : cases) {
+    const svg::Axis axis = svg::nice_axis(low, high, 5, "x");
+    EXPECT_LT(axis.low, axis.high);
+    EXPECT_GE(axis.ticks.size(), 2u);
+    EXPECT_LE(axis.ticks.size(), 12u);
+  }
+}
+
+TEST(Svg, BinsCountEachRowOnceFromTheTop) {
+  svg::Axis axis;
+  axis.high = 2;
+  const std::vector<double> x{0, 0.5, 2, 1.5, 3, std::nan("")}, y{0, 0.5, 2, 0.5, 1, 1};
+  const svg::Density d = svg::bin(x, y, axis, axis, 2, 2);
+  EXPECT_THAT(d.counts, ElementsAre(0, 1, 2, 1));
+  EXPECT_EQ(d.outside, 2u);
+}
+
+TEST(Svg, ClassesOfCountsGrowByAboutTheSameFactor) {
+  EXPECT_THAT(svg::count_classes(1, 7), ElementsAre(1));
+  EXPECT_THAT(svg::count_classes(3, 7), ElementsAre(1, 2, 3));
+  EXPECT_THAT(svg::count_classes(1000, 3), ElementsAre(1, 10, 100));
+  EXPECT_THAT(svg::count_classes(0, 7), ElementsAre(1));
+}
+
+TEST(Svg, PlotIsWellFormedAndDescribesItself) {
+  svg::Plot plot(100, 50, svg::nice_axis(0, 10, 5, "x & y"), svg::nice_axis(0, 1, 2, "\u03C4_R"));
+  const std::vector<double> x{0, 1, std::nan(""), 5, 6}, y{0, 1e300, 0, 0.5, 0.5};
+  plot.line(x, y, {"#123456", 1, "4 2", true});
+  const std::string text = plot.text("a < b", "what \"it\" shows");
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(text.c_str())) << text;
+  EXPECT_STREQ(document.child("svg").attribute("role").value(), "img");
+  EXPECT_STREQ(document.child("svg").attribute("aria-label").value(), "a < b");
+  EXPECT_STREQ(document.child("svg").child_value("title"), "a < b");
+  EXPECT_STREQ(document.child("svg").child_value("desc"), "what \"it\" shows");
+  EXPECT_THAT(text, HasSubstr("M50 25L60 25")); // the line starts anew behind the gap
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  EXPECT_THAT(text, HasSubstr("x &amp; y"));
+}
+
+TEST(Svg, NeighbouringCellsOfAClassAreOneRectangle) {
+  svg::Density d{3, 1, {1, 1, 5}, 0};
+  svg::Plot plot(30, 10, svg::nice_axis(0, 3, 3, ""), svg::nice_axis(0, 1, 1, ""));
+  const std::vector<std::uint32_t> classes{1, 3};
+  plot.density(d, classes);
+  const std::string text = plot.text("t", "");
+  EXPECT_THAT(text, HasSubstr("d=\"M0 0h2v1h-2z\""));
+  EXPECT_THAT(text, HasSubstr("d=\"M2 0h1v1h-1z\""));
+}
+
+TEST(Svg, BarBeyondItsAxisIsCutAndSaysItsValue) {
+  const svg::Axis axis = svg::nice_axis(0, 40, 5, "MPa");
+  const std::string text = svg::bar({90, 85, 95, 9, "#888", "law: 90 MPa"}, axis, 200, 20);
+  EXPECT_THAT(text, HasSubstr("width=\"200\" height=\"10\""));
+  EXPECT_THAT(text, HasSubstr("aria-label=\"law: 90 MPa\""));
+  EXPECT_THAT(text, Not(HasSubstr("#111"))); // an interval that cannot be drawn is not drawn
+  const std::string edge = svg::bar({38, 36, 44, 9, "#888", "law"}, axis, 200, 20);
+  EXPECT_THAT(edge, HasSubstr("d=\"M180 6v8M180 10H200\"")); // goes on beyond: no end cap
+}
+
+TEST(Svg, EscapeKeepsGoodUtf8AndReplacesTheRest) {
+  EXPECT_EQ(svg::escape("\u03C4 \u2264 \U0001F600"), "\u03C4 \u2264 \U0001F600");
+  EXPECT_EQ(svg::escape("a\xC0\x80z"), "a\uFFFD\uFFFDz");       // overlong
+  EXPECT_EQ(svg::escape("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD"); // surrogate
+  EXPECT_EQ(svg::escape("\xE2\x82"), "\uFFFD\uFFFD");           // cut short
+  EXPECT_EQ(svg::escape(std::string_view("\0\x1f", 2)), "\uFFFD\uFFFD");
+}
+
+TEST(RunningBand, FollowsTheMedianAndTheOuterTenths) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 10000; ++i) {
+    x.push_back(i);
+    y.push_back(0.01 * i + (i * 7919 % 101) - 50); // evenly spread over -50..50
+  }
+  const RunningBand band = running_band(x, y);
+  ASSERT_GE(band.x.size(), 25u);
+  for (std::size_t g = 0; g < band.x.size(); ++g) {
+    EXPECT_NEAR(band.median[g], 0.01 * band.x[g], 3);
+    EXPECT_NEAR(band.low[g], 0.01 * band.x[g] - 40, 3);
+    EXPECT_NEAR(band.high[g], 0.01 * band.x[g] + 40, 3);
+  }
+}
+
+TEST(RunningBand, IsEmptyForFewRowsAndOnePointForOneAbscissa) {
+  const std::vector<double> few(59, 1.0), same(200, 1.0);
+  EXPECT_TRUE(running_band(few, few).x.empty());
+  for (const double x : running_band(same, same).x)
+    EXPECT_EQ(x, 1.0);
+}
+
+TEST(Numbers, HaveSignificantDigitsSeparatorsAndMinus) {
+  EXPECT_EQ(figures(12345.6), "12,346");
+  EXPECT_EQ(figures(-0.0123456), "\u22120.0123");
+  EXPECT_EQ(figures(9.999), "10.0");
+  EXPECT_EQ(figures(1.234e-13), "1.23e-13");
+  EXPECT_EQ(figures(0), "0");
+  EXPECT_EQ(figures(std::nan("")), "\u2013");
+  EXPECT_EQ(fixed(-0.001, 2), "0.00");
+  EXPECT_EQ(fixed(-1234567.5, 1), "\u22121,234,567.5");
+  EXPECT_EQ(short_figures(2750), "2,750");
+  EXPECT_EQ(short_figures(0.5), "0.5");
+}
+
+TEST(Numbers, ValueHasTheDigitsItsErrorAllows) {
+  EXPECT_EQ(with_error(0.127634, 0.00052).value, "0.12763");
+  EXPECT_EQ(with_error(0.127634, 0.00052).std_error, "0.00052");
+  EXPECT_EQ(with_error(1234.5, 12).value, "1,234");
+  EXPECT_EQ(with_error(0.5, std::nan("")).value, "0.5000");
+  EXPECT_EQ(with_error(0.5, std::nan("")).std_error, "");
+}
+
+} // namespace
+} // namespace frictab

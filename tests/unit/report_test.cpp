@@ -1,0 +1,253 @@
+// report.html: one page, well-formed, self-contained, safe, the same bytes each time.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <pugixml.hpp>
+
+#include "report_sample.h"
+
+namespace frictab {
+namespace {
+
+using test::report_sample;
+using test::ReportSample;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// XML is stricter than HTML: what parses as XML has its tags balanced and its text escaped.
+std::string xml_fault(const std::string& page) {
+  pugi::xml_document document;
+  const auto result = document.load_string(page.c_str(), pugi::parse_default | pugi::parse_doctype);
+  return result ? ""
+                : result.description() +
+                      (" near " + page.substr(std::max<long>(result.offset - 60, 0), 120));
+}
+
+// Every href of the page.
+std::vector<std::string> links_of(const std::string& page) {
+  const std::string mark = "href=\"";
+  std::vector<std::string> links;
+  for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at)) {
+    at += mark.size();
+    links.push_back(page.substr(at, page.find('"', at) - at));
+  }
+  return links;
+}
+
+TEST(Report, IsWellFormedWithEverySection) {
+  const std::string page = report_html(report_sample(14, 6, 100).input());
+  EXPECT_EQ(xml_fault(page), "");
+  for (const char* id :
+       {"verdict", "ranking", "published", "plots", "data", "tables", "drift", "files"})
+    EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\""));
+}
+
+TEST(Report, RefersToNothingOutsideItself) {
+  const std::string page = report_html(report_sample(3, 3, 50).input());
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_THAT(page, Not(HasSubstr("http:")));
+  EXPECT_THAT(page, Not(HasSubstr("https:")));
+  EXPECT_THAT(page, Not(HasSubstr("url(")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  std::size_t links = 0;
+  for (const std::string& target : links_of(page)) {
+    ASSERT_EQ(target.front(), '#');
+    EXPECT_THAT(page, HasSubstr("id=\"" + target.substr(1) + "\"")) << "dead link " << target;
+    ++links;
+  }
+  EXPECT_GT(links, 6u);
+}
+
+TEST(Report, IsTheSameBytesAgainWhateverTheWallTime) {
+  ReportSample sample = report_sample(5, 4, 100);
+  const std::string first = report_html(sample.input());
+  for (ModelFit& fit : sample.calibration.fits)
+    fit.seconds = 123.456;
+  EXPECT_EQ(report_html(sample.input()), first);
+}
+
+TEST(Report, OfFullCampaignStaysSmall) {
+  const std::string page = report_html(report_sample(15, 30, 550).input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_LT(page.size(), 2u << 20);
+}
+
+TEST(Report, EscapesWhateverComesFromTheUser) {
+  ReportSample sample = report_sample(2, 3, 40);
+  const std::string bad = "<b>&\"'</b>\x01\xff";
+  sample.training.sources = {bad};
+  sample.training.notes = {bad};
+  sample.training.dropped = {{bad, 3}};
+  sample.training.columns.push_back({bad, "", std::vector<double>(120, 1.0), {}});
+  sample.calibration.left_out = {bad};
+  sample.calibration.fits[0].remarks = {bad};
+  sample.tables[0].model = bad;
+  sample.tables[0].axes[0].name = bad;
+  sample.tables[0].text_attributes["refinement"] = bad;
+  sample.verification.records[0].worst_state = {{bad, 1}};
+  sample.verification.records.push_back(sample.verification.records[0]);
+  sample.verification.records.back().ran = false;
+  sample.verification.records.back().why_not = bad;
+  sample.files = {bad};
+  ReportInput input{
+      bad,           sample.calibration,  sample.training, sample.validation, sample.predicted,
+      sample.tables, sample.verification, sample.files};
+  const std::string page = report_html(input);
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;&amp;&quot;&#39;&lt;/b&gt;\xEF\xBF\xBD\xEF\xBF\xBD"));
+}
+
+TEST(Report, WarnsOfSyntheticDataOnlyWhereTheyAre) {
+  ReportSample sample = report_sample(1, 2, 30);
+  EXPECT_THAT(report_html(sample.input()), Not(HasSubstr("Synthetic data")));
+  EXPECT_THAT(benchmark_md(sample.calibration), Not(HasSubstr("Synthetic data")));
+  sample.calibration.synthetic = true;
+  EXPECT_THAT(report_html(sample.input()), HasSubstr("<strong>Synthetic data.</strong>"));
+  EXPECT_THAT(benchmark_md(sample.calibration), HasSubstr("**Synthetic data"));
+}
+
+TEST(Report, NamesNoAbsolutePath) {
+  ReportSample sample = report_sample(1, 2, 30);
+  sample.training.sources = {"/home/someone/rig/campaign.csv"};
+  const std::string page = report_html(sample.input());
+  EXPECT_THAT(page, Not(HasSubstr("/home/someone")));
+  EXPECT_THAT(page, HasSubstr("campaign.csv"));
+}
+
+TEST(Report, SaysWhetherTheDriftPassed) {
+  ReportSample sample = report_sample(1, 2, 30);
+  EXPECT_THAT(report_html(sample.input()), HasSubstr("<span class=\"badge pass\">Drift passed"));
+  sample.verification.records[0].passed = false;
+  const std::string failed = report_html(sample.input());
+  EXPECT_THAT(failed, HasSubstr("<span class=\"badge fail\">Drift failed"));
+  EXPECT_THAT(failed, HasSubstr("1 of 1 comparisons exceed it."));
+  sample.verification.records[0].ran = false;
+  sample.verification.records[0].why_not = "no gfortran on PATH";
+  const std::string not_run = report_html(sample.input());
+  EXPECT_THAT(not_run, HasSubstr("<span class=\"badge none\">Drift not checked"));
+  EXPECT_THAT(not_run, HasSubstr("no gfortran on PATH"));
+}
+
+TEST(Report, ShowsNotANumberDriftAsFailedAndNotAsZero) {
+  ReportSample sample = report_sample(1, 2, 30);
+  sample.verification.records[0].worst_case_MPa = std::nan("");
+  sample.verification.records[0].passed = false;
+  EXPECT_THAT(report_html(sample.input()),
+              HasSubstr("1 table: largest drift from the law \u2013 MPa."));
+}
+
+TEST(Report, CountsRowsThatThePlotsDoNotShow) {
+  ReportSample sample = report_sample(1, 3, 100);
+  sample.predicted[0][7] = std::nan("");
+  const std::string page = report_html(sample.input());
+  EXPECT_THAT(page, HasSubstr("1 row (0.33 %) lie beyond the axes of the left plot."));
+}
+
+TEST(Report, LinksToNoPlotThatIsNotThere) {
+  ReportSample sample = report_sample(2, 2, 30);
+  sample.predicted.clear();
+  const std::string page = report_html(sample.input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("There are no predictions to show."));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"#law-")));
+}
+
+// Cases that a page must survive; each must still be well-formed.
+TEST(Report, SurvivesEmptyInput) {
+  const ReportSample nothing;
+  const std::string page = report_html(nothing.input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("No law was calibrated."));
+  EXPECT_THAT(page, HasSubstr("No table was made."));
+  EXPECT_THAT(page, HasSubstr("Nothing was verified."));
+}
+
+TEST(Report, SurvivesOneLawAndOneRow) {
+  const std::string page = report_html(report_sample(1, 1, 1).input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("On 1 experiment that"));
+}
+
+TEST(Report, SurvivesConstantMeasurementsAndPredictions) {
+  ReportSample sample = report_sample(2, 2, 100);
+  for (double& tau : sample.validation.columns[1].values)
+    tau = 42;
+  for (auto& predicted : sample.predicted)
+    for (double& tau : predicted)
+      tau = 42;
+  for (ModelFit& fit : sample.calibration.fits)
+    fit.validation.mae_MPa = fit.validation.rmse_MPa = fit.validation.bias_MPa = 0;
+  const std::string page = report_html(sample.input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr("inf\"")));
+}
+
+TEST(Report, SurvivesMetricsThatAreNotFinite) {
+  ReportSample sample = report_sample(3, 2, 50);
+  for (ModelFit& fit : sample.calibration.fits) {
+    const double none = std::nan("");
+    fit.validation = {none, none, none, {none, none}, {none, none}, {none, none}, 100, 2};
+    fit.std_error.clear();
+  }
+  const std::string page = report_html(sample.input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+}
+
+TEST(Benchmark, IsThisTextForTwoLaws) {
+  Calibration c;
+  ModelFit orowan;
+  orowan.model.law = find_law("orowan");
+  orowan.model.parameters = {0.0792, 0.49981};
+  orowan.std_error = {0.00201, std::nan("")};
+  orowan.remarks = {"a|b"};
+  orowan.training = {12.5, 16, 0, {12, 13}, {}, {}, 44550, 81};
+  orowan.validation = {11.558, 13.56, -2.74, {9.69, 13.54}, {}, {}, 16500, 30};
+  ModelFit fixed;
+  fixed.model.law = find_law("coulomb_0.08");
+  fixed.model.parameters = {0.08};
+  fixed.training = {28.5, 31, -20, {25, 31}, {}, {}, 44550, 81};
+  fixed.validation = {26.3, 30.2, -24.8, {21.6, 31.6}, {}, {}, 16500, 30};
+  c.fits = {orowan, fixed};
+  c.left_out = {"wzl: needs v_rel_mm_s"};
+  EXPECT_EQ(
+      benchmark_md(c),
+      "# Friction laws on experiments they were not calibrated on\n"
+      "\n"
+      "Errors of tau_R in MPa, residual = measured \u2212 predicted. Calibrated on 44,550 rows of "
+      "81 experiments, validated on 16,500 rows of 30 experiments. Intervals: 95 %, by resampling "
+      "whole experiments.\n"
+      "\n"
+      "| | law | MAE | 95 % interval | RMSE | bias | training MAE | parameters \u00B1 standard "
+      "error | remarks |\n"
+      "|--:|---|--:|---|--:|--:|--:|---|---|\n"
+      "| 1 | orowan | 11.56 | 9.69 to 13.54 | 13.56 | \u22122.74 | 12.50 | mu = 0.0792 \u00B1 "
+      "0.0020, m = 0.4998 | a\\|b |\n"
+      "| 2 | coulomb_0.08 | 26.30 | 21.60 to 31.60 | 30.20 | \u221224.80 | 28.50 | mu = 0.08 |  "
+      "|\n"
+      "\n"
+      "Left out:\n"
+      "\n"
+      "- wzl: needs v_rel_mm_s\n"
+      "\n"
+      "## Published figures beside these\n"
+      "\n"
+      "The published figures refer to the paper's own measured data, not to yours; they show the "
+      "order of magnitude. (*Benchmark of friction models on shear-stress level for cold "
+      "forging*)\n"
+      "\n"
+      "| | published MAE / MPa | here MAE / MPa |\n"
+      "|---|---|---|\n"
+      "| standard constants | 24 to 95 | 26.3 |\n"
+      "| of these, a Coulomb constant | 51.38 | 26.3 (coulomb_0.08) |\n"
+      "| calibrated constants | 12 to 15 | \u2013 |\n"
+      "| neural network | 9.35 | \u2013 |\n");
+}
+
+} // namespace
+} // namespace frictab
