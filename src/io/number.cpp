@@ -1,6 +1,7 @@
 // Decimal text to the nearest double: short numbers directly, all others by std::from_chars.
 #include "io/number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -43,16 +44,25 @@ const char* scan_exponent(const char* p, const char* end, int& exponent) {
   return q;
 }
 
+bool from_text(const char* begin, const char* end, double& value) {
+  const auto [stop, code] = std::from_chars(begin, end, value);
+  // Too large or too small: strtod tells which (infinity or the nearest small number).
+  if (code == std::errc::result_out_of_range)
+    value = std::strtod(std::string(begin, end).c_str(), nullptr);
+  return code != std::errc::invalid_argument && std::isfinite(value);
+}
+
 // The general case. from_chars wants a point, an e, and no plus sign.
 bool convert_slowly(const char* begin, const char* end, char decimal, double& value) {
-  std::string text(begin + (*begin == '+'), end);
-  for (char& c : text) {
-    if (c == decimal) c = '.';
-    if (c == 'd' || c == 'D') c = 'e';
-  }
-  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
-  return code != std::errc::invalid_argument && std::isfinite(value);
+  begin += *begin == '+';
+  const auto is_foreign = [&](char c) {
+    return c == 'd' || c == 'D' || (c == decimal && c != '.');
+  };
+  if (std::none_of(begin, end, is_foreign)) return from_text(begin, end, value);
+  std::string text(begin, end);
+  for (char& c : text)
+    c = c == decimal ? '.' : c == 'd' || c == 'D' ? 'e' : c;
+  return from_text(text.data(), text.data() + text.size(), value);
 }
 
 } // namespace
