@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "driver.h"
 #include "inputs.h"
+#include "io/json.h"
 #include "source.h"
 
 namespace frictab::abaqus_vfric {
@@ -88,7 +89,7 @@ std::string recipe(const ExportRequest& request, const std::vector<VfricInput>& 
   out["compile_note"] = "the last line only checks the source, beside a vaba_param.inc of your own";
   out["input_deck"] = input_deck(inputs);
   out["table"] = recipe_table(request);
-  return recipe_text(out);
+  return json_text(out);
 }
 
 SourceBundle generate(const ExportRequest& request) {

@@ -9,6 +9,7 @@
 #include "codegen/template.h"
 #include "core/text.h"
 #include "driver.h"
+#include "io/json.h"
 
 namespace frictab::c_target {
 
@@ -237,7 +238,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                     "frictab_tau_R.c -lm"};
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
-  return recipe_text(out);
+  return json_text(out);
 }
 
 SourceBundle generate(const ExportRequest& request) {

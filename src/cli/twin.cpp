@@ -6,9 +6,9 @@
 
 #include "cli/command.h"
 #include "core/error.h"
-#include "data/twin_summary.h"
 #include "data/write_dataset.h"
 #include "io/atomic_file.h"
+#include "twin/twin_summary.h"
 
 namespace frictab {
 namespace {

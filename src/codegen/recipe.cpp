@@ -2,8 +2,12 @@
 #include "codegen/recipe.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/json.h"
 
 namespace frictab {
 
@@ -70,9 +74,21 @@ json recipe_table(const ExportRequest& request) {
   return out;
 }
 
-std::string recipe_text(const json& recipe) {
-  // Texts of a foreign table may be no UTF-8.
-  return recipe.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file) {
+  const json recipe = parse_json(text, file);
+  std::vector<std::string> files;
+  if (recipe.is_object() && recipe.contains("files") && recipe.at("files").is_array())
+    for (const json& name : recipe.at("files"))
+      if (name.is_string()) files.push_back(name.get<std::string>());
+  for (const std::string& name : files) {
+    const std::filesystem::path path = name;
+    if (path.is_absolute() || name.find("..") != std::string::npos)
+      throw InputError({file, 0, 0}, "the file name '" + name + "' leads out of the directory");
+  }
+  if (files.empty())
+    throw InputError({file, 0, 0}, "this is no recipe of generated sources: it lists no files",
+                     "export again");
+  return files;
 }
 
 } // namespace frictab

@@ -17,7 +17,8 @@ nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest
 // The table's axes with ranges, how the value becomes tau_R, and the drift it is known for.
 nlohmann::ordered_json recipe_table(const ExportRequest& request);
 
-// Two blanks of indentation, a line feed at the end.
-std::string recipe_text(const nlohmann::ordered_json& recipe);
+// The files that a recipe lists, relative to its directory. Throws InputError where the text is no
+// recipe, or a name leads out of the directory.
+std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file);
 
 } // namespace frictab

@@ -1,5 +1,7 @@
 // Reads formulas in Python spelling: + - * / ** ( ) numbers, names and the functions of expr.h.
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -21,6 +23,7 @@ public:
   Expr parse() {
     Expr e = sum();
     if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_[at_]));
+    if (!is_finite(e)) fail("a constant term is not a finite number");
     return e;
   }
 
@@ -28,6 +31,12 @@ private:
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     throw InputError({std::string(file_), 1, at_ + 1},
                      what + " in the formula '" + std::string(text_) + "'", hint);
+  }
+
+  // Division by a constant 0 and the like are folded at once.
+  static bool is_finite(const Expr& e) {
+    return (e.op() != Op::constant || std::isfinite(e.value())) &&
+           std::all_of(e.operands().begin(), e.operands().end(), is_finite);
   }
 
   void skip() {

@@ -2,6 +2,9 @@
 #include "io/atomic_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
@@ -14,10 +17,29 @@ namespace frictab {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+const std::string staging_prefix = ".frictab-";
+
+// Staging directories of runs that were killed.
+void remove_abandoned(const fs::path& directory) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(staging_prefix, 0) != 0) continue;
+    const long pid = std::atol(name.c_str() + staging_prefix.size());
+    if (pid > 0 && ::kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH)
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
+} // namespace
+
 OutputFiles::OutputFiles(fs::path directory)
     : directory_(std::move(directory)),
-      staging_(directory_ / fmt::format(".frictab-{}", static_cast<long>(::getpid()))) {
+      staging_(directory_ / fmt::format("{}{}", staging_prefix, ::getpid())) {
   created_ = !fs::exists(directory_);
+  remove_abandoned(directory_);
   std::error_code error;
   fs::create_directories(staging_, error);
   if (error)
@@ -46,22 +68,24 @@ fs::path OutputFiles::stage(const std::string& path) {
   return file;
 }
 
-void OutputFiles::replace_directory(const std::string& subdirectory) {
-  replaced_.push_back(subdirectory);
+void OutputFiles::remove_old(const std::string& path) {
+  old_.push_back(path);
 }
 
 void OutputFiles::commit() {
-  for (const std::string& subdirectory : replaced_) {
-    if (fs::exists(directory_ / subdirectory))
-      fs::rename(directory_ / subdirectory, staging_ / ("old-" + subdirectory));
-    if (fs::exists(staging_ / subdirectory))
-      fs::rename(staging_ / subdirectory, directory_ / subdirectory);
-  }
   for (const std::string& path : paths_) {
     const fs::path target = directory_ / path;
-    if (!fs::exists(staging_ / path)) continue; // moved with its directory
     fs::create_directories(target.parent_path());
     fs::rename(staging_ / path, target);
+  }
+  for (const std::string& path : old_) {
+    if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) continue;
+    std::error_code ignored; // a directory that is not empty stays
+    fs::path at = path;
+    for (fs::remove(directory_ / at, ignored); at.has_parent_path();) {
+      at = at.parent_path();
+      fs::remove(directory_ / at, ignored);
+    }
   }
   fs::remove_all(staging_);
   created_ = false;

@@ -20,8 +20,9 @@ public:
   void write(const std::string& path, std::string_view content);
   // A place to write one file by other means (HDF5); committed like the others.
   std::filesystem::path stage(const std::string& path);
-  // The whole subdirectory is replaced at commit(): files of an earlier run do not linger in it.
-  void replace_directory(const std::string& subdirectory);
+  // A file of an earlier run that commit() removes unless it was written anew; directories that
+  // become empty go with it.
+  void remove_old(const std::string& path);
   // Replaces what is there file by file, each by a rename; throws std::runtime_error where the disk
   // refuses.
   void commit();
@@ -34,7 +35,7 @@ private:
   std::filesystem::path directory_;
   std::filesystem::path staging_;
   std::vector<std::string> paths_;
-  std::vector<std::string> replaced_;
+  std::vector<std::string> old_;
   bool created_ = false; // the directory is ours to remove again
 };
 

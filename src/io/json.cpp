@@ -8,7 +8,8 @@
 namespace frictab {
 
 std::string json_text(const nlohmann::ordered_json& value) {
-  return value.dump(2) + "\n";
+  // Names from a user's file may be no UTF-8: shown with replacement characters, not refused.
+  return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file) {
@@ -24,6 +25,8 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
       }
     }
     throw InputError(place, "this is not valid JSON", "the file may be cut short");
+  } catch (const nlohmann::ordered_json::exception& error) { // a number beyond double
+    throw InputError({file, 0, 0}, std::string("this is not valid JSON: ") + error.what());
   }
 }
 

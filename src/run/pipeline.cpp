@@ -7,6 +7,7 @@
 
 #include "calibrate/calibration_file.h"
 #include "codegen/exporter.h"
+#include "codegen/recipe.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -94,7 +95,8 @@ std::string Pipeline::export_directory(const std::string& target, const Table& t
 void Pipeline::calibrate() {
   need_data();
   calibration_ = frictab::calibrate({*training_, *validation_, job_.models, job_.calibration});
-  output_.replace_directory("models");
+  for (const Law& law : all_laws())
+    output_.remove_old("models/" + law.name + ".json");
   output_.write("calibration.json", calibration_json(*calibration_));
   output_.write("benchmark.md", benchmark_md(*calibration_));
   for (const ModelFit& fit : calibration_->fits)
@@ -104,7 +106,8 @@ void Pipeline::calibrate() {
 void Pipeline::tabulate() {
   need_data();
   need_calibration();
-  output_.replace_directory("tables");
+  for (const Law& law : all_laws())
+    output_.remove_old("tables/" + law.name + ".h5");
   tables_.clear();
   const auto fits = chosen_fits();
   Progress progress("tabulating", fits.size());
@@ -147,9 +150,25 @@ std::vector<const Exporter*> chosen_exporters(const ExportOptions& options) {
 
 } // namespace
 
+// The files of an earlier run: those that its recipes list, and nothing else.
+void Pipeline::remove_old_sources() {
+  std::vector<std::string> directories;
+  for (const Exporter& exporter : all_exporters()) {
+    directories.push_back("export/" + exporter.name);
+    for (const Law& law : all_laws())
+      directories.push_back("export/" + exporter.name + "/" + law.name);
+  }
+  for (const std::string& directory : directories) {
+    const fs::path recipe = fs::path(job_.directory) / directory / "recipe.json";
+    if (!fs::exists(recipe)) continue;
+    for (const std::string& file : files_of_recipe(read_file(recipe), recipe.string()))
+      output_.remove_old(directory + "/" + file);
+  }
+}
+
 void Pipeline::generate() {
   need_tables();
-  output_.replace_directory("export");
+  remove_old_sources();
   for (const Table& table : tables_)
     for (const Exporter* exporter : chosen_exporters(job_.exports)) {
       const std::string directory = export_directory(exporter->name, table);
@@ -162,10 +181,10 @@ void Pipeline::generate() {
 namespace {
 
 SourceBundle read_bundle(const fs::path& directory) {
+  const std::string recipe = (directory / "recipe.json").string();
   SourceBundle bundle;
-  for (const auto& entry : fs::recursive_directory_iterator(directory))
-    if (entry.is_regular_file())
-      bundle[fs::relative(entry.path(), directory).string()] = read_file(entry.path());
+  for (const std::string& file : files_of_recipe(read_file(recipe), recipe))
+    bundle[file] = read_file(directory / file);
   return bundle;
 }
 

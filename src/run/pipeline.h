@@ -42,6 +42,7 @@ private:
   void need_data();
   void need_calibration();
   void need_tables();
+  void remove_old_sources();
   const Model& model(const std::string& name);
   std::vector<const ModelFit*> chosen_fits();
   // "export/c" where there is one table, "export/c/<model>" where there are several.

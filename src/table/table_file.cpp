@@ -2,6 +2,7 @@
 #include "table/table_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ public:
     table_.text_attributes.erase("schema");
     if (const auto found = table_.text_attributes.find("model");
         found != table_.text_attributes.end())
-      table_.model = found->second;
+      table_.model = checked_name(found->second);
     return std::move(table_);
   }
 
@@ -96,6 +97,18 @@ private:
       fault(fmt::format("attribute '{}' of '{}' is '{}'", name, object, *found),
             "it is one of " + join(known, ", "));
     return *found;
+  }
+
+  // The name becomes part of file names.
+  std::string checked_name(const std::string& name) {
+    const bool plain = !name.empty() && name.size() <= 100 && name.front() != '.' &&
+                       std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                         return std::isalnum(c) || c == '_' || c == '.' || c == '-';
+                       });
+    if (!plain)
+      throw InputError({named_, 0, 0}, "the attribute model is '" + name + "'",
+                       "a name of letters, digits, '_', '.' and '-'");
+    return name;
   }
 
   void read_value() {

@@ -2,9 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "calibrate/calibration.h"
-#include "data/twin.h"
 #include "support/sample_data.h"
 #include "table/drift.h"
+#include "twin/twin.h"
 
 namespace frictab {
 namespace {

@@ -157,6 +157,23 @@ TEST_F(MainJob, ResultsOfAnEarlierRunDoNotLinger) {
   EXPECT_TRUE(fs::exists(directory.path("out/export/c/recipe.json")));
 }
 
+TEST_F(MainJob, FilesOfTheUserInTheOutputDirectoryStay) {
+  directory.write("out/models/mine.json", "{}");
+  directory.write("out/export/c/driver.c", "int x;");
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  ASSERT_EQ(run_frictab({"run", job, "--set", "export.targets=abaqus_vfric"}).exit_code, 0);
+  EXPECT_EQ(directory.read("out/models/mine.json"), "{}");
+  EXPECT_EQ(directory.read("out/export/c/driver.c"), "int x;");
+  EXPECT_FALSE(fs::exists(directory.path("out/export/c/levanov/recipe.json")))
+      << "of the first run";
+}
+
+TEST_F(MainJob, LeftoversOfAKilledRunAreCleanedUp) {
+  directory.write("out/.frictab-99999999/models/x.json", "{}");
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(directory.path("out/.frictab-99999999")));
+}
+
 TEST_F(MainJob, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
   const auto result = run_frictab({"export", job});
   EXPECT_EQ(result.exit_code, 2);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "data/twin.h"
+#include "twin/twin.h"
 
 namespace frictab {
 namespace {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "data/twin.h"
-#include "data/twin_draft.h"
-#include "data/twin_summary.h"
+#include "twin/twin.h"
+#include "twin/twin_draft.h"
+#include "twin/twin_summary.h"
 
 namespace frictab {
 namespace {

@@ -1,5 +1,5 @@
 // Makes a synthetic campaign: plan, states, effects, noise.
-#include "data/twin.h"
+#include "twin/twin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "data/twin_draft.h"
-#include "data/twin_effect.h"
+#include "twin/twin_draft.h"
+#include "twin/twin_effect.h"
 
 namespace frictab {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "data/twin_draft.h"
+#include "twin/twin_draft.h"
 
 namespace frictab {
 

@@ -1,5 +1,5 @@
 // States, bystanders and noise of the synthetic campaign.
-#include "data/twin_draft.h"
+#include "twin/twin_draft.h"
 
 #include <algorithm>
 #include <cmath>

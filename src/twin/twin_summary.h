@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "data/twin.h"
+#include "twin/twin.h"
 
 namespace frictab {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "data/twin.h"
+#include "twin/twin.h"
 
 namespace frictab {
 

@@ -1,5 +1,5 @@
 // Reads "key=value" lists.
-#include "data/twin_text.h"
+#include "twin/twin_text.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // Effects of the synthetic campaign: from spec to factors per row, amplitude by bisection.
-#include "data/twin_effect.h"
+#include "twin/twin_effect.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "data/twin_quantity.h"
 #include "expr/program.h"
+#include "twin/twin_quantity.h"
 
 namespace frictab {
 

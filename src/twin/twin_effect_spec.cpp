@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "data/twin.h"
-#include "data/twin_text.h"
+#include "twin/twin.h"
+#include "twin/twin_text.h"
 
 namespace frictab {
 

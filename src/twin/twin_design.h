@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "data/twin_physics.h"
+#include "twin/twin_physics.h"
 
 namespace frictab {
 

@@ -1,5 +1,5 @@
 // What an effect of the synthetic campaign may follow: columns, histories, hidden causes.
-#include "data/twin_quantity.h"
+#include "twin/twin_quantity.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Reads the design text and lays out the tests of a synthetic campaign in random order.
-#include "data/twin_design.h"
+#include "twin/twin_design.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "data/twin_text.h"
+#include "twin/twin_text.h"
 
 namespace frictab {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "data/dataset.h"
-#include "data/twin_design.h"
-#include "data/twin_physics.h"
 #include "effects/effect.h"
+#include "twin/twin_design.h"
+#include "twin/twin_physics.h"
 
 namespace frictab {
 

@@ -1,12 +1,12 @@
 // Errors of the truth, of constants of the literature and of calibrated constants on a campaign.
-#include "data/twin_summary.h"
+#include "twin/twin_summary.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "data/twin_draft.h"
+#include "twin/twin_draft.h"
 
 namespace frictab {
 

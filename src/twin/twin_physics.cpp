@@ -1,6 +1,6 @@
 // The physics of the synthetic tribometer: pressure build-up, surface expansion, heating, film wear
 // and breakdown, real-contact saturation, shear limit. The equations are ours.
-#include "data/twin_physics.h"
+#include "twin/twin_physics.h"
 
 #include <algorithm>
 #include <cmath>

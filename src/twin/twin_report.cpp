@@ -5,7 +5,8 @@
 #include "core/text.h"
 #include "data/derived.h"
 #include "data/quantity.h"
-#include "data/twin_summary.h"
+#include "io/json.h"
+#include "twin/twin_summary.h"
 
 namespace frictab {
 
@@ -126,7 +127,7 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
                    "strength: training MAE of base_law over that of the true law, both times one "
                    "factor fitted by least squares, minus 1; each effect alone",
                    "histories (friction_work, ...) follow the noise-free law without effects"};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 std::string twin_job(const Twin& twin, const std::string& extension) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "data/twin_draft.h"
+#include "twin/twin_draft.h"
 
 namespace frictab {
 

@@ -1,0 +1,87 @@
+// Damaged model, calibration, verification and recipe files, and damaged formulas: a fault, never a
+// crash. Seeded, so that a failure comes back.
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "calibrate/calibration_file.h"
+#include "codegen/recipe.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "support/sample_data.h"
+#include "verify/verify.h"
+
+namespace frictab {
+namespace {
+
+std::string damaged(std::string text, Random& random) {
+  static const std::string pieces[] = {"{",  "}",      "[",       "]",    "\"",      ",",
+                                       ":",  "null",   "-1e999",  "1e3",  "(",       ")",
+                                       "**", "where(", "minimum", "\xff", "\\u0000", "0"};
+  for (std::size_t i = 0; i < 1 + random.below(6) && !text.empty(); ++i) {
+    const std::size_t at = random.below(text.size());
+    switch (random.below(4)) {
+    case 0:
+      text.erase(at, 1 + random.below(20));
+      break;
+    case 1:
+      text.insert(at, pieces[random.below(std::size(pieces))]);
+      break;
+    case 2:
+      text[at] = static_cast<char>(random.below(256));
+      break;
+    default:
+      text.resize(at);
+    }
+  }
+  return text;
+}
+
+void fuzz(const std::string& valid, std::size_t cases,
+          const std::function<void(const std::string&)>& read) {
+  EXPECT_NO_THROW(read(valid));
+  Random random(11);
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < cases; ++i) {
+    try {
+      read(damaged(valid, random));
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, cases / 10) << "the damage is too mild to test anything";
+}
+
+TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {
+  const Dataset data = test::sample_data(test::plausible_model(*find_law("orowan")));
+  CalibrationInput input{data, data, {}, {}};
+  input.models.use = {"orowan", "coulomb_0.08"};
+  const Calibration calibration = calibrate(input);
+  fuzz(calibration_json(calibration), 4000,
+       [](const std::string& text) { parse_calibration(text, "calibration.json"); });
+  fuzz(model_json(calibration.fits.front(), calibration), 4000,
+       [](const std::string& text) { parse_model(text, "model.json"); });
+  Verification verification{0.5, {}};
+  verification.records.push_back(
+      {"orowan", "table", true, "", {}, 5, 1, 0.1, 0.2, {{"psi", 2.0}}, 10, 0, true});
+  fuzz(verification_json(verification), 4000,
+       [](const std::string& text) { parse_verification(text, "verify.json"); });
+  fuzz(R"({"schema": "frictab/recipe/1", "files": ["a.c", "b.h", "recipe.json"]})", 4000,
+       [](const std::string& text) { files_of_recipe(text, "recipe.json"); });
+}
+
+TEST(FormatsFuzz, DamagedFormulasAreFaults) {
+  const Law& law = *find_law("wanheim_bay");
+  fuzz(to_text(tau_formula(law, {})), 20000,
+       [](const std::string& text) { to_text(parse_expr(text)); });
+}
+
+TEST(Recipe, FileNamesMayNotLeadOutOfTheDirectory) {
+  for (const char* name : {"../x.c", "/etc/x", "a/../../b"})
+    EXPECT_THROW(files_of_recipe(std::string("{\"files\": [\"") + name + "\"]}", "recipe.json"),
+                 InputError)
+        << name;
+}
+
+} // namespace
+} // namespace frictab
