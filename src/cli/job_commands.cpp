@@ -28,6 +28,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
     Pipeline pipeline = open_job(*file, common);
     stages(pipeline);
     pipeline.commit();
+    if (common.verbose && pipeline.training())
+      for (const std::string& line : pipeline.training()->notes)
+        note(common, line);
     fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
     return pipeline.verification() && !pipeline.verification()->passed() ? 1 : 0;
   };

@@ -231,8 +231,9 @@ void check_values(Part& part) {
         part.faults.add(part.place(i), "F_N_N is 0: there is no friction coefficient",
                         "leave rows without load out: data.drop = { F_N_N = { below = 1 } }");
       if (!(column.values[i] < quantity->lowest)) continue;
-      std::string hint = fmt::format("a {} cannot be below {} {}", quantity->meaning,
-                                     quantity->lowest, quantity->unit);
+      std::string hint =
+          fmt::format("a {} cannot be below {}{}", quantity->meaning, quantity->lowest,
+                      quantity->unit == "1" ? "" : " " + quantity->unit);
       if (quantity->lowest == 0)
         hint += fmt::format("; leave such rows out with data.drop = {{ {} = {{ below = 0 }} }}",
                             column.name);
@@ -261,11 +262,12 @@ void check_experiments(Part& part) {
   }
 }
 
-void check_needed(Part& part) {
+// A column that is mapped and absent has had its fault already.
+void check_needed(Part& part, const DataOptions& options) {
   std::vector<std::string> present;
   for (const CsvColumn& column : part.raw.columns)
     if (!column.name.empty()) present.push_back(column.name);
-  if (!part.find("sigma_n_MPa"))
+  if (!part.find("sigma_n_MPa") && !options.columns.count("sigma_n_MPa"))
     part.faults.add({part.raw.file, part.raw.header_line, 0}, "there is no column sigma_n_MPa",
                     "map it in [data.columns], or give it in [data.constants]; the file has: " +
                         join(present, ", "));
@@ -292,7 +294,7 @@ Part load_part(const std::string& file, const DataOptions& options) {
     part.raw = read_raw(path.string(), file, options, part.faults);
     MappedFile mapped = map_columns(part.raw, options, part.faults);
     gather_experiments(part, std::move(mapped), path.stem().string());
-    check_needed(part);
+    check_needed(part, options);
     take_slopes(part, options);
     derive_shear_stress(part);
     drop_rows(part, options);

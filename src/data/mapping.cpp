@@ -219,7 +219,7 @@ private:
       if (from.times.empty()) continue;
       Column* target = find(canonical);
       const Column* factor = find(from.times);
-      if (!factor)
+      if (!factor && !options_.columns.count(from.times)) // else told already
         faults_.add(from.place, fmt::format("{}: times = '{}', which the data do not have",
                                             canonical, from.times));
       if (!target || !factor || target->values.size() != factor->values.size()) continue;

@@ -223,6 +223,36 @@ TEST(CommandLine, VersionIsPrinted) {
   EXPECT_EQ(run_frictab({"--version"}).out, "frictab " FRICTAB_VERSION "\n");
 }
 
+TEST_F(MainJob, VerboseSaysWhatWasDerivedFromTheData) {
+  const std::string file =
+      directory.write("derived.toml", "[data]\ntraining = \"data/training.csv\"\nholdout = 0.25\n");
+  const auto result = run_frictab({"calibrate", file, "-v"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "4 of 16 experiments held out to validate, drawn by seed 1\n");
+}
+
+TEST(Example, SyntheticCampaignReproducesThePublishedLevelsOfError) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(run_frictab({"twin", directory.path("data")}).exit_code, 0);
+  fs::copy(fs::path(FRICTAB_SOURCE_DIR) / "examples" / "01_synthetic_campaign" / "job.toml",
+           directory.path("job.toml"));
+  const auto result = run_frictab({"run", directory.path("job.toml")});
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  std::map<std::string, double> mae;
+  const auto calibration = nlohmann::json::parse(directory.read("out/calibration.json"));
+  for (const auto& model : calibration.at("models"))
+    mae[model.at("name")] = model.at("validation").at("mae_MPa");
+  EXPECT_EQ(mae.size(), 15U);
+  EXPECT_NEAR(mae.at("coulomb_0.04"), 51, 2.5);
+  EXPECT_NEAR(mae.at("coulomb_0.08"), 24, 2.5);
+  EXPECT_NEAR(mae.at("shear_0.12"), 95, 2.5);
+  for (const char* law :
+       {"coulomb", "shear", "orowan", "coulomb_mean", "shear_mean", "orowan_mean"}) {
+    EXPECT_GT(mae.at(law), 12) << law;
+    EXPECT_LT(mae.at(law), 15) << law;
+  }
+}
+
 // Measured data, as the rigs wrote them. Found beside the sources or where FRICTAB_MEASURED says.
 class Measured : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
