@@ -27,11 +27,19 @@ Columns columns_of(const Dataset& data, const std::vector<std::string>& names) {
   return columns;
 }
 
-std::vector<std::string> missing_inputs(const Law& law, const Conventions& conventions,
-                                        const Dataset& training, const Dataset& validation) {
+std::vector<std::string> missing_for(const Law& law, const Conventions& conventions,
+                                     const CalibrationInput& input) {
   std::vector<std::string> missing;
-  for (const std::string& name : inputs(law, conventions))
-    if (!training.has(name) || !validation.has(name)) missing.push_back(name);
+  std::vector<std::string> needed = inputs(law, conventions);
+  if (law.calibrated == Calibrated::train) {
+    const auto states = network_inputs(input.training);
+    needed.insert(needed.end(), states.begin(), states.end());
+    if (input.training.experiments.size() < network_experiments)
+      missing.push_back(fmt::format("{} experiments to train", network_experiments));
+    if (states.empty()) missing.push_back("a state that varies");
+  }
+  for (const std::string& name : needed)
+    if (!input.training.has(name) || !input.validation.has(name)) missing.push_back(name);
   return missing;
 }
 
@@ -47,7 +55,7 @@ Selection select_laws(const CalibrationInput& input, const Conventions& conventi
   for (const Law& law : all_laws()) {
     const bool asked = std::find(use.begin(), use.end(), law.name) != use.end();
     if (!use.empty() && !asked) continue;
-    const auto missing = missing_inputs(law, conventions, input.training, input.validation);
+    const auto missing = missing_for(law, conventions, input);
     if (missing.empty()) {
       selection.laws.push_back(&law);
       continue;
@@ -176,10 +184,31 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
   remark_constant_inputs(fit, data);
 }
 
+void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+  TrainedNetwork trained = train_network(data, fit.model.conventions, options.seed);
+  const NetworkRecord& record = trained.record;
+  fit.model.law = made(std::move(trained.law));
+  fit.model.parameters = {trained.mu0};
+  fit.std_error = {std::numeric_limits<double>::quiet_NaN()};
+  fit.std_error_method =
+      fmt::format("none for weights; the members of the ensemble differ by {:.2g} "
+                  "MPa (standard deviation)",
+                  record.spread_MPa);
+  fit.evaluations = record.iterations;
+  fit.termination = fmt::format("trained: {} nets, decay {} of {}", record.nets, record.decay,
+                                record.decays.size());
+  if (options.loss != Loss::l2)
+    fit.remarks.push_back("trained on squared residuals, whatever calibration.loss says");
+  if (record.dropped > 0)
+    fit.remarks.push_back(fmt::format("{} of {} nets failed and are not in the ensemble",
+                                      record.dropped, record.dropped + record.members));
+  fit.network = record;
+}
+
 ModelFit fit_law(const Law& law, const Conventions& conventions, const CalibrationInput& input) {
   const auto begin = std::chrono::steady_clock::now();
   ModelFit fit;
-  fit.model.law = &law;
+  fit.model.law = registered(law);
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:
@@ -194,6 +223,9 @@ ModelFit fit_law(const Law& law, const Conventions& conventions, const Calibrati
     break;
   case Calibrated::fit:
     fit_parameters(fit, input.training, input.options);
+    break;
+  case Calibrated::train:
+    fit_network(fit, input.training, input.options);
     break;
   }
   const auto judge = [&](const Dataset& data) {

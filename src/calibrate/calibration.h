@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/network.h"
 #include "data/dataset.h"
 #include "job/job.h"
 #include "models/law.h"
@@ -38,6 +39,7 @@ struct ModelFit {
   std::vector<std::string> remarks; // a bound that was hit, a parameter the data do not determine
   Metrics training;
   Metrics validation;
+  std::optional<NetworkRecord> network; // how a neural network was trained
 };
 
 struct Calibration {

@@ -62,20 +62,82 @@ Json parameters_json(const ModelFit& fit) {
   return list;
 }
 
+Json network_json(const NetworkRecord& r) {
+  return {{"architecture", fmt::format("{} inputs, {} tanh units, 1 output, exp; ensemble of {}",
+                                       r.inputs.size(), r.hidden, r.members)},
+          {"inputs", r.inputs},
+          {"hidden", r.hidden},
+          {"members", r.members},
+          {"dropped", r.dropped},
+          {"weights_per_member", r.weights},
+          {"bins", r.bins},
+          {"folds_of_experiments", r.folds},
+          {"repeats", r.repeats},
+          {"decays", r.decays},
+          {"cv_rmse_MPa", r.cv_rmse_MPa},
+          {"decay", r.decay},
+          {"noise_of_a_bin_MPa", r.noise_MPa},
+          {"scatter_between_experiments", r.gain},
+          {"spread_of_members_MPa", r.spread_MPa},
+          {"nets_trained", r.nets},
+          {"iterations", r.iterations}};
+}
+
+NetworkRecord parse_network(const Json& j) {
+  NetworkRecord r;
+  r.inputs = j.at("inputs").get<std::vector<std::string>>();
+  r.hidden = j.at("hidden");
+  r.members = j.at("members");
+  r.dropped = j.at("dropped");
+  r.weights = j.at("weights_per_member");
+  r.bins = j.at("bins");
+  r.folds = j.at("folds_of_experiments");
+  r.repeats = j.at("repeats");
+  r.decays = j.at("decays").get<std::vector<double>>();
+  r.cv_rmse_MPa = j.at("cv_rmse_MPa").get<std::vector<double>>();
+  r.decay = j.at("decay");
+  r.noise_MPa = j.at("noise_of_a_bin_MPa");
+  r.gain = j.at("scatter_between_experiments");
+  r.spread_MPa = j.at("spread_of_members_MPa");
+  r.nets = j.at("nets_trained");
+  r.iterations = j.at("iterations");
+  return r;
+}
+
+// The formula of a law that no registry knows: text that reads back to the same bits.
+Json made_law_json(const Law& law, const Conventions& conventions) {
+  const Formula formula = law.build(conventions);
+  return {{"value", to_text(formula.value)},
+          {"combine", to_text(formula.combine)},
+          {"log_axes", law.log_axes}};
+}
+
+std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::string& file) {
+  const Formula formula{parse_expr(j.at("value").get<std::string>(), file),
+                        parse_expr(j.at("combine").get<std::string>(), file)};
+  law.build = [formula](const Conventions&) { return formula; };
+  law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
+  return made(std::move(law));
+}
+
 Json fit_json(const ModelFit& fit) {
-  return {{"name", fit.model.law->name},
-          {"title", fit.model.law->title},
-          {"formula", fit.model.law->formula},
-          {"inputs", inputs(*fit.model.law, fit.model.conventions)},
-          {"conventions", conventions_json(fit.model.conventions)},
-          {"parameters", parameters_json(fit)},
-          {"std_error_method", fit.std_error_method},
-          {"training", metrics_json(fit.training)},
-          {"validation", metrics_json(fit.validation)},
-          {"wall_time_below_s", whole_seconds_above(fit.seconds)},
-          {"evaluations", fit.evaluations},
-          {"termination", fit.termination},
-          {"remarks", fit.remarks}};
+  Json j = {{"name", fit.model.law->name},
+            {"title", fit.model.law->title},
+            {"formula", fit.model.law->formula},
+            {"inputs", inputs(*fit.model.law, fit.model.conventions)},
+            {"conventions", conventions_json(fit.model.conventions)},
+            {"parameters", parameters_json(fit)},
+            {"std_error_method", fit.std_error_method},
+            {"training", metrics_json(fit.training)},
+            {"validation", metrics_json(fit.validation)},
+            {"wall_time_below_s", whole_seconds_above(fit.seconds)},
+            {"evaluations", fit.evaluations},
+            {"termination", fit.termination},
+            {"remarks", fit.remarks}};
+  if (fit.network) j["training_record"] = network_json(*fit.network);
+  if (!is_registered(*fit.model.law))
+    j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
+  return j;
 }
 
 double number(const Json& value) {
@@ -94,13 +156,16 @@ Metrics parse_metrics(const Json& j) {
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
   const std::string name = j.at("name");
-  fit.model.law = find_law(name);
-  if (!fit.model.law) {
+  const Law* known_law = find_law(name);
+  if (!known_law) {
     std::vector<std::string> known;
     for (const Law& law : all_laws())
       known.push_back(law.name);
     throw InputError({file, 0, 0}, "unknown friction law '" + name + "'", suggest(name, known));
   }
+  fit.model.law =
+      j.contains("law") ? parse_made_law(j.at("law"), *known_law, file) : registered(*known_law);
+  if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
   fit.model.conventions = {c.at("shear_yield"), c.at("k_over_sigma_f"), c.at("shear_limit")};
   const Json& list = j.at("parameters");
@@ -173,8 +238,8 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit);
-  for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters"})
-    j[key] = body.at(key);
+  for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters", "law"})
+    if (body.contains(key)) j[key] = body.at(key);
   return json_text(j);
 }
 

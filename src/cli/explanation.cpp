@@ -37,6 +37,8 @@ std::string how_calibrated(Calibrated how) {
     return "means of mu_meas and m_meas over the training rows";
   case Calibrated::fit:
     return "by calibration.loss";
+  case Calibrated::train:
+    return "trained on squared residuals of tau_R; weight decay by cross-validation over experiments";
   }
   return "";
 }

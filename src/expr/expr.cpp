@@ -1,7 +1,10 @@
 // Formula nodes, with the simplifications that keep generated code short (x*1, x+0, constants).
 #include "expr/expr.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
 #include <unordered_map>
 
 #include "expr/arithmetic.h"
@@ -158,6 +161,38 @@ std::set<std::string> symbols(const Expr& formula) {
   std::set<const Expr::Node*> seen;
   collect(formula, names, seen);
   return names;
+}
+
+namespace {
+
+// What makes two nodes equal, once their operands are shared.
+using NodeKey = std::tuple<Op, std::uint64_t, std::string, std::vector<const Expr::Node*>>;
+
+Expr share(const Expr& e, std::map<NodeKey, Expr>& known, Replaced& done) {
+  if (const auto found = done.find(e.id()); found != done.end()) return found->second;
+  NodeKey key{e.op(), 0, "", {}};
+  if (e.op() == Op::constant) std::get<1>(key) = std::bit_cast<std::uint64_t>(e.value());
+  if (e.op() == Op::symbol) std::get<2>(key) = e.name();
+  std::vector<Expr> operands;
+  for (const Expr& operand : e.operands()) {
+    operands.push_back(share(operand, known, done));
+    std::get<3>(key).push_back(operands.back().id());
+  }
+  const auto found = known.find(key);
+  const Expr result = found != known.end() ? found->second
+                      : operands.empty()   ? e
+                                           : rebuild(e.op(), operands);
+  known.emplace(std::move(key), result);
+  done.emplace(e.id(), result);
+  return result;
+}
+
+} // namespace
+
+Expr shared(const Expr& formula) {
+  std::map<NodeKey, Expr> known;
+  Replaced done;
+  return share(formula, known, done);
 }
 
 Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements) {

@@ -75,6 +75,9 @@ std::set<std::string> symbols(const Expr& formula);
 // The formula with some symbols replaced.
 Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements);
 
+// The same formula with equal subformulas stored once.
+Expr shared(const Expr& formula);
+
 // Text in Python/numpy spelling (minimum, maximum, where, exp, log, sqrt, sin, tanh, arccos, **);
 // parse_expr reads it back to a formula with the same bits. Constants round-trip.
 std::string to_text(const Expr& formula);

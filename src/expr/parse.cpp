@@ -174,7 +174,7 @@ private:
 } // namespace
 
 Expr parse_expr(std::string_view text, std::string_view file) {
-  return Parser(text, file).parse();
+  return shared(Parser(text, file).parse());
 }
 
 } // namespace frictab

@@ -36,11 +36,6 @@ Problem cubic_problem(const std::string&, const KeyValue& value) {
           "use \"linear\": the grid is refined until table.tolerance_MPa holds"};
 }
 
-std::string law_hint(const std::string& name) {
-  if (name != "neural_network") return "";
-  return "neural_network is not part of this version; leave it out";
-}
-
 bool is_number(std::string_view text, bool whole) {
   if (text.empty() || text.size() > 40) return false;
   std::size_t used = 0;
@@ -78,7 +73,7 @@ std::vector<KeyRule> model_keys() {
           "friction laws to calibrate: a name, a list, or \"all\"; `frictab list models` shows "
           "them",
           "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
-          Allowed{"friction law", laws_or_all, false, law_hint},
+          Allowed{"friction law", laws_or_all},
       key<std::string>(
           "models.shear_yield", [](Job & job) -> auto& { return job.models.shear_yield; },
           "shear yield stress k: mises = sigma_f/sqrt(3), tresca = sigma_f/2, flow_stress = "
@@ -119,7 +114,7 @@ std::vector<KeyRule> table_keys() {
       key<std::vector<std::string>>(
           "table.model", [](Job & job) -> auto& { return job.table.model; },
           "law or laws to tabulate: best (on held-out experiments), a name, a list, or all") |
-          Allowed{"friction law", laws_best_or_all, false, law_hint},
+          Allowed{"friction law", laws_best_or_all},
       key<double>(
           "table.tolerance_MPa", [](Job & job) -> auto& { return job.table.tolerance_MPa; },
           "largest drift of the table from its law, anywhere in the range; the grid is made to "
@@ -181,7 +176,7 @@ std::vector<KeyRule> proof_keys() {
       key<std::vector<std::string>>(
           "trace.models", [](Job & job) -> auto& { return job.trace.models; },
           "laws whose residuals are searched: best, a name, a list, or all") |
-          Allowed{"friction law", laws_best_or_all, false, law_hint},
+          Allowed{"friction law", laws_best_or_all},
       key<double>(
           "trace.alpha", [](Job & job) -> auto& { return job.trace.alpha; },
           "family-wise error of a false alarm") |

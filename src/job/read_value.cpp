@@ -73,20 +73,18 @@ struct ValueReader {
     };
     const auto found = std::find_if(names.begin(), names.end(), same);
     if (found != names.end()) return *found;
-    std::string hint = rule.allowed.hint ? rule.allowed.hint(node.text) : "";
     if (rule.allowed.noun.empty()) {
       const std::string near = nearest_name(node.text, names);
-      hint = near.empty() || node.text.size() < 2
-                 ? about()
-                 : fmt::format("did you mean {}?", toml_quoted(near));
+      const std::string hint = near.empty() || node.text.size() < 2
+                                   ? about()
+                                   : fmt::format("did you mean {}?", toml_quoted(near));
       reader.fault(node.place,
                    fmt::format("{} must be {}, not {}", path, expected(rule), describe(node)),
                    hint);
     } else {
-      if (hint.empty()) hint = suggest(node.text, names);
       reader.fault(node.place,
                    fmt::format("unknown {} {} in {}", rule.allowed.noun, quoted(node.text), path),
-                   hint);
+                   suggest(node.text, names));
     }
     return std::nullopt;
   }

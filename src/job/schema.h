@@ -38,7 +38,6 @@ struct Allowed {
   std::string noun; // "friction law"; empty: a few fixed words
   std::vector<std::string> (*names)() = nullptr;
   bool any_case = false;
-  std::string (*hint)(const std::string& name) = nullptr; // in place of the nearest name
 };
 
 struct Problem {

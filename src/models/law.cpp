@@ -33,6 +33,18 @@ std::vector<std::string> parameter_names(const Law& law) {
   return names;
 }
 
+std::shared_ptr<const Law> registered(const Law& law) {
+  return {std::shared_ptr<const Law>(), &law}; // the registry outlives every model
+}
+
+std::shared_ptr<const Law> made(Law law) {
+  return std::make_shared<const Law>(std::move(law));
+}
+
+bool is_registered(const Law& law) {
+  return find_law(law.name) == &law;
+}
+
 const std::vector<Law>& all_laws() {
   return Registry<Law>::instance().all();
 }

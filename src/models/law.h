@@ -2,7 +2,9 @@
 // the formula come calibration, tables, generated code and bounds; nothing else knows the law.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +42,8 @@ struct Formula {
 enum class Calibrated {
   fixed, // constants of the literature
   mean,  // means of mu_meas and m_meas over the training rows (the paper's way)
-  fit    // by the loss of the job
+  fit,   // by the loss of the job
+  train  // the formula itself is found: an ensemble of networks
 };
 
 struct Law {
@@ -56,7 +59,7 @@ struct Law {
   bool log_value = false;               // tabulate ln(value): straight for products of powers
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
-  Formula (*build)(const Conventions&) = nullptr;
+  std::function<Formula(const Conventions&)> build;
 };
 
 // Shear yield stress k as a formula of the flow stress.
@@ -73,12 +76,20 @@ Expr tau_formula(const Law& law, const Conventions& conventions);
 
 std::vector<std::string> parameter_names(const Law& law);
 
-// One calibrated law: with this, and nothing else, tau_R can be predicted.
+// One calibrated law: with this, and nothing else, tau_R can be predicted. Its law is a registered
+// one, or one that was found from data and is nowhere else (`made`).
 struct Model {
-  const Law* law = nullptr;
+  std::shared_ptr<const Law> law;
   Conventions conventions;
   std::vector<double> parameters; // in the law's order
 };
+
+// A law of the registry, and one made at run time, as a model holds them.
+std::shared_ptr<const Law> registered(const Law& law);
+std::shared_ptr<const Law> made(Law law);
+
+// Whether the law is the registry's: then its name says all about it.
+bool is_registered(const Law& law);
 
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);

@@ -25,6 +25,8 @@ std::string kind_text(const Law& law) {
     return "means of the training data";
   case Calibrated::fit:
     return "fitted";
+  case Calibrated::train:
+    return "trained";
   }
   return "";
 }

@@ -75,7 +75,7 @@ Model plausible_model(const Law& law) {
       {"exp_coulomb", {0.08, -0.3, -0.001}},
       {"wzl", {0.4, -0.15, -0.06, -0.05}}};
   Model model;
-  model.law = &law;
+  model.law = registered(law);
   if (const auto found = truth.find(law.name); found != truth.end())
     model.parameters = found->second;
   else

@@ -202,14 +202,14 @@ TEST(Report, SurvivesMetricsThatAreNotFinite) {
 TEST(Benchmark, IsThisTextForTwoLaws) {
   Calibration c;
   ModelFit orowan;
-  orowan.model.law = find_law("orowan");
+  orowan.model.law = registered(*find_law("orowan"));
   orowan.model.parameters = {0.0792, 0.49981};
   orowan.std_error = {0.00201, std::nan("")};
   orowan.remarks = {"a|b"};
   orowan.training = {12.5, 16, 0, {12, 13}, {}, {}, 44550, 81};
   orowan.validation = {11.558, 13.56, -2.74, {9.69, 13.54}, {}, {}, 16500, 30};
   ModelFit fixed;
-  fixed.model.law = find_law("coulomb_0.08");
+  fixed.model.law = registered(*find_law("coulomb_0.08"));
   fixed.model.parameters = {0.08};
   fixed.training = {28.5, 31, -20, {25, 31}, {}, {}, 44550, 81};
   fixed.validation = {26.3, 30.2, -24.8, {21.6, 31.6}, {}, {}, 16500, 30};

@@ -1,0 +1,287 @@
+// The training of the neural network, from rows to an ensemble.
+#include "calibrate/network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "calibrate/folds.h"
+#include "calibrate/network_fit.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "data/quantity.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::size_t hidden_units = 8, repeats = 4, most_folds = 5;
+// More bins bring no accuracy: rows closer than this are alike.
+constexpr std::size_t bins_per_experiment = 11;
+// In units of the noise; the winner has always been well inside.
+const std::vector<double> decays{100, 30, 10, 3, 1, 0.3};
+
+// Means of a column over the bins of each experiment.
+struct Binning {
+  std::vector<std::size_t> first; // row of each bin, and the end
+  std::vector<Index> first_bin;   // of each experiment, and the end
+
+  explicit Binning(const Dataset& data) : first_bin{0} {
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      const std::size_t from = data.first_row[e], rows = data.first_row[e + 1] - from;
+      const std::size_t bins = std::min(rows, bins_per_experiment);
+      for (std::size_t b = 0; b < bins; ++b)
+        first.push_back(from + b * rows / bins);
+      first_bin.push_back(first_bin.back() + static_cast<Index>(bins));
+    }
+    first.push_back(data.rows());
+  }
+
+  VectorXd means(std::span<const double> column) const {
+    VectorXd mean(first_bin.back());
+    for (std::size_t b = 0; b + 1 < first.size(); ++b) {
+      const double rows = static_cast<double>(first[b + 1] - first[b]);
+      mean(static_cast<Index>(b)) =
+          std::accumulate(column.begin() + static_cast<std::ptrdiff_t>(first[b]),
+                          column.begin() + static_cast<std::ptrdiff_t>(first[b + 1]), 0.0) /
+          rows;
+    }
+    return mean;
+  }
+
+  VectorXd weights() const {
+    VectorXd rows(first_bin.back());
+    for (std::size_t b = 0; b + 1 < first.size(); ++b)
+      rows(static_cast<Index>(b)) = static_cast<double>(first[b + 1] - first[b]);
+    return (rows / rows.mean()).cwiseSqrt();
+  }
+};
+
+NetworkInput scaling(const std::string& name, std::span<const double> rows, const VectorXd& bins) {
+  NetworkInput input{.name = name};
+  const double smallest = *std::min_element(rows.begin(), rows.end());
+  const double low = bins.minCoeff(), high = bins.maxCoeff();
+  // Degrees Celsius have no zero to count decades from.
+  input.log = find_quantity(name)->unit != "degC" && smallest >= 0 && low > 0 && high >= 10 * low;
+  if (input.log) {
+    input.offset = low - smallest;
+    input.floor = input.offset > 0 ? 0 : 1e-3 * low;
+  }
+  const VectorXd u = bins.unaryExpr([&](double x) { return input.u(x); });
+  input.centre = u.mean();
+  input.scale = std::sqrt((u.array() - input.centre).square().mean());
+  return input;
+}
+
+struct TrainingSet {
+  std::vector<NetworkInput> inputs;
+  NetworkBins bins;
+  NetworkShape shape;
+  double mu0 = 0; // Coulomb's least squares
+};
+
+TrainingSet prepare(const Dataset& data, const Conventions& conventions) {
+  const Binning binning(data);
+  TrainingSet set;
+  NetworkBins& bins = set.bins;
+  bins.first = binning.first_bin;
+  bins.weight = binning.weights();
+  bins.stress = binning.means(data.values("sigma_n_MPa"));
+  bins.measured = binning.means(data.values("tau_R_MPa"));
+  bins.limit =
+      conventions.shear_limit
+          ? VectorXd(conventions.k_over_sigma_f * binning.means(data.values("sigma_f_MPa")))
+          : VectorXd::Constant(bins.stress.size(), std::numeric_limits<double>::infinity());
+  const auto names = network_inputs(data);
+  bins.z.resize(bins.stress.size(), static_cast<Index>(names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const VectorXd mean = binning.means(data.values(names[i]));
+    set.inputs.push_back(scaling(names[i], data.values(names[i]), mean));
+    bins.z.col(static_cast<Index>(i)) =
+        mean.unaryExpr([&](double x) { return set.inputs.back().z(x); });
+  }
+  set.shape = {names.size(), hidden_units};
+  const VectorXd force = bins.weight.cwiseProduct(bins.stress);
+  set.mu0 = force.dot(bins.weight.cwiseProduct(bins.measured)) / force.squaredNorm();
+  return set;
+}
+
+// Uneven, so that units differ, and small at the output, so that the first net is nearly Coulomb.
+VectorXd random_weights(const NetworkShape& shape, Random random) {
+  VectorXd w(shape.weights());
+  Index at = 0;
+  const double inputs = static_cast<double>(shape.inputs);
+  for (std::size_t h = 0; h < shape.hidden; ++h) {
+    for (std::size_t i = 0; i < shape.inputs; ++i)
+      w(at++) = random.normal() / std::sqrt(inputs);
+    w(at++) = 0.5 * random.normal();
+    w(at++) = 0.1 * random.normal() / std::sqrt(static_cast<double>(shape.hidden));
+  }
+  w(at) = 0;
+  return w;
+}
+
+// Training and held-out experiments of one fold.
+struct Fold {
+  NetworkBins training, held_out;
+};
+
+Fold make_fold(const NetworkBins& bins, const std::vector<std::size_t>& fold_of, std::size_t fold) {
+  std::vector<std::size_t> in, out;
+  for (std::size_t e = 0; e < fold_of.size(); ++e)
+    (fold_of[e] == fold ? out : in).push_back(e);
+  return {bins.of(in), bins.of(out)};
+}
+
+class Training {
+public:
+  Training(const TrainingSet& set, std::uint64_t seed)
+      : set_(set), seed_(seed), folds_(std::min(most_folds, set.bins.experiments())) {}
+
+  std::size_t folds() const { return folds_; }
+
+  // One fit per decay of the path, each started from the one before.
+  std::vector<NetworkFit> path(std::size_t repeat, std::size_t fold, NetworkScatter scatter,
+                               const std::vector<double>& path_decays) const {
+    const auto fold_of = experiment_folds(set_.bins.experiments(), folds_, seed_, repeat);
+    const Fold part = make_fold(set_.bins, fold_of, fold);
+    VectorXd start = random_weights(set_.shape, Random(seed_, (repeat << 8) + fold + 0x6e6574));
+    std::vector<NetworkFit> fits;
+    for (const double decay : path_decays) {
+      fits.push_back(
+          fit_network({part.training, part.held_out, set_.shape, set_.mu0, scatter, decay}, start));
+      start = fits.back().last;
+    }
+    return fits;
+  }
+
+  // All folds of `count` repeats, by repeat and fold.
+  std::vector<std::vector<NetworkFit>> all_paths(std::size_t count, NetworkScatter scatter,
+                                                 const std::vector<double>& path_decays) const {
+    std::vector<std::vector<NetworkFit>> paths(count * folds_);
+    parallel_for(paths.size(), [&](std::size_t i) {
+      paths[i] = path(i / folds_, i % folds_, scatter, path_decays);
+    });
+    return paths;
+  }
+
+  // Variance components of the residuals of held-out experiments (method of moments), from nets
+  // trained without them.
+  NetworkScatter scatter() const {
+    const VectorXd coulomb = network_residual(set_.bins, set_.mu0 * set_.bins.stress);
+    const double rms = std::sqrt(coulomb.squaredNorm() / static_cast<double>(coulomb.size()));
+    if (!(rms > 0)) return {1, 0};
+    const auto paths = all_paths(1, {rms / 2, 0}, {3});
+    const auto fold_of = experiment_folds(set_.bins.experiments(), folds_, seed_, 0);
+    double within = 0, gain_square = 0, freedom = 0;
+    std::vector<std::pair<double, double>> gains; // along the gain: residual, reach
+    for (std::size_t f = 0; f < folds_; ++f) {
+      const NetworkBins bins = make_fold(set_.bins, fold_of, f).held_out;
+      const VectorXd r =
+          network_residual(bins, network_tau(bins, set_.shape, set_.mu0, paths[f][0].weights));
+      const GainDirection direction = gain_direction(bins, set_.mu0);
+      for (std::size_t e = 0; e < bins.experiments(); ++e) {
+        const Index at = bins.first[e], count = bins.first[e + 1] - at;
+        const double along = direction.unit.segment(at, count).dot(r.segment(at, count));
+        within += r.segment(at, count).squaredNorm() - along * along;
+        freedom += static_cast<double>(count) - 1;
+        gains.emplace_back(along, direction.reach(static_cast<Index>(e)));
+      }
+    }
+    const double noise_square = freedom > 0 ? within / freedom : rms * rms;
+    for (const auto& [along, reach] : gains)
+      if (reach > 0)
+        gain_square +=
+            (along * along - noise_square) / (reach * reach) / static_cast<double>(gains.size());
+    return {std::max(std::sqrt(noise_square), 1e-6 * rms), std::sqrt(std::max(0.0, gain_square))};
+  }
+
+private:
+  const TrainingSet& set_;
+  std::uint64_t seed_;
+  std::size_t folds_;
+};
+
+// A net that failed stands out on its held-out experiments, against the nets that left out the
+// same share of others.
+bool failed(double square, std::vector<double> squares) {
+  std::nth_element(squares.begin(),
+                   squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2),
+                   squares.end());
+  return square > 9 * squares[squares.size() / 2];
+}
+
+double ensemble_spread(const TrainingSet& set, const std::vector<VectorXd>& members) {
+  Eigen::MatrixXd tau(set.bins.stress.size(), static_cast<Index>(members.size()));
+  for (std::size_t m = 0; m < members.size(); ++m)
+    tau.col(static_cast<Index>(m)) = network_tau(set.bins, set.shape, set.mu0, members[m]);
+  const VectorXd mean = tau.rowwise().mean();
+  const double freedom = std::max(1.0, static_cast<double>(members.size()) - 1);
+  return ((tau.colwise() - mean).rowwise().squaredNorm() / freedom).cwiseSqrt().mean();
+}
+
+} // namespace
+
+std::vector<std::string> network_inputs(const Dataset& data) {
+  std::vector<std::string> names;
+  for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"}) {
+    if (!data.has(name)) continue;
+    const auto values = data.values(name);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    if (*low < *high) names.push_back(name);
+  }
+  return names;
+}
+
+TrainedNetwork train_network(const Dataset& training, const Conventions& conventions,
+                             std::uint64_t seed) {
+  const TrainingSet set = prepare(training, conventions);
+  const Training nets(set, seed);
+  const NetworkScatter scatter = nets.scatter();
+  const auto paths = nets.all_paths(repeats, scatter, decays);
+
+  NetworkRecord record;
+  record.decays = decays;
+  std::size_t best = 0;
+  for (std::size_t d = 0; d < decays.size(); ++d) {
+    double sum = 0;
+    for (const auto& path : paths)
+      sum += path[d].held_out_square;
+    record.cv_rmse_MPa.push_back(std::sqrt(sum / static_cast<double>(paths.size())));
+    if (record.cv_rmse_MPa[d] < record.cv_rmse_MPa[best]) best = d;
+  }
+  std::vector<double> squares;
+  for (const auto& path : paths)
+    squares.push_back(path[best].held_out_square);
+  std::vector<VectorXd> members;
+  Network network{set.inputs, hidden_units, {}};
+  for (const auto& path : paths) {
+    for (const NetworkFit& fit : path)
+      record.iterations += fit.iterations;
+    if (failed(path[best].held_out_square, squares)) continue;
+    const VectorXd& w = path[best].weights;
+    members.push_back(w);
+    network.members.emplace_back(w.begin(), w.end());
+  }
+  for (const NetworkInput& input : set.inputs)
+    record.inputs.push_back(input.name);
+  record.hidden = hidden_units;
+  record.members = members.size();
+  record.dropped = paths.size() - members.size();
+  record.weights = static_cast<std::size_t>(set.shape.weights());
+  record.bins = static_cast<std::size_t>(set.bins.stress.size());
+  record.folds = nets.folds();
+  record.repeats = repeats;
+  record.decay = decays[best];
+  record.noise_MPa = scatter.noise_MPa;
+  record.gain = scatter.gain;
+  record.spread_MPa = ensemble_spread(set, members);
+  record.nets = paths.size() * decays.size() + nets.folds();
+  return {neural_network(network), set.mu0, std::move(record)};
+}
+
+} // namespace frictab

@@ -1,0 +1,51 @@
+// Trains the neural network: an ensemble of small nets, weight decay chosen by cross-validation
+// over experiments.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/law.h"
+
+namespace frictab {
+
+// What was tried and what came out; goes to calibration.json.
+struct NetworkRecord {
+  std::vector<std::string> inputs;
+  std::size_t hidden = 0;     // tanh units of the one hidden layer
+  std::size_t members = 0;    // nets in the ensemble
+  std::size_t dropped = 0;    // nets left out: far worse than the others on held-out experiments
+  std::size_t weights = 0;    // of one net
+  std::size_t bins = 0;       // bins of rows trained on
+  std::size_t folds = 0;      // groups of experiments, each held out once ...
+  std::size_t repeats = 0;    // ... in each repeat
+  std::vector<double> decays; // tried, strongest first
+  std::vector<double> cv_rmse_MPa; // of the bins of held-out experiments, per decay
+  double decay = 0;                // chosen
+  double noise_MPa = 0;            // scatter of a bin within its experiment
+  double gain = 0;                 // scatter between experiments, as a share of tau_R
+  double spread_MPa = 0;           // mean over the training bins of the members' standard deviation
+  std::size_t iterations = 0;      // of all nets
+  std::size_t nets = 0;            // trained, cross-validation included
+};
+
+struct TrainedNetwork {
+  Law law; // its own formula; parameter mu0
+  double mu0 = 0;
+  NetworkRecord record;
+};
+
+// The least number of experiments: below, none can be held out to choose the decay.
+constexpr std::size_t network_experiments = 5;
+
+// Inputs of the network that the data have and that vary in them, canonical order.
+std::vector<std::string> network_inputs(const Dataset& data);
+
+// Trains on whole experiments of `training` (at least network_experiments, at least one input);
+// the result depends on data and seed alone, not on the number of threads.
+TrainedNetwork train_network(const Dataset& training, const Conventions& conventions,
+                             std::uint64_t seed);
+
+} // namespace frictab

@@ -1,0 +1,78 @@
+// One net of the neural network: its bins of rows, and Levenberg-Marquardt on tau_R with weight
+// decay.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/neural_network.h"
+
+namespace frictab {
+
+// Experiments cut into bins of consecutive rows, averaged: rows inside an experiment are so alike
+// that single rows add time and no information.
+struct NetworkBins {
+  Eigen::MatrixXd z;               // bins x inputs, scaled
+  Eigen::VectorXd stress;          // contact normal stress, MPa
+  Eigen::VectorXd limit;           // shear yield stress k, MPa; infinity without the shear limit
+  Eigen::VectorXd measured;        // tau_R, MPa
+  Eigen::VectorXd weight;          // root of the bin's rows over the mean number
+  std::vector<Eigen::Index> first; // of each experiment, and the end
+
+  std::size_t experiments() const { return first.size() - 1; }
+  NetworkBins of(std::span<const std::size_t> chosen) const; // whole experiments
+};
+
+// How bins scatter: measured = tau (1 + gain of the experiment) + noise. The gain is the factor
+// that no input explains; with it in the loss the nets do not learn it, and what changes within an
+// experiment, which the gain leaves alone, counts by its own small noise (generalised least
+// squares, Aitken 1936).
+struct NetworkScatter {
+  double noise_MPa = 1; // of a bin of mean weight
+  double gain = 0;      // standard deviation
+};
+
+struct NetworkShape {
+  std::size_t inputs = 0;
+  std::size_t hidden = 0;
+  Eigen::Index weights() const {
+    return static_cast<Eigen::Index>(Network::weights(inputs, hidden));
+  }
+};
+
+// tau_R in MPa of each bin; its derivatives by the weights (bins x weights) where asked for.
+Eigen::VectorXd network_tau(const NetworkBins& bins, const NetworkShape& shape, double mu0,
+                            const Eigen::VectorXd& weights, Eigen::MatrixXd* derivative = nullptr);
+
+// measured - tau, times the weights of the bins, MPa.
+Eigen::VectorXd network_residual(const NetworkBins& bins, const Eigen::VectorXd& tau);
+
+// Direction of an experiment's gain in its weighted bins, and how far the gain moves them.
+struct GainDirection {
+  Eigen::VectorXd unit;  // all bins; of length 1 in each experiment
+  Eigen::VectorXd reach; // per experiment, MPa
+};
+GainDirection gain_direction(const NetworkBins& bins, double mu0);
+
+struct NetworkFit {
+  Eigen::VectorXd weights;    // of the iteration that predicts the held-out experiments best
+  Eigen::VectorXd last;       // of the last iteration: the start for a weaker decay
+  double held_out_square = 0; // mean squared weighted residual there, MPa^2
+  std::size_t iterations = 0;
+};
+
+struct NetworkProblem {
+  const NetworkBins& training;
+  const NetworkBins& held_out;
+  NetworkShape shape;
+  double mu0 = 0;
+  NetworkScatter scatter;
+  double decay = 1; // on every weight but the output bias, in units of the noise
+};
+
+// Stops early when the held-out experiments have not improved for some iterations.
+NetworkFit fit_network(const NetworkProblem& problem, Eigen::VectorXd start);
+
+} // namespace frictab
