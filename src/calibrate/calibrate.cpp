@@ -32,7 +32,7 @@ std::vector<std::string> missing_for(const Law& law, const Conventions& conventi
   std::vector<std::string> missing;
   std::vector<std::string> needed = inputs(law, conventions);
   if (law.calibrated == Calibrated::train) {
-    const auto states = network_inputs(input.training);
+    const auto states = network_inputs(law, input.training);
     needed.insert(needed.end(), states.begin(), states.end());
     if (input.training.experiments.size() < network_experiments)
       missing.push_back(fmt::format("{} experiments to train", network_experiments));
@@ -185,7 +185,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
 }
 
 void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
-  TrainedNetwork trained = train_network(data, fit.model.conventions, options.seed);
+  TrainedNetwork trained = train_network(*fit.model.law, data, fit.model.conventions, options.seed);
   const NetworkRecord& record = trained.record;
   fit.model.law = made(std::move(trained.law));
   fit.model.parameters = {trained.mu0};
@@ -202,6 +202,7 @@ void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& o
   if (record.dropped > 0)
     fit.remarks.push_back(fmt::format("{} of {} nets failed and are not in the ensemble",
                                       record.dropped, record.dropped + record.members));
+  fit.model.experiment_gains = gains_of_new_experiments(std::move(trained.held_out_gains), 0);
   fit.network = record;
 }
 
@@ -228,12 +229,19 @@ ModelFit fit_law(const Law& law, const Conventions& conventions, const Calibrati
     fit_network(fit, input.training, input.options);
     break;
   }
-  const auto judge = [&](const Dataset& data) {
-    return metrics(data.values("tau_R_MPa"), predict(fit.model, data), data.first_row,
-                   input.options.bootstrap, input.options.seed);
+  const auto judge = [&](const Dataset& data, const std::vector<double>& predicted) {
+    return metrics(data.values("tau_R_MPa"), predicted, data.first_row, input.options.bootstrap,
+                   input.options.seed);
   };
-  fit.training = judge(input.training);
-  fit.validation = judge(input.validation);
+  const std::vector<double> trained = predict(fit.model, input.training);
+  const std::vector<double> unseen = predict(fit.model, input.validation);
+  fit.training = judge(input.training, trained);
+  fit.validation = judge(input.validation, unseen);
+  if (law.calibrated != Calibrated::train)
+    fit.model.experiment_gains = gains_of_new_experiments(
+        experiment_gains(input.training.values("tau_R_MPa"), trained, input.training.first_row),
+        law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
+  fit.band = check_band(fit.model, unseen, input.validation);
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
 }
@@ -275,8 +283,7 @@ Calibration calibrate(const CalibrationInput& input) {
 
 std::vector<double> predict(const Model& model, const Dataset& data) {
   const auto names = inputs(*model.law, model.conventions);
-  const Program program(tau_formula(*model.law, model.conventions), names,
-                        parameter_names(*model.law));
+  const Program program(tau_formula(model), names, parameter_names(*model.law));
   std::vector<double> tau(data.rows());
   program.evaluate(data.rows(), columns_of(data, names), model.parameters, tau.data());
   return tau;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/band.h"
 #include "calibrate/network.h"
 #include "data/dataset.h"
 #include "job/job.h"
@@ -39,6 +40,7 @@ struct ModelFit {
   std::vector<std::string> remarks; // a bound that was hit, a parameter the data do not determine
   Metrics training;
   Metrics validation;
+  BandCheck band;                       // of model.experiment_gains, on the validation experiments
   std::optional<NetworkRecord> network; // how a neural network was trained
 };
 

@@ -120,6 +120,21 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
   return made(std::move(law));
 }
 
+Json band_json(const BandCheck& band) {
+  return {{"factor_5", band.low ? Json(*band.low) : Json()},
+          {"factor_95", band.high ? Json(*band.high) : Json()},
+          {"validation_experiments_inside", band.inside},
+          {"validation_experiments", band.experiments}};
+}
+
+BandCheck parse_band(const Json& j) {
+  const auto factor = [&](const char* name) {
+    return j.at(name).is_null() ? std::nullopt : std::optional(j.at(name).get<double>());
+  };
+  return {factor("factor_5"), factor("factor_95"), j.at("validation_experiments_inside"),
+          j.at("validation_experiments")};
+}
+
 Json fit_json(const ModelFit& fit) {
   Json j = {{"name", fit.model.law->name},
             {"title", fit.model.law->title},
@@ -133,7 +148,9 @@ Json fit_json(const ModelFit& fit) {
             {"wall_time_below_s", whole_seconds_above(fit.seconds)},
             {"evaluations", fit.evaluations},
             {"termination", fit.termination},
-            {"remarks", fit.remarks}};
+            {"remarks", fit.remarks},
+            {"experiment_gains", fit.model.experiment_gains},
+            {"band", band_json(fit.band)}};
   if (fit.network) j["training_record"] = network_json(*fit.network);
   if (!is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
@@ -165,6 +182,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   }
   fit.model.law =
       j.contains("law") ? parse_made_law(j.at("law"), *known_law, file) : registered(*known_law);
+  fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
   fit.model.conventions = {c.at("shear_yield"), c.at("k_over_sigma_f"), c.at("shear_limit")};
@@ -226,6 +244,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       fit.remarks = one.at("remarks").get<std::vector<std::string>>();
       fit.training = parse_metrics(one.at("training"));
       fit.validation = parse_metrics(one.at("validation"));
+      fit.band = parse_band(one.at("band"));
       calibration.fits.push_back(std::move(fit));
     }
     return calibration;
@@ -238,7 +257,8 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit);
-  for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters", "law"})
+  for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
+                          "experiment_gains", "law"})
     if (body.contains(key)) j[key] = body.at(key);
   return json_text(j);
 }

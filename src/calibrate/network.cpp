@@ -2,6 +2,7 @@
 #include "calibrate/network.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -84,7 +85,7 @@ struct TrainingSet {
   double mu0 = 0; // Coulomb's least squares
 };
 
-TrainingSet prepare(const Dataset& data, const Conventions& conventions) {
+TrainingSet prepare(const Law& law, const Dataset& data, const Conventions& conventions) {
   const Binning binning(data);
   TrainingSet set;
   NetworkBins& bins = set.bins;
@@ -96,7 +97,7 @@ TrainingSet prepare(const Dataset& data, const Conventions& conventions) {
       conventions.shear_limit
           ? VectorXd(conventions.k_over_sigma_f * binning.means(data.values("sigma_f_MPa")))
           : VectorXd::Constant(bins.stress.size(), std::numeric_limits<double>::infinity());
-  const auto names = network_inputs(data);
+  const auto names = network_inputs(law, data);
   bins.z.resize(bins.stress.size(), static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const VectorXd mean = binning.means(data.values(names[i]));
@@ -200,6 +201,32 @@ public:
     return {std::max(std::sqrt(noise_square), 1e-6 * rms), std::sqrt(std::max(0.0, gain_square))};
   }
 
+  // Ratio of measured to predicted stress (least squares) of each experiment, predicted by the nets
+  // that did not see it.
+  std::vector<double> held_out_gains(const std::vector<std::vector<NetworkFit>>& paths,
+                                     std::size_t decay) const {
+    const NetworkBins& bins = set_.bins;
+    VectorXd tau = VectorXd::Zero(bins.stress.size());
+    for (std::size_t r = 0; r < paths.size() / folds_; ++r) {
+      const auto fold_of = experiment_folds(bins.experiments(), folds_, seed_, r);
+      for (std::size_t e = 0; e < bins.experiments(); ++e) {
+        const NetworkBins one = bins.of(std::array{e});
+        tau.segment(bins.first[e], one.stress.size()) +=
+            network_tau(one, set_.shape, set_.mu0, paths[r * folds_ + fold_of[e]][decay].weights);
+      }
+    }
+    tau *= static_cast<double>(folds_) / static_cast<double>(paths.size());
+    const VectorXd predicted = bins.weight.cwiseProduct(tau);
+    const VectorXd measured = bins.weight.cwiseProduct(bins.measured);
+    std::vector<double> gains;
+    for (std::size_t e = 0; e < bins.experiments(); ++e) {
+      const Index at = bins.first[e], count = bins.first[e + 1] - at;
+      gains.push_back(predicted.segment(at, count).dot(measured.segment(at, count)) /
+                      predicted.segment(at, count).squaredNorm());
+    }
+    return gains;
+  }
+
 private:
   const TrainingSet& set_;
   std::uint64_t seed_;
@@ -226,9 +253,9 @@ double ensemble_spread(const TrainingSet& set, const std::vector<VectorXd>& memb
 
 } // namespace
 
-std::vector<std::string> network_inputs(const Dataset& data) {
+std::vector<std::string> network_inputs(const Law& law, const Dataset& data) {
   std::vector<std::string> names;
-  for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"}) {
+  for (const std::string& name : law.may_use) {
     if (!data.has(name)) continue;
     const auto values = data.values(name);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -237,9 +264,9 @@ std::vector<std::string> network_inputs(const Dataset& data) {
   return names;
 }
 
-TrainedNetwork train_network(const Dataset& training, const Conventions& conventions,
-                             std::uint64_t seed) {
-  const TrainingSet set = prepare(training, conventions);
+TrainedNetwork train_network(const Law& law, const Dataset& training,
+                             const Conventions& conventions, std::uint64_t seed) {
+  const TrainingSet set = prepare(law, training, conventions);
   const Training nets(set, seed);
   const NetworkScatter scatter = nets.scatter();
   const auto paths = nets.all_paths(repeats, scatter, decays);
@@ -281,7 +308,7 @@ TrainedNetwork train_network(const Dataset& training, const Conventions& convent
   record.gain = scatter.gain;
   record.spread_MPa = ensemble_spread(set, members);
   record.nets = paths.size() * decays.size() + nets.folds();
-  return {neural_network(network), set.mu0, std::move(record)};
+  return {neural_network(network), set.mu0, nets.held_out_gains(paths, best), std::move(record)};
 }
 
 } // namespace frictab

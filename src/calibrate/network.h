@@ -34,18 +34,19 @@ struct NetworkRecord {
 struct TrainedNetwork {
   Law law; // its own formula; parameter mu0
   double mu0 = 0;
+  std::vector<double> held_out_gains; // per experiment, by nets that were not trained on it
   NetworkRecord record;
 };
 
 // The least number of experiments: below, none can be held out to choose the decay.
 constexpr std::size_t network_experiments = 5;
 
-// Inputs of the network that the data have and that vary in them, canonical order.
-std::vector<std::string> network_inputs(const Dataset& data);
+// Of the states that the law may use, those that vary in the data.
+std::vector<std::string> network_inputs(const Law& law, const Dataset& data);
 
 // Trains on whole experiments of `training` (at least network_experiments, at least one input);
 // the result depends on data and seed alone, not on the number of threads.
-TrainedNetwork train_network(const Dataset& training, const Conventions& conventions,
-                             std::uint64_t seed);
+TrainedNetwork train_network(const Law& law, const Dataset& training,
+                             const Conventions& conventions, std::uint64_t seed);
 
 } // namespace frictab

@@ -38,7 +38,8 @@ std::string how_calibrated(Calibrated how) {
   case Calibrated::fit:
     return "by calibration.loss";
   case Calibrated::train:
-    return "trained on squared residuals of tau_R; weight decay by cross-validation over experiments";
+    return "trained on squared residuals of tau_R; weight decay by cross-validation over "
+           "experiments";
   }
   return "";
 }
@@ -65,6 +66,7 @@ Explanation about(const Law& law) {
   Explanation out{law.name, "friction law", law.title, {}, "parameters", {}};
   out.fields = {{"formula", law.formula},
                 {"inputs", join(free_inputs, ", ")},
+                {"may use", join(law.may_use, ", ")},
                 {"calibrated", how_calibrated(law.calibrated)},
                 {"tabulated", law.quantity},
                 {"reference", law.reference},

@@ -45,7 +45,8 @@ void write_junit(const Options& options, const Verification& verification) {
 
 int verify_alone(const Options& options, const CommonOptions& common) {
   const Table table = read_table(options.table);
-  const Model model = parse_model(read_file(options.model), options.model);
+  const Model model = at_quantile(parse_model(read_file(options.model), options.model),
+                                  table.quantile(), {options.table, 0, 0});
   std::optional<Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
   const double allowed = options.max_drift_MPa.value_or(

@@ -73,6 +73,7 @@ struct AxisOptions {
 
 struct TableOptions {
   std::vector<std::string> model{"best"}; // best | names | all
+  std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
   std::string interpolation = "linear";
   std::map<std::string, AxisOptions> axes; // by canonical name

@@ -44,6 +44,20 @@ template <> struct Kind<double> {
   static std::string show(double v) { return shortest(v); }
 };
 
+template <> struct Kind<std::vector<double>> {
+  static constexpr KeyType type = KeyType::numbers;
+  static std::vector<double> from(KeyValue& v) {
+    return std::get<std::vector<double>>(std::move(v));
+  }
+  static std::string show(const std::vector<double>& v) {
+    if (v.size() == 1) return shortest(v[0]);
+    std::vector<std::string> items;
+    for (const double item : v)
+      items.push_back(shortest(item));
+    return v.empty() ? "" : "[" + join(items, ", ") + "]";
+  }
+};
+
 template <> struct Kind<bool> {
   static constexpr KeyType type = KeyType::flag;
   static bool from(KeyValue& v) { return std::get<bool>(v); }

@@ -124,6 +124,21 @@ struct ValueReader {
     return good ? std::optional(out) : std::nullopt;
   }
 
+  std::optional<KeyValue> numbers(const TomlNode& node) const {
+    const bool list = node.type == Type::array && !node.items.empty();
+    std::vector<double> out;
+    for (const TomlNode& item : list ? node.items : std::vector<TomlNode>{node}) {
+      const auto value = number(item);
+      if (!value || !inside(*value)) return refuse(item);
+      if (std::find(out.begin(), out.end(), *value) != out.end()) {
+        reader.fault(item.place, fmt::format("{} holds {} twice", path, *value), "name it once");
+        return std::nullopt;
+      }
+      out.push_back(*value);
+    }
+    return out;
+  }
+
   std::optional<KeyValue> range(const TomlNode& node) const {
     if (node.type != Type::array || node.items.size() != 2) return refuse(node);
     const auto low = number(node.items[0]), high = number(node.items[1]);
@@ -156,6 +171,8 @@ struct ValueReader {
       if (!value || !inside(*value)) return refuse(node);
       return *value;
     }
+    case KeyType::numbers:
+      return numbers(node);
     case KeyType::range:
       return range(node);
     case KeyType::flag:

@@ -126,6 +126,8 @@ std::string expected(const KeyRule& rule) {
     return with_bounds("a whole number", rule.bounds);
   case KeyType::number:
     return with_bounds("a number", rule.bounds);
+  case KeyType::numbers:
+    return with_bounds("a number", rule.bounds) + ", or a list of such numbers";
   case KeyType::range:
     return "two numbers [from, to] with from < to";
   case KeyType::flag:

@@ -19,12 +19,13 @@ enum class KeyType {
   column, // a text, a list of texts or a column number
   whole,
   number,
-  range, // [from, to]
+  numbers, // a number or a list of different ones
+  range,   // [from, to]
   flag
 };
 
 using KeyValue = std::variant<std::string, std::vector<std::string>, std::uint64_t, double,
-                              std::pair<double, double>, bool>;
+                              std::vector<double>, std::pair<double, double>, bool>;
 
 struct Bounds {
   double lower = -std::numeric_limits<double>::infinity();

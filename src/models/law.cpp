@@ -1,6 +1,8 @@
 // Formulas every law shares: k, the shear limit, the composition of piece and combination.
 #include "models/law.h"
 
+#include <fmt/format.h>
+
 #include "data/quantity.h"
 
 namespace frictab {
@@ -9,13 +11,27 @@ Expr shear_yield_stress(const Conventions& conventions) {
   return Expr(conventions.k_over_sigma_f) * Expr::symbol("sigma_f_MPa");
 }
 
-Expr limited_combine(const Law& law, const Conventions& conventions) {
-  const Expr tau = maximum(law.build(conventions).combine, 0.0);
+Expr limited_combine(const Law& law, const Conventions& conventions, double gain) {
+  const Expr tau = gain * maximum(law.build(conventions).combine, 0.0);
   return conventions.shear_limit ? minimum(tau, shear_yield_stress(conventions)) : tau;
 }
 
-Expr tau_formula(const Law& law, const Conventions& conventions) {
-  return substitute(limited_combine(law, conventions), {{"value", law.build(conventions).value}});
+Expr tau_formula(const Law& law, const Conventions& conventions, double gain) {
+  return substitute(limited_combine(law, conventions, gain),
+                    {{"value", law.build(conventions).value}});
+}
+
+Expr limited_combine(const Model& model) {
+  return limited_combine(*model.law, model.conventions, model.gain);
+}
+
+Expr tau_formula(const Model& model) {
+  return tau_formula(*model.law, model.conventions, model.gain);
+}
+
+std::string Model::name() const {
+  if (quantile == 0.5) return law->name;
+  return law->name + "_q" + fmt::format("{}", quantile).substr(2); // the digits behind "0."
 }
 
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {

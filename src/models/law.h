@@ -59,6 +59,7 @@ struct Law {
   bool log_value = false;               // tabulate ln(value): straight for products of powers
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
+  std::vector<std::string> may_use; // trained laws: states used where the data vary in them
   std::function<Formula(const Conventions&)> build;
 };
 
@@ -68,11 +69,11 @@ Expr shear_yield_stress(const Conventions& conventions);
 // State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa).
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
 
-// combine, limited: minimum(maximum(combine, 0), k).
-Expr limited_combine(const Law& law, const Conventions& conventions);
+// combine, limited: minimum(gain maximum(combine, 0), k).
+Expr limited_combine(const Law& law, const Conventions& conventions, double gain = 1);
 
 // tau_R in MPa as one formula of state and parameters.
-Expr tau_formula(const Law& law, const Conventions& conventions);
+Expr tau_formula(const Law& law, const Conventions& conventions, double gain = 1);
 
 std::vector<std::string> parameter_names(const Law& law);
 
@@ -82,7 +83,18 @@ struct Model {
   std::shared_ptr<const Law> law;
   Conventions conventions;
   std::vector<double> parameters; // in the law's order
+  // One end of the band in which experiments lie (calibrate/band.h): tau_R of the law times `gain`.
+  double quantile = 0.5; // of experiments; 0.5: the law itself
+  double gain = 1;
+  // Factors between experiments and the law, ascending: what the band is made of.
+  std::vector<double> experiment_gains;
+
+  std::string name() const; // the law's; log_coulomb_q05 for its 5 % quantile
 };
+
+// The formulas above for a calibrated law.
+Expr limited_combine(const Model& model);
+Expr tau_formula(const Model& model);
 
 // A law of the registry, and one made at run time, as a model holds them.
 std::shared_ptr<const Law> registered(const Law& law);

@@ -60,6 +60,7 @@ Law untrained() {
                   "architecture: "
                   "architecture and training are ours";
   law.calibrated = Calibrated::train;
+  law.may_use = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"};
   // Before training the nets are zero and the law is Coulomb's.
   law.parameters = {{"mu0", "1", "coefficient that the nets scale", 0.08, 0, 2}};
   law.build = [](const Conventions&) { return with_coefficient(Expr::symbol("mu0")); };

@@ -60,12 +60,38 @@ void Pipeline::need_tables() {
   have_tables_ = true;
 }
 
-const Model& Pipeline::model(const std::string& name) {
+Model Pipeline::model_of(const Table& table) {
   need_calibration();
-  for (const ModelFit& fit : calibration_->fits)
-    if (fit.model.law->name == name) return fit.model;
-  throw InputError({job_.file, 0, 0}, "law '" + name + "' is not in calibration.json",
+  for (const ModelFit& fit : calibration_->fits) {
+    Model model = fit.model;
+    model.quantile = table.quantile();
+    if (model.name() == table.model)
+      return at_quantile(fit.model, table.quantile(), job_.table.place);
+  }
+  throw InputError({job_.file, 0, 0}, "law '" + table.model + "' is not in calibration.json",
                    "calibrate it, or tabulate again");
+}
+
+std::vector<std::string> Pipeline::table_names() const {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  const auto is_band_of_a_law = [&](const std::string& name) {
+    const std::size_t mark = name.rfind("_q");
+    return mark != name.npos && find_law(name.substr(0, mark)) &&
+           name.find_first_not_of("0123456789", mark + 2) == name.npos;
+  };
+  std::vector<fs::path> places{fs::path(job_.directory) / "tables"};
+  for (const Exporter& exporter : all_exporters())
+    places.push_back(fs::path(job_.directory) / "export" / exporter.name);
+  for (const fs::path& place : places) {
+    if (!fs::is_directory(place)) continue;
+    for (const auto& entry : fs::directory_iterator(place))
+      if (const std::string name = entry.path().stem().string();
+          is_band_of_a_law(name) && std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  }
+  return names;
 }
 
 std::vector<const ModelFit*> Pipeline::chosen_fits() {
@@ -106,19 +132,22 @@ void Pipeline::calibrate() {
 void Pipeline::tabulate() {
   need_data();
   need_calibration();
-  for (const Law& law : all_laws())
-    output_.remove_old("tables/" + law.name + ".h5");
+  for (const std::string& name : table_names())
+    output_.remove_old("tables/" + name + ".h5");
   tables_.clear();
-  const auto fits = chosen_fits();
-  Progress progress("tabulating", fits.size());
-  for (const ModelFit* fit : fits) {
-    const auto ranges = state_ranges(fit->model, *training_, job_.table);
-    Table table = build_table(fit->model, ranges, job_.table);
+  std::vector<Model> models;
+  for (const ModelFit* fit : chosen_fits())
+    for (const double quantile : job_.table.quantile)
+      models.push_back(at_quantile(fit->model, quantile, job_.table.place));
+  Progress progress("tabulating", models.size());
+  for (const Model& model : models) {
+    const auto ranges = state_ranges(model, *training_, job_.table);
+    Table table = build_table(model, ranges, job_.table);
     table.text_attributes["tool_version"] = FRICTAB_VERSION;
     table.text_attributes["data_hash"] = calibration_->data_hash;
     table.text_attributes["data_origin"] = calibration_->synthetic ? "synthetic" : "measured";
     // The drift a user can rely on is measured before the file is written.
-    const VerifyInput input{fit->model,
+    const VerifyInput input{model,
                             table,
                             "the new table",
                             &*validation_,
@@ -155,8 +184,8 @@ void Pipeline::remove_old_sources() {
   std::vector<std::string> directories;
   for (const Exporter& exporter : all_exporters()) {
     directories.push_back("export/" + exporter.name);
-    for (const Law& law : all_laws())
-      directories.push_back("export/" + exporter.name + "/" + law.name);
+    for (const std::string& name : table_names())
+      directories.push_back("export/" + exporter.name + "/" + name);
   }
   for (const std::string& directory : directories) {
     const fs::path recipe = fs::path(job_.directory) / directory / "recipe.json";
@@ -213,7 +242,7 @@ void Pipeline::verify() {
     }
     const std::string name = job_.directory + "/tables/" + table.model + ".h5";
     const auto records = frictab::verify(
-        {model(table.model), table, name, &*validation_, allowed, job_.verify.samples}, sources);
+        {model_of(table), table, name, &*validation_, allowed, job_.verify.samples}, sources);
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     progress.tick();
   }

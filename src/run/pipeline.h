@@ -43,10 +43,12 @@ private:
   void need_calibration();
   void need_tables();
   void remove_old_sources();
-  const Model& model(const std::string& name);
+  Model model_of(const Table& table);
   std::vector<const ModelFit*> chosen_fits();
   // "export/c" where there is one table, "export/c/<model>" where there are several.
   std::string export_directory(const std::string& target, const Table& table) const;
+  // Names that a table or its sources may have: laws, and what an earlier run left of their bands.
+  std::vector<std::string> table_names() const;
 
   Job job_;
   OutputFiles output_;

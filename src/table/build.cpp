@@ -98,8 +98,7 @@ Pieces pieces_of(const Model& model, const std::vector<StateRange>& ranges) {
   }
   const Formula formula = model.law->build(model.conventions);
   return {names, Program(formula.value, names, parameter_names(*model.law)),
-          Program(limited_combine(*model.law, model.conventions), row, parameter_names(*model.law)),
-          model.parameters};
+          Program(limited_combine(model), row, parameter_names(*model.law)), model.parameters};
 }
 
 // Largest error in MPa of linear interpolation along axis `d` alone, other states spread over their
@@ -208,7 +207,7 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
                const std::vector<Plan>& plans, const std::vector<std::size_t>& input,
                bool log_value) {
   Table table;
-  table.model = model.law->name;
+  table.model = model.name();
   table.quantity = model.law->quantity;
   table.log_value = log_value;
   for (const Plan& plan : plans)
@@ -217,7 +216,7 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
   if (log_value)
     for (double& value : table.value)
       value = std::log(value);
-  table.combine = limited_combine(*model.law, model.conventions);
+  table.combine = limited_combine(model);
   const auto used = symbols(table.combine);
   for (std::size_t p = 0; p < model.parameters.size(); ++p)
     if (used.count(model.law->parameters[p].name))
@@ -227,7 +226,9 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
     table.number_attributes["range_high_" + range.name] = range.high;
     table.text_attributes["range_from_" + range.name] = range.why;
   }
-  table.text_attributes["model"] = model.law->name;
+  table.text_attributes["model"] = model.name();
+  table.number_attributes["quantile"] = model.quantile;
+  table.number_attributes["gain"] = model.gain;
   table.text_attributes["formula"] = model.law->formula;
   table.text_attributes["shear_yield"] = model.conventions.shear_yield;
   return table;

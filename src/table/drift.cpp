@@ -12,8 +12,7 @@
 namespace frictab {
 
 LawFunction::LawFunction(const Model& model, std::vector<std::string> columns)
-    : program_(tau_formula(*model.law, model.conventions), std::move(columns),
-               parameter_names(*model.law)),
+    : program_(tau_formula(model), std::move(columns), parameter_names(*model.law)),
       parameters_(model.parameters) {}
 
 namespace {

@@ -48,6 +48,11 @@ struct Table {
 
   // States the table needs, canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;
+  // Of the experiments; 0.5 is the law itself.
+  double quantile() const {
+    const auto found = number_attributes.find("quantile");
+    return found == number_attributes.end() ? 0.5 : found->second;
+  }
   std::size_t nodes() const { return value.size(); }
   std::size_t bytes() const; // values and nodes as doubles
 };

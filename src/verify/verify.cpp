@@ -134,7 +134,7 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
                     const std::function<void(const Reference&, std::vector<double>&)>& answer) {
   DriftRecord record;
-  record.model = input.model.law->name;
+  record.model = input.model.name();
   record.subject = subject;
   for (const Reference* reference : {&s.rows, &s.range}) {
     std::vector<double> tau(reference->rows());
@@ -155,7 +155,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const std::string subject = source.exporter->name + "/" + variant.name;
   if (!have_program(variant.command.front())) {
     DriftRecord record;
-    record.model = input.model.law->name;
+    record.model = input.model.name();
     record.subject = subject;
     record.ran = false;
     record.why_not = "there is no " + variant.command.front() + " on this machine";

@@ -1,0 +1,85 @@
+// Factors between experiments and law, and the laws at their quantiles.
+#include "calibrate/band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace frictab {
+
+std::vector<double> experiment_gains(std::span<const double> measured,
+                                     std::span<const double> predicted,
+                                     std::span<const std::size_t> first_row) {
+  std::vector<double> gains;
+  for (std::size_t e = 0; e + 1 < first_row.size(); ++e) {
+    double cross = 0, square = 0;
+    for (std::size_t i = first_row[e]; i < first_row[e + 1]; ++i) {
+      cross += measured[i] * predicted[i];
+      square += predicted[i] * predicted[i];
+    }
+    gains.push_back(square > 0 ? cross / square : std::numeric_limits<double>::quiet_NaN());
+  }
+  return gains;
+}
+
+std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters) {
+  std::erase_if(gains, [](double g) { return !(g > 0) || !std::isfinite(g); });
+  std::sort(gains.begin(), gains.end());
+  if (gains.size() <= parameters) return {};
+  const double count = static_cast<double>(gains.size());
+  const double wider = std::sqrt(count / (count - static_cast<double>(parameters)));
+  const std::size_t half = gains.size() / 2;
+  const double median = gains.size() % 2 ? gains[half] : std::sqrt(gains[half - 1] * gains[half]);
+  for (double& gain : gains)
+    gain = median * std::pow(gain / median, wider);
+  return gains;
+}
+
+QuantileRange attainable_quantiles(std::size_t experiments) {
+  const double count = static_cast<double>(experiments);
+  return {1 / (count + 1), count / (count + 1)};
+}
+
+std::optional<double> gain_at(std::span<const double> gains, double quantile) {
+  constexpr double rounding = 1e-12; // 0.05 of 19 experiments is the first, not a bit below it
+  const double place = quantile * (static_cast<double>(gains.size()) + 1) - 1;
+  const double last = static_cast<double>(gains.size()) - 1;
+  if (gains.empty() || place < -rounding || place > last + rounding) return std::nullopt;
+  const double at = std::clamp(place, 0.0, last);
+  const auto i = static_cast<std::size_t>(at);
+  const double next = gains[std::min(i + 1, gains.size() - 1)];
+  return gains[i] * std::pow(next / gains[i], at - static_cast<double>(i));
+}
+
+Model at_quantile(const Model& model, double quantile, const Place& place) {
+  Model end = model;
+  end.quantile = quantile;
+  if (quantile == 0.5) return end;
+  const auto gain = gain_at(model.experiment_gains, quantile);
+  if (!gain) {
+    const std::size_t experiments = model.experiment_gains.size();
+    const QuantileRange range = attainable_quantiles(experiments);
+    throw InputError(
+        place,
+        fmt::format("{} experiments do not give the quantile {} of '{}'", experiments, quantile,
+                    model.law->name),
+        experiments == 0
+            ? "calibrate this law, fixed or not, on experiments first"
+            : fmt::format("between {:.3g} and {:.3g}, or more experiments", range.low, range.high));
+  }
+  end.gain = *gain;
+  return end;
+}
+
+BandCheck check_band(const Model& model, std::span<const double> predicted, const Dataset& data) {
+  BandCheck check{gain_at(model.experiment_gains, 0.05), gain_at(model.experiment_gains, 0.95), 0,
+                  data.experiments.size()};
+  if (!check.low || !check.high) return check;
+  for (const double gain : experiment_gains(data.values("tau_R_MPa"), predicted, data.first_row))
+    if (gain >= *check.low && gain <= *check.high) ++check.inside;
+  return check;
+}
+
+} // namespace frictab

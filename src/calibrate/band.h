@@ -1,0 +1,51 @@
+// The band in which experiments lie around a law: tests differ by a factor that no input explains
+// (lubricant, tool, batch), so that a simulation can be run at both ends.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+#include "data/dataset.h"
+#include "models/law.h"
+
+namespace frictab {
+
+// Least-squares factor of each experiment: sum(measured predicted)/sum(predicted^2). NaN where the
+// law predicts no stress at all.
+std::vector<double> experiment_gains(std::span<const double> measured,
+                                     std::span<const double> predicted,
+                                     std::span<const std::size_t> first_row);
+
+// The factors spread about their median as those of new experiments would: a fit of `parameters`
+// numbers to E experiments is nearer to them than to others, by sqrt((E - parameters)/E) in the
+// logarithm. Ascending; factors that are not positive are left out.
+std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters);
+
+// Quantiles that so many experiments can give: a new one lies below the k-th smallest of E factors
+// with probability k/(E+1), whatever their distribution (Wilks 1941).
+struct QuantileRange {
+  double low = 1;
+  double high = 0;
+};
+QuantileRange attainable_quantiles(std::size_t experiments);
+
+// The factor that a share `quantile` of new experiments stays below, linear between the order
+// statistics in the logarithm; nothing where there are too few experiments.
+std::optional<double> gain_at(std::span<const double> gains, double quantile);
+
+// The law at a quantile of the experiments; 0.5 is the law itself. Throws InputError (at `place`)
+// where there are too few experiments for it.
+Model at_quantile(const Model& model, double quantile, const Place& place);
+
+// How the 5 %..95 % band does on experiments not trained on.
+struct BandCheck {
+  std::optional<double> low; // factors; nothing where there are too few experiments
+  std::optional<double> high;
+  std::size_t inside = 0; // experiments of `data` with their own factor inside
+  std::size_t experiments = 0;
+};
+BandCheck check_band(const Model& model, std::span<const double> predicted, const Dataset& data);
+
+} // namespace frictab
