@@ -180,10 +180,6 @@ TEST(JobMessages, SayTheAllowedWords) {
 }
 
 TEST(JobMessages, SayWhatThisVersionLacks) {
-  EXPECT_EQ(with("[models]\n"
-                 "use = [\"neural_network\"]"),
-            "job.toml:4:8: error: unknown friction law 'neural_network' in models.use\n"
-            "  hint: neural_network is not part of this version; leave it out");
   EXPECT_EQ(
       with("[table]\n"
            "interpolation = \"cubic\""),
