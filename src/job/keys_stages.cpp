@@ -103,8 +103,17 @@ std::vector<KeyRule> model_keys() {
           at_least(0),
       key<std::size_t>(
           "calibration.bootstrap", [](Job & job) -> auto& { return job.calibration.bootstrap; },
-          "resamples of whole experiments for the intervals of MAE, RMSE and bias; 0 = none") |
+          "resamples of whole experiments for the intervals of MAE, RMSE and bias and for the "
+          "comparison of laws (which uses 10,000 at most); 0 = none") |
           at_least(0, 1e6),
+      key<std::optional<double>>(
+          "calibration.condition_on_mm",
+          [](Job & job) -> auto& { return job.calibration.condition_on_mm; },
+          "conditional use beside the ranking: each experiment gets one gain, from its own first "
+          "so many mm of sliding, and is judged on the rest; uses part of every test, so it is "
+          "reported apart and never ranked",
+          "unconditional laws only", "1.0") |
+          above(0),
   };
   rules[0].store = store_use;
   return rules;

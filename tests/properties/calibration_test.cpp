@@ -185,9 +185,9 @@ TEST(Metrics, AreTheErrorsOfAHandWorkedCase) {
   EXPECT_DOUBLE_EQ(m.bias_MPa, 0.5);
   EXPECT_EQ(m.n_rows, 4U);
   EXPECT_EQ(m.n_experiments, 2U);
-  // Two experiments with biases -0.5 and 1.5: no resample can leave that span.
-  EXPECT_DOUBLE_EQ(m.bias_interval.low, -0.5);
-  EXPECT_DOUBLE_EQ(m.bias_interval.high, 1.5);
+  // Two experiments with biases -0.5 and 1.5: standard error 1, one degree of freedom.
+  EXPECT_NEAR(m.bias_interval.low, 0.5 - 12.706, 1e-3);
+  EXPECT_NEAR(m.bias_interval.high, 0.5 + 12.706, 1e-3);
 }
 
 TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {
