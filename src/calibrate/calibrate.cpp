@@ -7,8 +7,11 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration.h"
+#include "calibrate/comparison.h"
+#include "calibrate/conditional.h"
 #include "calibrate/fit.h"
 #include "calibrate/metrics.h"
+#include "calibrate/noise_floor.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -261,6 +264,7 @@ Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
 Calibration calibrate(const CalibrationInput& input) {
   const Conventions conventions = conventions_of(input.models, input.training);
   Selection selection = select_laws(input, conventions);
+  check_conditional(input);
   Calibration calibration;
   calibration.left_out = std::move(selection.left_out);
   calibration.loss = input.options.loss;
@@ -278,6 +282,9 @@ Calibration calibrate(const CalibrationInput& input) {
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
+  add_comparisons(calibration, input);
+  add_noise_floors(calibration, input);
+  add_conditional(calibration, input);
   return calibration;
 }
 

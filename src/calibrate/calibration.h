@@ -5,30 +5,13 @@
 #include <vector>
 
 #include "calibrate/band.h"
+#include "calibrate/judgement.h"
 #include "calibrate/network.h"
 #include "data/dataset.h"
 #include "job/job.h"
 #include "models/law.h"
 
 namespace frictab {
-
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-
-// Errors of prediction: residual = tau_meas - tau_pred (the paper's sign). 95 % intervals by
-// resampling whole experiments.
-struct Metrics {
-  double mae_MPa = 0;
-  double rmse_MPa = 0;
-  double bias_MPa = 0; // mean residual
-  Interval mae_interval;
-  Interval rmse_interval;
-  Interval bias_interval;
-  std::size_t n_rows = 0;
-  std::size_t n_experiments = 0;
-};
 
 struct ModelFit {
   Model model;
@@ -50,8 +33,11 @@ struct Calibration {
       left_out; // "levanov: needs sigma_f_MPa" for laws the columns do not allow
   Loss loss = Loss::l2;
   std::uint64_t seed = 1;
-  bool synthetic = false; // the data say they are
-  std::string data_hash;  // 16 hex digits, training and validation
+  bool synthetic = false;               // the data say they are
+  std::string data_hash;                // 16 hex digits, training and validation
+  Comparisons comparisons;              // of all pairs, on the validation experiments
+  std::vector<NoiseFloor> noise_floors; // the most trustworthy first
+  Conditional conditional;
 };
 
 struct CalibrationInput {
@@ -64,7 +50,8 @@ struct CalibrationInput {
 // The job's conventions, with the shear limit off where the data have no flow stress.
 Conventions conventions_of(const ModelOptions& models, const Dataset& data);
 
-// Throws InputError where no law can be used, or a law asked for by name lacks columns.
+// Throws InputError where no law can be used, a law asked for by name lacks columns, or
+// options.condition_on_mm cannot be done with these data.
 Calibration calibrate(const CalibrationInput& input);
 
 // tau_R in MPa of every row. The data must have inputs(law).

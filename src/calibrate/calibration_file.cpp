@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "calibrate/judgement_json.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/json.h"
@@ -26,21 +27,6 @@ int whole_seconds_above(double seconds) {
   for (const int bound : {1, 2, 5, 10, 30, 60, 300, 3600})
     if (seconds < bound) return bound;
   return static_cast<int>(std::ceil(seconds));
-}
-
-Json interval_json(const Interval& interval) {
-  return Json::array({interval.low, interval.high});
-}
-
-Json metrics_json(const Metrics& m) {
-  return {{"mae_MPa", m.mae_MPa},
-          {"rmse_MPa", m.rmse_MPa},
-          {"bias_MPa", m.bias_MPa},
-          {"mae_95", interval_json(m.mae_interval)},
-          {"rmse_95", interval_json(m.rmse_interval)},
-          {"bias_95", interval_json(m.bias_interval)},
-          {"n_rows", m.n_rows},
-          {"n_experiments", m.n_experiments}};
 }
 
 Json conventions_json(const Conventions& c) {
@@ -161,15 +147,6 @@ double number(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-Metrics parse_metrics(const Json& j) {
-  const auto interval = [&](const char* name) {
-    return Interval{number(j.at(name).at(0)), number(j.at(name).at(1))};
-  };
-  return {number(j.at("mae_MPa")), number(j.at("rmse_MPa")), number(j.at("bias_MPa")),
-          interval("mae_95"),      interval("rmse_95"),      interval("bias_95"),
-          j.at("n_rows"),          j.at("n_experiments")};
-}
-
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
   const std::string name = j.at("name");
@@ -222,8 +199,11 @@ std::string calibration_json(const Calibration& calibration) {
                     {"synthetic_data", calibration.synthetic},
                     {"loss", loss_name(calibration.loss)},
                     {"seed", calibration.seed},
+                    {"noise_floor", noise_floors_json(calibration.noise_floors)},
                     {"models", models},
-                    {"left_out", calibration.left_out}});
+                    {"left_out", calibration.left_out},
+                    {"comparisons", comparisons_json(calibration.comparisons)},
+                    {"conditional", conditional_json(calibration.conditional)}});
 }
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
@@ -236,6 +216,9 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
     const std::string loss = j.at("loss");
     calibration.loss = loss == "L1" ? Loss::l1 : loss == "huber" ? Loss::huber : Loss::l2;
     calibration.left_out = j.at("left_out").get<std::vector<std::string>>();
+    calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));
+    calibration.comparisons = parse_comparisons(j.at("comparisons"));
+    calibration.conditional = parse_conditional(j.at("conditional"));
     for (const Json& one : j.at("models")) {
       ModelFit fit = parse_fit(one, file);
       fit.std_error_method = one.at("std_error_method");

@@ -2,74 +2,105 @@
 #include "calibrate/metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "core/random.h"
+#include <limits>
 
 namespace frictab {
 
 namespace {
 
-struct Sums {
-  double absolute = 0;
-  double square = 0;
-  double residual = 0;
-  double rows = 0;
-  void add(const Sums& other) {
-    absolute += other.absolute;
-    square += other.square;
-    residual += other.residual;
-    rows += other.rows;
-  }
+constexpr std::size_t enough_experiments = 6;
+// 97.5 % quantiles of Student's t for 1 to 4 degrees of freedom.
+constexpr std::array<double, 4> student = {12.7062, 4.3027, 3.1824, 2.7764};
+
+struct Draws {
+  std::size_t count;
+  std::uint64_t seed;
 };
 
-Interval percentile_interval(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const double x = share * static_cast<double>(values.size() - 1);
-    const auto i = static_cast<std::size_t>(x);
-    const double next = values[std::min(i + 1, values.size() - 1)];
-    return values[i] + (x - static_cast<double>(i)) * (next - values[i]);
-  };
-  return {at(0.025), at(0.975)};
+struct Estimate {
+  double value = 0;
+  Interval interval;
+};
+
+std::vector<double> column_of(std::span<const ErrorSums> sums, double ErrorSums::*member) {
+  std::vector<double> values;
+  for (const ErrorSums& one : sums)
+    values.push_back(one.*member);
+  return values;
+}
+
+// The 2.5 % and 97.5 % quantiles of (resampled - value) / resampled standard error.
+Interval studentised(std::span<const double> x, std::span<const double> n, Measure measure,
+                     double value, Draws draws) {
+  std::vector<double> t, influence(x.size()), times(x.size());
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < draws.count; ++b) {
+    resample(draws.seed, b, times);
+    const double again = ratio_of(x, n, times, measure, influence);
+    const double se = standard_error(influence, times);
+    const double step = again - value;
+    // One experiment drawn every time: no scatter, infinitely many standard errors off.
+    t.push_back(se > 1e-12 * std::abs(again) ? step / se
+                : step > 0                   ? infinite
+                : step < 0                   ? -infinite
+                                             : 0);
+  }
+  const double low = quantile_of(t, 0.025); // sorts
+  return {low, quantile_of(t, 0.975)};
+}
+
+Estimate estimate(const std::vector<double>& x, const std::vector<double>& n, Measure measure,
+                  Draws draws) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Estimate result{0, {none, none}};
+  std::vector<double> influence(x.size());
+  const std::vector<double> once(x.size(), 1.0);
+  result.value = ratio_of(x, n, once, measure, influence);
+  if (x.size() < 2 || draws.count == 0) return result;
+  const double se = standard_error(influence, once);
+  Interval t;
+  if (x.size() < enough_experiments)
+    t = {-student[x.size() - 2], student[x.size() - 2]};
+  else
+    t = studentised(x, n, measure, result.value, draws);
+  // No scatter at all leaves nothing to multiply, were t infinite.
+  result.interval = se > 0 ? Interval{result.value - t.high * se, result.value - t.low * se}
+                           : Interval{result.value, result.value};
+  return result;
+}
+
+// An error is not below 0, whatever the interval's formula says.
+Interval not_negative(Interval interval) {
+  return {std::isnan(interval.low) ? interval.low : std::max(0.0, interval.low), interval.high};
 }
 
 } // namespace
 
+Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uint64_t seed) {
+  const Draws draws{resamples, seed};
+  const auto rows = column_of(sums, &ErrorSums::rows);
+  const Estimate mae = estimate(column_of(sums, &ErrorSums::absolute), rows, Measure::mean, draws);
+  const Estimate rmse =
+      estimate(column_of(sums, &ErrorSums::square), rows, Measure::root_mean, draws);
+  const Estimate bias = estimate(column_of(sums, &ErrorSums::residual), rows, Measure::mean, draws);
+  Metrics m;
+  m.mae_MPa = mae.value;
+  m.rmse_MPa = rmse.value;
+  m.bias_MPa = bias.value;
+  m.mae_interval = not_negative(mae.interval);
+  m.rmse_interval = not_negative(rmse.interval);
+  m.bias_interval = bias.interval;
+  for (const ErrorSums& one : sums)
+    m.n_rows += static_cast<std::size_t>(one.rows);
+  m.n_experiments = sums.size();
+  return m;
+}
+
 Metrics metrics(std::span<const double> measured, std::span<const double> predicted,
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed) {
-  const std::size_t experiments = first_row.size() - 1;
-  std::vector<Sums> parts(experiments);
-  Sums all;
-  for (std::size_t e = 0; e < experiments; ++e) {
-    for (std::size_t i = first_row[e]; i < first_row[e + 1]; ++i) {
-      const double r = measured[i] - predicted[i];
-      parts[e].add({std::abs(r), r * r, r, 1});
-    }
-    all.add(parts[e]);
-  }
-  Metrics m;
-  m.n_rows = first_row.back();
-  m.n_experiments = experiments;
-  m.mae_MPa = all.absolute / all.rows;
-  m.rmse_MPa = std::sqrt(all.square / all.rows);
-  m.bias_MPa = all.residual / all.rows;
-  std::vector<double> mae, rmse, bias;
-  Random random(seed, 0x6d6574726963);
-  for (std::size_t b = 0; b < resamples; ++b) {
-    Sums sums;
-    for (std::size_t e = 0; e < experiments; ++e)
-      sums.add(parts[random.below(experiments)]);
-    mae.push_back(sums.absolute / sums.rows);
-    rmse.push_back(std::sqrt(sums.square / sums.rows));
-    bias.push_back(sums.residual / sums.rows);
-  }
-  if (resamples > 0) {
-    m.mae_interval = percentile_interval(mae);
-    m.rmse_interval = percentile_interval(rmse);
-    m.bias_interval = percentile_interval(bias);
-  }
-  return m;
+  return metrics(error_sums(measured, predicted, first_row), resamples, seed);
 }
 
 } // namespace frictab

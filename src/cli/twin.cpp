@@ -83,7 +83,7 @@ int run(Options& options, const CommonOptions& common) {
   write_part(options, twin, twin.training, "training", files);
   write_part(options, twin, twin.validation, "validation", files);
   files.write("twin.json", json);
-  files.write("job.toml", twin_job(twin, options.format == "csv" ? "csv" : "h5"));
+  files.write("job.toml", twin_job(twin, options.format == "csv" ? "csv" : "h5", options.oracle));
   if (!common.force && files.would_change())
     throw InputError({options.directory}, "holds other files of the same names",
                      "choose another directory, or overwrite them with --force");
@@ -116,7 +116,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--hide", options->twin.hide, "leave a column out of the files (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--no-bystanders", options->no_bystanders, "write canonical columns only");
-  app.add_flag("--oracle", options->oracle, "write the noise-free stress to *_oracle files too");
+  app.add_flag("--oracle", options->oracle,
+               "write the noise-free stress to *_oracle files too; job.toml names them");
   return [options, &common] { return run(*options, common); };
 }
 

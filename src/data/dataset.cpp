@@ -37,6 +37,9 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
     part.experiments.push_back(experiments[e]);
     const auto first = static_cast<long>(first_row[e]), end = static_cast<long>(first_row[e + 1]);
     part.first_row.push_back(part.first_row.back() + first_row[e + 1] - first_row[e]);
+    if (!oracle_MPa.empty())
+      part.oracle_MPa.insert(part.oracle_MPa.end(), oracle_MPa.begin() + first,
+                             oracle_MPa.begin() + end);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto& from = columns[c].values;
       part.columns[c].values.insert(part.columns[c].values.end(), from.begin() + first,

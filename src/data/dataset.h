@@ -30,6 +30,9 @@ public:
   };
   std::vector<Dropped> dropped;   // rows left out at the user's word
   std::vector<std::string> notes; // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
+  // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
+  // so that nothing can be fitted to it, and not part of the fingerprint.
+  std::vector<double> oracle_MPa;
 
   std::size_t rows() const { return first_row.back(); }
   const Column* find(std::string_view name) const;

@@ -22,6 +22,8 @@ void check_files(JobReader& reader) {
     return;
   }
   data.place = reader.place_of("data.training");
+  data.oracle_place = reader.place_of("data.oracle");
+  reader.job.calibration.place = reader.place_of("calibration.condition_on_mm");
 }
 
 void check_signs(JobReader& reader) {

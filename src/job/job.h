@@ -34,6 +34,7 @@ struct DropRule {
 struct DataOptions {
   std::vector<std::string> training;
   std::vector<std::string> validation; // empty: `holdout` of the experiments is held out
+  std::vector<std::string> oracle;     // synthetic data: files of the noise-free stress
   double holdout = 0.25;               // share of EXPERIMENTS
   char delimiter = 0;                  // 0: found from the header line (, ; tab | or blanks)
   char decimal = '.';
@@ -46,6 +47,7 @@ struct DataOptions {
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
   std::string base;                                   // directory that relative paths start from
   Place place;                                        // of [data] or of data.training
+  Place oracle_place;
 };
 
 enum class Loss { l2, l1, huber };
@@ -61,7 +63,9 @@ struct CalibrationOptions {
   Loss loss = Loss::l2;
   double huber_delta_MPa = 10; // where |residual| turns from square to linear
   std::uint64_t seed = 1;
-  std::size_t bootstrap = 1000; // resamples of experiments for intervals of MAE, RMSE, bias
+  std::size_t bootstrap = 1000;          // resamples of experiments for intervals and comparisons
+  std::optional<double> condition_on_mm; // gain per experiment from its first millimetres
+  Place place;                           // of condition_on_mm
 };
 
 struct AxisOptions {

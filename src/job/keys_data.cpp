@@ -53,6 +53,12 @@ std::vector<KeyRule> file_keys() {
           "data.validation", [](Job & job) -> auto& { return job.data.validation; },
           "file or files to validate on, never used to calibrate",
           "the share data.holdout of the experiments is held out", "\"validation.csv\""),
+      key<std::vector<std::string>>(
+          "data.oracle", [](Job & job) -> auto& { return job.data.oracle; },
+          "SYNTHETIC data only: file or files with experiment, row and tau_oracle_MPa as `frictab "
+          "twin --oracle` writes them; the noise floor is then known exactly. Never used to "
+          "calibrate",
+          "the noise floor is estimated", "\"validation_oracle.csv\""),
       key<double>(
           "data.holdout", [](Job & job) -> auto& { return job.data.holdout; },
           "share of the EXPERIMENTS that is held out where data.validation is absent") |

@@ -98,8 +98,17 @@ std::vector<KeyRule> model_keys() {
           at_least(0),
       key<std::size_t>(
           "calibration.bootstrap", [](Job & job) -> auto& { return job.calibration.bootstrap; },
-          "resamples of whole experiments for the intervals of MAE, RMSE and bias; 0 = none") |
+          "resamples of whole experiments for the intervals of MAE, RMSE and bias and for the "
+          "comparison of laws (which uses 10,000 at most); 0 = none") |
           at_least(0, 1e6),
+      key<std::optional<double>>(
+          "calibration.condition_on_mm",
+          [](Job & job) -> auto& { return job.calibration.condition_on_mm; },
+          "conditional use beside the ranking: each experiment gets one gain, from its own first "
+          "so many mm of sliding, and is judged on the rest; uses part of every test, so it is "
+          "reported apart and never ranked",
+          "unconditional laws only", "1.0") |
+          above(0),
   };
   rules[0].store = store_use;
   return rules;
@@ -119,8 +128,7 @@ std::vector<KeyRule> table_keys() {
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
           "share of experiments that stay below the table: 0.5 = the law itself, [0.05, 0.5, 0.95] "
           "= "
-          "the law and both ends of the band in which experiments lie",
-          "", "[0.05, 0.5, 0.95]") |
+          "the law and both ends of the band in which experiments lie") |
           at_least(0.001, 0.999),
       key<double>(
           "table.tolerance_MPa", [](Job & job) -> auto& { return job.table.tolerance_MPa; },

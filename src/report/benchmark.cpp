@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "report/benchmark_parts.h"
 #include "report/numbers.h"
 #include "report/published.h"
 #include "report/report.h"
@@ -11,16 +12,6 @@
 namespace frictab {
 
 namespace {
-
-// A cell must not end its column or its row, nor be read as markup.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|' || c == '\\' || c == '<' || c == '*' || c == '`') out += '\\';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out;
-}
 
 std::string parameters(const ModelFit& fit) {
   const std::vector<Parameter>& list = fit.model.law->parameters;
@@ -41,11 +32,11 @@ std::string parameters(const ModelFit& fit) {
 std::string row(const ModelFit& fit, std::size_t rank, int decimals) {
   const Metrics& v = fit.validation;
   const std::string remarks = join(fit.remarks, "; ");
-  return fmt::format("| {} | {} | {} | {} to {} | {} | {} | {} | {} | {} |\n", rank,
-                     cell(fit.model.law->name), fixed(v.mae_MPa, decimals),
-                     fixed(v.mae_interval.low, decimals), fixed(v.mae_interval.high, decimals),
-                     fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals),
-                     fixed(fit.training.mae_MPa, decimals), cell(parameters(fit)), cell(remarks));
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", rank,
+                     markdown_cell(fit.model.law->name), fixed(v.mae_MPa, decimals),
+                     interval_text(v.mae_interval, decimals), fixed(v.rmse_MPa, decimals),
+                     fixed(v.bias_MPa, decimals), fixed(fit.training.mae_MPa, decimals),
+                     markdown_cell(parameters(fit)), markdown_cell(remarks));
 }
 
 void add_published(std::string& out, const Calibration& calibration) {
@@ -80,11 +71,16 @@ std::string benchmark_md(const Calibration& calibration) {
     const int decimals = error_decimals(calibration);
     for (std::size_t i = 0; i < calibration.fits.size(); ++i)
       out += row(calibration.fits[i], i + 1, decimals);
+    out += floor_row(calibration, decimals);
   }
   if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
   for (const std::string& left : calibration.left_out)
-    out += "- " + cell(left) + "\n";
+    out += "- " + markdown_cell(left) + "\n";
+  const int decimals = error_decimals(calibration);
+  add_comparison(out, calibration, decimals);
+  add_all_errors(out, calibration, decimals);
   add_published(out, calibration);
+  add_conditional_use(out, calibration, decimals);
   return out;
 }
 

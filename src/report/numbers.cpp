@@ -41,6 +41,27 @@ std::string figures(double value, int digits) {
   return fixed(value, digits - 1 - exponent);
 }
 
+std::string interval_text(const Interval& interval, int decimals) {
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return dash;
+  return fixed(interval.low, decimals) + " to " + fixed(interval.high, decimals);
+}
+
+std::string p_text(double p_value) {
+  return p_value < 0.001 ? "< 0.001" : figures(p_value, 2);
+}
+
+std::string conditional_counts(const Conditional& c) {
+  std::string text = fmt::format("{} of {} judged.", thousands(c.n_experiments - c.n_without_rest),
+                                 count_of(c.n_experiments, "validation experiment"));
+  if (c.n_without_start > 0)
+    text += fmt::format(" {} no row in the first part: used without a gain.",
+                        c.n_without_start == 1 ? "1 has" : thousands(c.n_without_start) + " have");
+  if (c.n_without_rest > 0)
+    text += fmt::format(" {} no row beyond it.",
+                        c.n_without_rest == 1 ? "1 has" : thousands(c.n_without_rest) + " have");
+  return text;
+}
+
 int error_decimals(const Calibration& calibration) {
   if (calibration.fits.empty()) return 2;
   const double best = calibration.fits.front().validation.mae_MPa;

@@ -16,6 +16,15 @@ std::string short_figures(double value, int digits = 4);
 // `decimals` behind the point with thousands separators and a minus sign; a dash where not finite.
 std::string fixed(double value, int decimals);
 
+// "9.69 to 13.54"; a dash where there is none.
+std::string interval_text(const Interval& interval, int decimals);
+
+// "0.023", or "< 0.001".
+std::string p_text(double p_value);
+
+// How many experiments conditional use had to do without their start, or could not judge.
+std::string conditional_counts(const Conditional& conditional);
+
 // Decimals that show three digits of the best law's error, so that a column lines up.
 int error_decimals(const Calibration& calibration);
 

@@ -9,10 +9,11 @@ namespace frictab {
 
 // The paper's abstract; it does not say which of its constants 51.38 belongs to.
 std::span<const PublishedFigure> published_figures() {
-  static const std::array<PublishedFigure, 4> figures = {{{"standard constants", "24 to 95"},
-                                                          {"of these, a Coulomb constant", "51.38"},
-                                                          {"calibrated constants", "12 to 15"},
-                                                          {"neural network", "9.35"}}};
+  static const std::array<PublishedFigure, 4> figures = {
+      {{"standard constants", "24 to 95"},
+       {"of these, the Coulomb constant of the abstract", "51.38"},
+       {"calibrated constants", "12 to 15"},
+       {"neural network", "9.35"}}};
   return figures;
 }
 

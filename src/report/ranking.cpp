@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/noise_floor.h"
 #include "core/text.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
@@ -92,6 +93,26 @@ std::string parameters(const ModelFit& fit) {
   return text;
 }
 
+// The noise floor below the laws, on the same scale.
+TemplateValues floor_row(const Calibration& calibration, const svg::Axis& axis) {
+  const NoiseFloor& floor = calibration.noise_floors.front();
+  const int decimals = error_decimals(calibration);
+  const svg::Bar bar{floor.mae_MPa,
+                     floor.mae_interval.low,
+                     floor.mae_interval.high,
+                     calibration.fits.front().validation.mae_MPa,
+                     "#d6d0b8",
+                     "noise floor: " + figures(floor.mae_MPa) + " MPa"};
+  return {{{"name", noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +
+                        (floor.part == "training" ? ", training data" : "")},
+           {"mae", (floor.lower_bound ? "&gt; " : "") + fixed(floor.mae_MPa, decimals)},
+           {"interval", interval_text(floor.mae_interval, decimals)},
+           {"rmse", fixed(floor.rmse_MPa, decimals)},
+           {"bar", svg::bar(bar, axis, bar_width, bar_height)}},
+          {},
+          {}};
+}
+
 TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
   const Metrics& v = fit.validation;
   TemplateValues row;
@@ -102,8 +123,7 @@ TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
               {"formula", svg::escape(fit.model.law->formula)},
               {"kind", kind_text(*fit.model.law)},
               {"mae", fixed(v.mae_MPa, decimals)},
-              {"interval",
-               fixed(v.mae_interval.low, decimals) + " to " + fixed(v.mae_interval.high, decimals)},
+              {"interval", interval_text(v.mae_interval, decimals)},
               {"rmse", fixed(v.rmse_MPa, decimals)},
               {"bias", fixed(v.bias_MPa, decimals)},
               {"training_mae", fixed(fit.training.mae_MPa, decimals)},
@@ -152,6 +172,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   const Calibration& calibration = input.calibration;
   const bool has_laws = !calibration.fits.empty();
   std::vector<TemplateValues>& laws = page.lists["laws"];
+  page.lists["floor_rows"] = {};
   page.flags["has_laws"] = has_laws;
   page.text["made_by"] = made_by(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
@@ -161,6 +182,8 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
     page.text["validation_size"] =
         count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
     page.text["bar_scale"] = svg::bar_scale(axis, bar_width, bar_height);
+    if (!calibration.noise_floors.empty())
+      page.lists["floor_rows"].push_back(floor_row(calibration, axis));
     for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
       laws.push_back(law_row(calibration.fits[i], i + 1, error_decimals(calibration)));
       laws.back().text["bar"] = bar_of(calibration.fits[i], v.mae_MPa, axis);

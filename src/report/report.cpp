@@ -27,6 +27,9 @@ std::string report_html(const ReportInput& input) {
   page.text["verdict"] = verdict(input);
   add_drift_summary(page, input);
   add_ranking(page, input);
+  add_comparisons(page, input);
+  add_errors(page, input);
+  add_conditional(page, input);
   add_published_figures(page, input);
   add_data(page, input);
   add_tables(page, input);

@@ -13,6 +13,9 @@ std::string verdict(const ReportInput& input);
 
 void add_drift_summary(TemplateValues& page, const ReportInput& input);
 void add_ranking(TemplateValues& page, const ReportInput& input); // with the plots
+void add_comparisons(TemplateValues& page, const ReportInput& input);
+void add_errors(TemplateValues& page, const ReportInput& input); // with the noise floors
+void add_conditional(TemplateValues& page, const ReportInput& input);
 void add_published_figures(TemplateValues& page, const ReportInput& input);
 void add_data(TemplateValues& page, const ReportInput& input);
 void add_tables(TemplateValues& page, const ReportInput& input);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/comparison.h"
+#include "calibrate/noise_floor.h"
 #include "core/text.h"
 #include "report/numbers.h"
 #include "report/published.h"
@@ -30,18 +32,18 @@ std::string best_sentence(const Calibration& calibration) {
                      figures(v.mae_MPa), figures(v.mae_interval.low), figures(v.mae_interval.high));
 }
 
-// Laws that the best one's interval does not tell apart from it.
-std::string runners_up(const Calibration& calibration) {
-  std::vector<std::string> names;
-  for (std::size_t i = 1; i < calibration.fits.size(); ++i)
-    if (calibration.fits[i].validation.mae_MPa <=
-        calibration.fits.front().validation.mae_interval.high)
-      names.push_back(svg::escape(calibration.fits[i].model.law->name));
-  if (names.empty()) return "";
-  const bool one = names.size() == 1;
-  return fmt::format(
-      " {} {} within that interval, too: these experiments do not rank {} for certain.",
-      join(names, ", "), one ? "lies" : "lie", one ? "the two" : "them");
+std::string comparison_sentences(const Calibration& calibration) {
+  const Comparisons& c = calibration.comparisons;
+  if (c.laws.size() < 2) return "";
+  return fmt::format(" Pair by pair, {}; {}.", svg::escape(pairwise_sentence(c)),
+                     svg::escape(family_sentence(c)));
+}
+
+std::string floor_sentence(const Calibration& calibration) {
+  const std::string advice = noise_floor_advice(calibration);
+  std::string text = noise_floor_sentence(calibration, error_decimals(calibration));
+  text.front() = 'N';
+  return " " + text + (advice.empty() ? "." : "; " + advice + ".");
 }
 
 std::string literature_sentence(const Calibration& calibration) {
@@ -96,7 +98,8 @@ std::string group_sentence(const Group& group, const std::string& noun) {
 std::string verdict(const ReportInput& input) {
   const Calibration& calibration = input.calibration;
   if (calibration.fits.empty()) return "No law was calibrated.";
-  return best_sentence(calibration) + runners_up(calibration) + literature_sentence(calibration);
+  return best_sentence(calibration) + comparison_sentences(calibration) +
+         floor_sentence(calibration) + literature_sentence(calibration);
 }
 
 void add_drift_summary(TemplateValues& page, const ReportInput& input) {

@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "data/load.h"
+#include "data/oracle.h"
 #include "report/report.h"
 #include "table/build.h"
 #include "table/table_file.h"
@@ -23,16 +24,31 @@ namespace fs = std::filesystem;
 
 Pipeline::Pipeline(Job job) : job_(std::move(job)), output_(job_.directory) {}
 
+namespace {
+
+void add_oracle(const DataOptions& options, Dataset& training, Dataset& validation) {
+  if (options.oracle.empty()) return;
+  if (!is_synthetic(training))
+    throw InputError(options.oracle_place,
+                     "data.oracle is for synthetic data: measured data have no known truth",
+                     "synthetic data say so in a column `origin`; for measured data, repeated "
+                     "tests give the noise floor");
+  read_oracle(options, training, validation);
+}
+
+} // namespace
+
 void Pipeline::need_data() {
   if (training_) return;
   training_ = load_dataset(job_.data.training, job_.data);
   if (!job_.data.validation.empty()) {
     validation_ = load_dataset(job_.data.validation, job_.data);
-    return;
+  } else {
+    Split split = hold_out(*training_, job_.data.holdout, job_.calibration.seed);
+    training_ = std::move(split.training);
+    validation_ = std::move(split.validation);
   }
-  Split split = hold_out(*training_, job_.data.holdout, job_.calibration.seed);
-  training_ = std::move(split.training);
-  validation_ = std::move(split.validation);
+  add_oracle(job_.data, *training_, *validation_);
 }
 
 void Pipeline::need_calibration() {

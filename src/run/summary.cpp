@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/comparison.h"
+#include "calibrate/noise_floor.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "run/pipeline.h"
@@ -55,6 +57,46 @@ void add_left_out(std::string& out, const Calibration& calibration) {
     out += fmt::format("  left out, for want of {}: {}\n", reason, list);
 }
 
+std::string interval_text(const Interval& interval, int decimals) {
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "-";
+  return fmt::format("{:.{}f} .. {:.{}f}", interval.low, decimals, interval.high, decimals);
+}
+
+void add_floor(std::string& out, const Calibration& calibration, int decimals) {
+  if (!calibration.noise_floors.empty()) {
+    const NoiseFloor& f = calibration.noise_floors.front();
+    out += fmt::format("  {:<14}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor",
+                       (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
+                       interval_text(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
+                       noise_floor_name(f), f.part == "training" ? ", training data" : "");
+  }
+  const std::string advice = noise_floor_advice(calibration);
+  if (!advice.empty()) out += fmt::format("  the noise floor is not known: {}\n", advice);
+}
+
+void add_comparison(std::string& out, const Comparisons& comparisons) {
+  if (comparisons.laws.size() < 2) return;
+  out += fmt::format("  {}\n  {}\n", pairwise_sentence(comparisons), family_sentence(comparisons));
+}
+
+// The three best; all are in benchmark.md.
+void add_conditional(std::string& out, const Conditional& c) {
+  if (c.laws.empty()) return;
+  out +=
+      fmt::format("\nConditional use, NOT ranked above: a gain per experiment from its own first "
+                  "{:g} mm\n(MAE of the rest, MPa):\n  {:<14}{:>8}{:>14}   {}\n",
+                  c.condition_on_mm, "law", "MAE", "without gain", "gained, 95 % interval");
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i) {
+    const ConditionalFit& fit = c.laws[i];
+    out += fmt::format("  {:<14}{:>8.2f}{:>14.2f}   {:.2f}, {}\n", fit.law, fit.conditional.mae_MPa,
+                       fit.unconditional.mae_MPa, fit.gain.value_MPa,
+                       interval_text(fit.gain.interval, 2));
+  }
+  if (c.n_without_start > 0)
+    out += fmt::format("  {} of {} experiments have no row in the first {:g} mm: without a gain\n",
+                       c.n_without_start, c.n_experiments, c.condition_on_mm);
+}
+
 void add_ranking(std::string& out, const Calibration& calibration) {
   const int decimals = error_decimals(calibration);
   out += "\nLaws by mean absolute error on experiments not trained on (tau_R, MPa):\n";
@@ -62,12 +104,13 @@ void add_ranking(std::string& out, const Calibration& calibration) {
                      "RMSE", "bias", "train MAE", "parameters");
   for (const ModelFit& fit : calibration.fits) {
     const Metrics& v = fit.validation;
-    const std::string interval = fmt::format("{:.{}f} .. {:.{}f}", v.mae_interval.low, decimals,
-                                             v.mae_interval.high, decimals);
+    const std::string interval = interval_text(v.mae_interval, decimals);
     out += fmt::format("  {:<14}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
                        fit.model.law->name, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
                        v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));
   }
+  add_floor(out, calibration, decimals);
+  add_comparison(out, calibration.comparisons);
   for (const ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);
@@ -158,7 +201,10 @@ std::string file_list(const std::vector<std::string>& files) {
 std::string summary_text(const Pipeline& p) {
   std::string out;
   add_data(out, p);
-  if (p.calibration()) add_ranking(out, *p.calibration());
+  if (p.calibration()) {
+    add_ranking(out, *p.calibration());
+    add_conditional(out, p.calibration()->conditional);
+  }
   add_tables(out, p);
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
   const auto files = p.files();

@@ -130,10 +130,16 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
   return json_text(json);
 }
 
-std::string twin_job(const Twin& twin, const std::string& extension) {
+std::string twin_job(const Twin& twin, const std::string& extension, bool oracle) {
+  const bool held_out = twin.validation.data.rows() > 0;
   std::string text = "# Runs on " + twin_origin(twin.options) + ": nothing here is measured.\n";
   text += "[data]\ntraining = \"training." + extension + "\"\n";
-  if (twin.validation.data.rows() > 0) text += "validation = \"validation." + extension + "\"\n";
+  if (held_out) text += "validation = \"validation." + extension + "\"\n";
+  if (oracle) {
+    text += "oracle = [\"training_oracle." + extension + "\"";
+    if (held_out) text += ", \"validation_oracle." + extension + "\"";
+    text += "] # the noise-free stress, for the noise floor only\n";
+  }
   text += fmt::format("\n[calibration]\nseed = {}\n\n[output]\ndirectory = \"out\"\n",
                       twin.options.seed);
   return text;

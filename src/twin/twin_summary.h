@@ -36,8 +36,9 @@ TwinSummary summarise(const Twin& twin);
 // The content of twin.json: all settings, "synthetic": true, effects, errors.
 std::string twin_json(const Twin& twin, const TwinSummary& summary);
 
-// A job file that runs on the campaign; `extension` "csv" or "h5".
-std::string twin_job(const Twin& twin, const std::string& extension);
+// A job file that runs on the campaign; `extension` "csv" or "h5"; `oracle`: the noise-free stress
+// lies in *_oracle files beside it, and the job names them.
+std::string twin_job(const Twin& twin, const std::string& extension, bool oracle);
 
 // About ten lines for people; `directory` as the user named it.
 std::string twin_text(const Twin& twin, const TwinSummary& summary, const std::string& directory);

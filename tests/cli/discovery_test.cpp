@@ -79,8 +79,8 @@ TEST(ListCommand, NamesEveryLawEffectAndTarget) {
 
 TEST(ListCommand, AlignsNamesAndTitles) {
   const CommandResult result = run_frictab({"list", "models"});
-  EXPECT_THAT(result.out, HasSubstr("\ncoulomb       Coulomb friction\n"));
-  EXPECT_THAT(result.out, HasSubstr("\nlog_coulomb   extended Coulomb, logarithmic\n"));
+  EXPECT_THAT(result.out, HasSubstr("\ncoulomb         Coulomb friction\n"));
+  EXPECT_THAT(result.out, HasSubstr("\nlog_coulomb     extended Coulomb, logarithmic\n"));
 }
 
 TEST(ListCommand, NamesTheListsForAnUnknownOne) {

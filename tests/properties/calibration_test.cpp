@@ -146,7 +146,7 @@ TEST(Calibration, LeavesOutLawsWhoseColumnsAreMissingAndSaysSo) {
   Dataset data = test::sample_data(test::plausible_model(*find_law("coulomb")));
   std::erase_if(data.columns, [](const Column& c) { return c.name == "sigma_f_MPa"; });
   const Calibration calibration = calibrate({data, data, {}, {}});
-  EXPECT_EQ(calibration.fits.size(), 7U);
+  EXPECT_EQ(calibration.fits.size(), 8U);
   EXPECT_EQ(calibration.left_out.front(), "shear_0.12: needs sigma_f_MPa");
   CalibrationInput asked{data, data, {}, {}};
   asked.models.use = {"coulomb", "shaw"};
@@ -185,9 +185,9 @@ TEST(Metrics, AreTheErrorsOfAHandWorkedCase) {
   EXPECT_DOUBLE_EQ(m.bias_MPa, 0.5);
   EXPECT_EQ(m.n_rows, 4U);
   EXPECT_EQ(m.n_experiments, 2U);
-  // Two experiments with biases -0.5 and 1.5: no resample can leave that span.
-  EXPECT_DOUBLE_EQ(m.bias_interval.low, -0.5);
-  EXPECT_DOUBLE_EQ(m.bias_interval.high, 1.5);
+  // Two experiments with biases -0.5 and 1.5: standard error 1, one degree of freedom.
+  EXPECT_NEAR(m.bias_interval.low, 0.5 - 12.706, 1e-3);
+  EXPECT_NEAR(m.bias_interval.high, 0.5 + 12.706, 1e-3);
 }
 
 TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {

@@ -45,8 +45,8 @@ TEST(JobMessages, NameTheNearestKnownKey) {
             "  hint: did you mean 'column'?");
   EXPECT_EQ(with("zzzzzzzz = 1"),
             "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
-            "  hint: known: drop, columns, constants, training, validation, holdout, delimiter, "
-            "decimal, skip_rows, skip_footer, units_row, bystanders");
+            "  hint: known: drop, columns, constants, training, validation, oracle, holdout, "
+            "delimiter, decimal, skip_rows, skip_footer, units_row, bystanders");
 }
 
 TEST(JobMessages, SayWhatTypeIsWanted) {

@@ -107,6 +107,7 @@ TEST(Job, AcceptsEveryKeyOfTheContract) {
 TEST(Job, ReadsEveryFurtherKey) {
   const Job job = parse_job(R"([data]
 training = ["a.csv", "b.h5"]
+oracle = "truth.csv"
 holdout = 0.2
 delimiter = "tab"
 decimal = ","
@@ -128,6 +129,7 @@ shear_limit = false
 loss = "HUBER"
 huber_delta_MPa = 5
 bootstrap = 0
+condition_on_mm = 1.5
 [table]
 model = ["shaw", "coulomb"]
 [export]
@@ -144,6 +146,8 @@ repeatability = 0.03
 )",
                             "job.toml");
   EXPECT_THAT(job.data.training, ElementsAre("a.csv", "b.h5"));
+  EXPECT_THAT(job.data.oracle, ElementsAre("truth.csv"));
+  EXPECT_EQ(job.data.oracle_place.line, 3u);
   EXPECT_EQ(job.data.holdout, 0.2);
   EXPECT_EQ(job.data.delimiter, '\t');
   EXPECT_EQ(job.data.decimal, ',');
@@ -163,6 +167,7 @@ repeatability = 0.03
   EXPECT_EQ(job.calibration.loss, Loss::huber);
   EXPECT_EQ(job.calibration.huber_delta_MPa, 5.0);
   EXPECT_EQ(job.calibration.bootstrap, 0u);
+  EXPECT_EQ(job.calibration.condition_on_mm, 1.5);
   EXPECT_THAT(job.table.model, ElementsAre("shaw", "coulomb"));
   EXPECT_THAT(job.exports.targets, ElementsAre("all"));
   EXPECT_EQ(job.exports.units, "m-kg-s");

@@ -1,0 +1,227 @@
+// Paired comparison of laws: studentised differences in shared resamples of experiments.
+#include "calibrate/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "calibrate/calibration.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t most_resamples = 10'000;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// One measure of error of all laws in one resample.
+struct Estimates {
+  std::vector<double> value;     // per law
+  std::vector<double> influence; // law-major, one entry per experiment
+};
+
+struct Problem {
+  std::vector<std::vector<double>> x; // per law, one entry per experiment
+  std::vector<double> rows;
+  Measure measure;
+
+  std::size_t laws() const { return x.size(); }
+  std::size_t experiments() const { return rows.size(); }
+
+  Estimates at(std::span<const double> times) const {
+    Estimates all{std::vector<double>(laws()), std::vector<double>(laws() * experiments())};
+    for (std::size_t l = 0; l < laws(); ++l)
+      all.value[l] = ratio_of(x[l], rows, times, measure,
+                              {all.influence.data() + l * experiments(), experiments()});
+    return all;
+  }
+
+  // Standard error of the difference between laws i and j.
+  double error_of(const Estimates& all, std::size_t i, std::size_t j,
+                  std::span<const double> times) const {
+    std::vector<double> difference(experiments());
+    for (std::size_t e = 0; e < experiments(); ++e)
+      difference[e] = all.influence[j * experiments() + e] - all.influence[i * experiments() + e];
+    return standard_error(difference, times);
+  }
+};
+
+Problem problem_of(std::span<const LawErrors> laws, Measure measure) {
+  Problem problem{{}, {}, measure};
+  for (const ErrorSums& one : laws.front().sums)
+    problem.rows.push_back(one.rows);
+  for (const LawErrors& law : laws) {
+    problem.x.emplace_back();
+    for (const ErrorSums& one : law.sums)
+      problem.x.back().push_back(measure == Measure::mean ? one.absolute : one.square);
+  }
+  return problem;
+}
+
+// A difference in standard errors. Rounding of equal numbers is no difference; a difference without
+// scatter is infinitely clear.
+double studentised(double difference, double error, double scale) {
+  const double rounding = 1e-12 * scale;
+  if (std::abs(difference) <= rounding) return 0;
+  return error > rounding ? difference / error : std::copysign(infinite, difference);
+}
+
+std::size_t pair_index(std::size_t i, std::size_t j, std::size_t laws) { // i < j
+  return i * laws - i * (i + 1) / 2 + (j - i - 1);
+}
+
+// What the data say, and t of every pair (law j minus law i) in every resample, centred.
+struct Studentised {
+  std::vector<double> difference, error, t; // per pair
+  std::vector<std::vector<double>> again;   // per pair, one entry per resample
+};
+
+void fill_pairs(const Problem& p, const Estimates& now, const Estimates& all,
+                std::span<const double> times, Studentised& s, std::size_t b) {
+  for (std::size_t i = 0, pair = 0; i < p.laws(); ++i)
+    for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
+      s.again[pair][b] =
+          studentised(all.value[j] - all.value[i] - s.difference[pair],
+                      p.error_of(all, i, j, times), std::abs(now.value[i]) + now.value[j]);
+}
+
+Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t seed) {
+  const std::vector<double> once(p.experiments(), 1.0);
+  const Estimates now = p.at(once);
+  Studentised s;
+  for (std::size_t i = 0; i < p.laws(); ++i)
+    for (std::size_t j = i + 1; j < p.laws(); ++j) {
+      s.difference.push_back(now.value[j] - now.value[i]);
+      s.error.push_back(p.error_of(now, i, j, once));
+      s.t.push_back(
+          studentised(s.difference.back(), s.error.back(), std::abs(now.value[i]) + now.value[j]));
+    }
+  s.again.assign(s.t.size(), std::vector<double>(resamples));
+  parallel_for(resamples, [&](std::size_t b) {
+    std::vector<double> times(p.experiments());
+    resample(seed, b, times);
+    fill_pairs(p, now, p.at(times), times, s, b);
+  });
+  return s;
+}
+
+double share_beyond(std::size_t beyond, std::size_t resamples) {
+  return (static_cast<double>(beyond) + 1) / (static_cast<double>(resamples) + 1);
+}
+
+// The value that fewer than 5 % of all values, and the one tested, exceed: an interval made with it
+// leaves 0 out exactly where p < 0.05.
+double critical(std::vector<double> size) {
+  const double place = std::ceil(0.95 * (static_cast<double>(size.size()) + 1));
+  if (place > static_cast<double>(size.size())) return infinite;
+  const auto at = size.begin() + static_cast<long>(place) - 1;
+  std::nth_element(size.begin(), at, size.end());
+  return *at;
+}
+
+Difference difference_of(const Studentised& s, std::size_t pair) {
+  std::vector<double> size;
+  for (const double t : s.again[pair])
+    size.push_back(std::abs(t));
+  const double now = std::abs(s.t[pair]);
+  const auto beyond = std::count_if(size.begin(), size.end(), [&](double t) { return t >= now; });
+  Difference d;
+  d.value_MPa = s.difference[pair];
+  d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
+  const bool equal = s.t[pair] == 0 && s.error[pair] == 0;
+  const double half = equal ? 0 : critical(std::move(size)) * s.error[pair];
+  d.interval = {d.value_MPa - half, d.value_MPa + half};
+  return d;
+}
+
+// "No law is better than law i", by the largest studentised lead of another law over it.
+double best_p_value(const Studentised& s, std::size_t i, std::size_t laws) {
+  const auto lead = [&](auto t_of_pair) {
+    double most = 0;
+    for (std::size_t j = 0; j < laws; ++j) {
+      if (j == i) continue;
+      const double t = t_of_pair(pair_index(std::min(i, j), std::max(i, j), laws));
+      most = std::max(most, i < j ? -t : t); // t is of the later law minus the earlier one
+    }
+    return most;
+  };
+  const std::size_t resamples = s.again.empty() ? 0 : s.again.front().size();
+  const double now = lead([&](std::size_t pair) { return s.t[pair]; });
+  std::size_t beyond = 0;
+  for (std::size_t b = 0; b < resamples; ++b)
+    if (lead([&](std::size_t pair) { return s.again[pair][b]; }) >= now) ++beyond;
+  return share_beyond(beyond, resamples);
+}
+
+std::string all_but(const Comparisons& c, const std::vector<std::string>& others,
+                    const std::string& note) {
+  if (others.size() + 1 == c.laws.size() && !others.empty())
+    return fmt::format("{} is not distinguishable from any other law ({})", c.laws.front(), note);
+  return fmt::format("{} is better than all {} ({})", c.laws.front(),
+                     others.empty() ? "others" : "but " + join(others, ", "), note);
+}
+
+} // namespace
+
+Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed) {
+  Comparisons result;
+  if (laws.empty() || laws.front().sums.size() < 2 || resamples == 0) return result;
+  result.n_experiments = laws.front().sums.size();
+  result.resamples = std::min(resamples, most_resamples);
+  const auto mae = studentise(problem_of(laws, Measure::mean), result.resamples, seed);
+  const auto rmse = studentise(problem_of(laws, Measure::root_mean), result.resamples, seed);
+  for (std::size_t i = 0, pair = 0; i < laws.size(); ++i) {
+    result.laws.push_back(laws[i].law);
+    result.best_p_values.push_back(best_p_value(mae, i, laws.size()));
+    for (std::size_t j = i + 1; j < laws.size(); ++j, ++pair)
+      result.pairs.push_back(
+          {laws[i].law, laws[j].law, difference_of(mae, pair), difference_of(rmse, pair)});
+  }
+  return result;
+}
+
+std::vector<std::string> possibly_best(const Comparisons& comparisons) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < comparisons.laws.size(); ++i)
+    if (comparisons.best_p_values[i] >= 0.05) names.push_back(comparisons.laws[i]);
+  return names;
+}
+
+std::vector<std::string> as_good_as_first(const Comparisons& comparisons) {
+  std::vector<std::string> names;
+  for (const Comparison& pair : comparisons.pairs)
+    if (pair.law == comparisons.laws.front() && !pair.mae.distinguishable())
+      names.push_back(pair.other);
+  return names;
+}
+
+std::string pairwise_sentence(const Comparisons& comparisons) {
+  if (comparisons.laws.size() < 2) return "";
+  return all_but(comparisons, as_good_as_first(comparisons), "95 % per pair, paired by experiment");
+}
+
+std::string family_sentence(const Comparisons& comparisons) {
+  if (comparisons.laws.size() < 2) return "";
+  const std::vector<std::string> names = possibly_best(comparisons);
+  const std::string note = fmt::format("95 % for all {} laws together", comparisons.laws.size());
+  if (names.size() == 1) return fmt::format("{} is the best of them ({})", names.front(), note);
+  if (names.size() == comparisons.laws.size()) return "any of them may be the best (" + note + ")";
+  return fmt::format("the best of them is one of {} ({})", join(names, ", "), note);
+}
+
+void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
+  std::vector<LawErrors> laws(calibration.fits.size());
+  const Dataset& data = input.validation;
+  parallel_for(laws.size(), [&](std::size_t i) {
+    const Model& model = calibration.fits[i].model;
+    laws[i] = {model.law->name,
+               error_sums(data.values("tau_R_MPa"), predict(model, data), data.first_row)};
+  });
+  calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
+}
+
+} // namespace frictab

@@ -1,0 +1,42 @@
+// Is law A better than law B on these validation experiments? Paired by experiment.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calibrate/judgement.h"
+#include "calibrate/resampling.h"
+
+namespace frictab {
+
+struct Calibration;
+struct CalibrationInput;
+
+// Sums per validation experiment of one law.
+struct LawErrors {
+  std::string law;
+  std::vector<ErrorSums> sums;
+};
+
+// All pairs of laws, in the order given. Per pair: symmetric bootstrap-t over whole experiments,
+// both laws on the same resamples; interval and p-value are of that one pair. For the best:
+// best_p_values[i] tests "no law has a smaller MAE than law i" by the largest of its studentised
+// differences to all others, against that maximum in the resamples (max-T, as in Hsu's multiple
+// comparisons with the best, 1984). The laws with p >= 0.05 hold the true best with 95 %, although
+// the data chose which one leads. Fewer than 2 experiments or resamples = 0: nothing is compared.
+Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed);
+
+// Laws that may be the best, by rank: best_p_values >= 0.05.
+std::vector<std::string> possibly_best(const Comparisons& comparisons);
+// Laws that the first one is not distinguishable from, pair by pair.
+std::vector<std::string> as_good_as_first(const Comparisons& comparisons);
+// One sentence each of the two, without a full stop at the end; empty where nothing was compared.
+std::string pairwise_sentence(const Comparisons& comparisons);
+std::string family_sentence(const Comparisons& comparisons);
+
+// Fills calibration.comparisons for its ranked laws on the validation experiments.
+void add_comparisons(Calibration& calibration, const CalibrationInput& input);
+
+} // namespace frictab

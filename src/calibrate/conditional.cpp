@@ -1,0 +1,234 @@
+// A gain per experiment, how far it is to be believed, and the errors it leaves.
+#include "calibrate/conditional.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "calibrate/comparison.h"
+#include "calibrate/metrics.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace frictab {
+
+namespace {
+
+using Rows = std::span<const double>;
+
+struct Range {
+  std::size_t first, count;
+  Rows of(Rows column) const { return column.subspan(first, count); }
+};
+
+Range range_of(const Dataset& data, std::size_t e) {
+  return {data.first_row[e], data.first_row[e + 1] - data.first_row[e]};
+}
+
+// sum measured predicted / sum predicted^2 over the rows on one side of x; 0 where there is none.
+double gain_of(Rows s, Rows measured, Rows predicted, double x_mm, bool beyond) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if ((s[i] > x_mm) == beyond) {
+      product += measured[i] * predicted[i];
+      square += predicted[i] * predicted[i];
+    }
+  return square > 0 ? product / square : 0;
+}
+
+// The rows beyond x of every experiment that has some.
+struct Rest {
+  std::vector<double> measured, plain, gained;
+  std::vector<std::size_t> first_row{0};
+};
+
+Rest rest_of(const Dataset& data, Rows plain, Rows gained, double x_mm) {
+  const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
+  Rest rest;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      if (!(s[i] > x_mm)) continue;
+      rest.measured.push_back(tau[i]);
+      rest.plain.push_back(plain[i]);
+      rest.gained.push_back(gained[i]);
+    }
+    if (rest.measured.size() > rest.first_row.back())
+      rest.first_row.push_back(rest.measured.size());
+  }
+  return rest;
+}
+
+std::vector<double> shear_limit(const Model& model, const Dataset& data) {
+  std::vector<double> limit;
+  if (!model.conventions.shear_limit) return limit;
+  for (const double sigma_f : data.values("sigma_f_MPa"))
+    limit.push_back(model.conventions.k_over_sigma_f * sigma_f);
+  return limit;
+}
+
+ConditionalFit fit_of(const Model& model, const CalibrationInput& input, double x_mm) {
+  const GainPrior prior = gain_prior(input.training, predict(model, input.training), x_mm);
+  const Dataset& data = input.validation;
+  const std::vector<double> plain = predict(model, data);
+  const Rest rest =
+      rest_of(data, plain, conditioned(data, plain, shear_limit(model, data), prior, x_mm), x_mm);
+  const std::vector<LawErrors> both = {
+      {"conditional", error_sums(rest.measured, rest.gained, rest.first_row)},
+      {"unconditional", error_sums(rest.measured, rest.plain, rest.first_row)}};
+  const auto [resamples, seed] = std::pair{input.options.bootstrap, input.options.seed};
+  ConditionalFit fit;
+  fit.law = model.law->name;
+  fit.usual_first = prior.usual_first;
+  fit.usual_rest = prior.usual_rest;
+  fit.between_sd = std::sqrt(prior.between);
+  fit.error_sd = std::sqrt(prior.error);
+  fit.trust = prior.trust(static_cast<std::size_t>(prior.usual_rows));
+  fit.conditional = metrics(both[0].sums, resamples, seed);
+  fit.unconditional = metrics(both[1].sums, resamples, seed);
+  const Comparisons comparison = compare(both, resamples, seed);
+  if (!comparison.pairs.empty())
+    fit.gain = comparison.pairs.front().mae;
+  else
+    fit.gain.value_MPa = fit.unconditional.mae_MPa - fit.conditional.mae_MPa;
+  return fit;
+}
+
+double longest(const Dataset& data) {
+  const Rows s = data.values("s_mm");
+  return s.empty() ? 0 : *std::max_element(s.begin(), s.end());
+}
+
+bool has_both_parts(const Dataset& data, std::size_t e, double x_mm) {
+  const Rows s = range_of(data, e).of(data.values("s_mm"));
+  const auto [low, high] = std::minmax_element(s.begin(), s.end());
+  return *low <= x_mm && *high > x_mm;
+}
+
+} // namespace
+
+double GainPrior::trust(std::size_t rows) const {
+  if (rows == 0 || !(between > 0)) return 0;
+  return between / (between + error * std::max(1.0, usual_rows / static_cast<double>(rows)));
+}
+
+double GainPrior::gain(const FirstPart& first) const {
+  return std::max(0.0, usual_rest + trust(first.rows) * (first.gain - usual_first));
+}
+
+FirstPart first_part(Rows s_mm, Rows measured, Rows predicted, double x_mm) {
+  FirstPart part;
+  part.rows = static_cast<std::size_t>(
+      std::count_if(s_mm.begin(), s_mm.end(), [&](double s) { return s <= x_mm; }));
+  const double gain = gain_of(s_mm, measured, predicted, x_mm, false);
+  if (gain > 0) part.gain = gain;
+  return part;
+}
+
+GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
+  const Rows s = training.values("s_mm"), tau = training.values("tau_R_MPa");
+  GainPrior prior;
+  std::vector<double> rows, firsts, rests;
+  for (std::size_t e = 0; e < training.experiments.size(); ++e) {
+    const Range r = range_of(training, e);
+    const double rest = gain_of(r.of(s), r.of(tau), r.of(predicted), x_mm, true);
+    const FirstPart first = first_part(r.of(s), r.of(tau), r.of(predicted), x_mm);
+    if (first.rows == 0 || rest == 0) continue;
+    firsts.push_back(first.gain);
+    rests.push_back(rest);
+    rows.push_back(static_cast<double>(first.rows));
+  }
+  if (rows.empty()) return prior;
+  const double n = static_cast<double>(rows.size());
+  prior.usual_first = std::accumulate(firsts.begin(), firsts.end(), 0.0) / n;
+  prior.usual_rest = std::accumulate(rests.begin(), rests.end(), 0.0) / n;
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    product += (firsts[i] - prior.usual_first) * (rests[i] - prior.usual_rest);
+    square += (firsts[i] - prior.usual_first) * (firsts[i] - prior.usual_first);
+  }
+  prior.between = std::max(0.0, product / n);
+  prior.error = std::max(0.0, square / n - prior.between);
+  prior.usual_rows = std::floor(quantile_of(rows, 0.5));
+  return prior;
+}
+
+std::vector<double> conditioned(const Dataset& data, Rows predicted, Rows limit,
+                                const GainPrior& prior, double x_mm) {
+  const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
+  std::vector<double> out(predicted.begin(), predicted.end());
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const Range r = range_of(data, e);
+    const FirstPart first = first_part(r.of(s), r.of(tau), r.of(predicted), x_mm);
+    const double gain = prior.gain(first);
+    for (std::size_t i = r.first; i < r.first + r.count; ++i) {
+      out[i] *= gain;
+      if (!limit.empty()) out[i] = std::min(out[i], limit[i]);
+    }
+  }
+  return out;
+}
+
+void check_conditional(const CalibrationInput& input) {
+  if (!input.options.condition_on_mm) return;
+  const double x = *input.options.condition_on_mm;
+  FaultList faults;
+  for (const auto& [data, part] :
+       {std::pair{&input.training, "training"}, std::pair{&input.validation, "validation"}}) {
+    if (!data->has("s_mm")) {
+      faults.add(input.options.place,
+                 fmt::format(
+                     "calibration.condition_on_mm needs s_mm, which the {} data do not have", part),
+                 "map s_mm in [data.columns], or time_s and v_rel_mm_s, from which it is "
+                 "integrated; or leave the key out");
+      continue;
+    }
+    std::size_t usable = 0;
+    for (std::size_t e = 0; e < data->experiments.size(); ++e)
+      usable += has_both_parts(*data, e, x);
+    const double most = longest(*data);
+    if (!(most > x))
+      faults.add(input.options.place,
+                 fmt::format("calibration.condition_on_mm = {} leaves no row of the {} data to be "
+                             "judged on: the longest sliding distance is {} mm",
+                             shortest(x), part, shortest(most)),
+                 "use a small part of the distance, for example " +
+                     fmt::format("{:.2g}", most / 10));
+    else if (usable == 0)
+      faults.add(input.options.place,
+                 fmt::format("no experiment of the {} data has rows on both sides of "
+                             "calibration.condition_on_mm = {}",
+                             part, shortest(x)),
+                 "choose a distance inside the experiments, or leave the key out");
+  }
+  faults.throw_if_any();
+}
+
+void add_conditional(Calibration& calibration, const CalibrationInput& input) {
+  if (!input.options.condition_on_mm) return;
+  Conditional& c = calibration.conditional;
+  c.condition_on_mm = *input.options.condition_on_mm;
+  const Rows s = input.validation.values("s_mm");
+  c.n_experiments = input.validation.experiments.size();
+  for (std::size_t e = 0; e < c.n_experiments; ++e) {
+    const Rows own = range_of(input.validation, e).of(s);
+    const auto [low, high] = std::minmax_element(own.begin(), own.end());
+    c.n_without_start += !(*low <= c.condition_on_mm);
+    c.n_without_rest += !(*high > c.condition_on_mm);
+  }
+  // No law is needed for it: any prediction does.
+  c.usual_rows = static_cast<std::size_t>(
+      gain_prior(input.training, input.training.values("tau_R_MPa"), c.condition_on_mm).usual_rows);
+  c.laws.resize(calibration.fits.size());
+  parallel_for(c.laws.size(), [&](std::size_t i) {
+    c.laws[i] = fit_of(calibration.fits[i].model, input, c.condition_on_mm);
+  });
+  std::stable_sort(c.laws.begin(), c.laws.end(),
+                   [](const ConditionalFit& a, const ConditionalFit& b) {
+                     return a.conditional.mae_MPa < b.conditional.mae_MPa;
+                   });
+}
+
+} // namespace frictab

@@ -1,0 +1,49 @@
+// Conditional use: one gain per experiment from its own first millimetres of sliding. It uses part
+// of every test, so its errors are never ranked with those of unconditional laws.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "calibrate/calibration.h"
+
+namespace frictab {
+
+// Rows with s_mm <= x of one experiment, and what they say.
+struct FirstPart {
+  std::size_t rows = 0;
+  double gain = 1; // sum tau_meas tau_pred / sum tau_pred^2; 1 without rows or without prediction
+};
+
+// What the gain of a first part says about the rest, from the training experiments. Their usual
+// (mean) gains are taken out: a law that misses the run-in has a wrong gain there in every test.
+// The covariance of the two gains is the variance `between` experiments, whatever the rows'
+// autocorrelation; what the variance of the first part's gain has on top is `error`, of an
+// experiment with the usual (median) number of rows in its first part.
+struct GainPrior {
+  double usual_first = 1; // gain of the first part
+  double usual_rest = 1;  // gain of the rest: about 1 for a calibrated law
+  double between = 0;
+  double error = 0;
+  double usual_rows = 0;
+  // Used share of a deviation: between/(between + error max(1, usual_rows/rows)); 0 for 0 rows.
+  double trust(std::size_t rows) const;
+  // Of the rest: usual_rest + trust (gain of the first part - usual_first), at least 0.
+  double gain(const FirstPart& first) const;
+};
+
+FirstPart first_part(std::span<const double> s_mm, std::span<const double> measured,
+                     std::span<const double> predicted, double x_mm);
+GainPrior gain_prior(const Dataset& training, std::span<const double> predicted, double x_mm);
+
+// Predictions times the gain of their experiment's rest, kept to tau_R <= `limit` (per row;
+// empty: no limit).
+std::vector<double> conditioned(const Dataset& data, std::span<const double> predicted,
+                                std::span<const double> limit, const GainPrior& prior, double x_mm);
+
+// Throws InputError where the data have no s_mm, or x leaves no rows beyond it.
+void check_conditional(const CalibrationInput& input);
+// Fills calibration.conditional where the job asks for it.
+void add_conditional(Calibration& calibration, const CalibrationInput& input);
+
+} // namespace frictab

@@ -1,0 +1,92 @@
+// What validation says about calibrated laws, as plain values: errors with intervals, which law is
+// better than which, the noise floor, and conditional use. Stresses in MPa. The experiment is the
+// unit of every interval and every p-value.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace frictab {
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+// Errors of prediction: residual = tau_meas - tau_pred (the paper's sign). 95 % intervals by
+// resampling whole experiments.
+struct Metrics {
+  double mae_MPa = 0;
+  double rmse_MPa = 0;
+  double bias_MPa = 0; // mean residual
+  Interval mae_interval;
+  Interval rmse_interval;
+  Interval bias_interval;
+  std::size_t n_rows = 0;
+  std::size_t n_experiments = 0;
+};
+
+// How far two errors on the same experiments are apart.
+struct Difference {
+  double value_MPa = 0;
+  Interval interval;  // 95 %, of this one difference
+  double p_value = 1; // two-sided
+  bool distinguishable() const { return p_value < 0.05; }
+};
+
+// `law` stands before `other` in the ranking; differences are other minus law: positive where `law`
+// is better.
+struct Comparison {
+  std::string law;
+  std::string other;
+  Difference mae;
+  Difference rmse;
+};
+
+struct Comparisons {
+  std::vector<Comparison> pairs; // (1,2), (1,3), ..., (2,3), ... by rank; empty: not compared
+  std::vector<std::string> laws; // by rank
+  std::vector<double>
+      best_p_values; // per law: of "no law has a smaller MAE", for all laws together
+  std::size_t n_experiments = 0;
+  std::size_t resamples = 0;
+};
+
+// How much error is left where a law of the state is exact.
+struct NoiseFloor {
+  std::string method; // oracle | replicates | within_experiments
+  std::string part;   // validation | training
+  double mae_MPa = 0;
+  double rmse_MPa = 0;
+  Interval mae_interval;
+  Interval rmse_interval;
+  std::size_t n_rows = 0;
+  std::size_t n_experiments = 0;
+  std::size_t n_groups = 0; // replicates: groups of experiments with the same set levels
+  bool lower_bound = false; // the scatter between experiments is not in it
+};
+
+// A law with one gain per experiment, predicted from that experiment's own first millimetres.
+struct ConditionalFit {
+  std::string law;
+  double usual_first = 1; // mean gain of the first parts of the training experiments
+  double usual_rest = 1;  // and of their rests
+  double between_sd = 0;  // of the gain, between training experiments
+  double error_sd = 0;    // of a gain from the first part alone, for the usual number of rows
+  double trust = 0;       // used share of a first part's deviation from the usual, for those rows
+  Metrics unconditional;  // the same rows without the gain
+  Metrics conditional;
+  Difference gain; // MAE unconditional minus conditional
+};
+
+struct Conditional {
+  double condition_on_mm = 0; // 0: not asked for
+  std::size_t usual_rows = 0; // median number of rows in the first part, training
+  std::size_t n_experiments = 0;
+  std::size_t n_without_start = 0;  // validation experiments without a row in the first part
+  std::size_t n_without_rest = 0;   // without a row beyond it: not judged
+  std::vector<ConditionalFit> laws; // by conditional MAE
+};
+
+} // namespace frictab

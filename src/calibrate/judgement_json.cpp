@@ -1,0 +1,192 @@
+// What validation says, to JSON and back.
+#include "calibrate/judgement_json.h"
+
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+namespace frictab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// NaN and infinities are null in JSON.
+double number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+Json interval_json(const Interval& interval) {
+  return Json::array({interval.low, interval.high});
+}
+
+Interval parse_interval(const Json& j) {
+  return {number(j.at(0)), number(j.at(1))};
+}
+
+Json difference_json(const Difference& d) {
+  return {{"difference_MPa", d.value_MPa},
+          {"difference_95", interval_json(d.interval)},
+          {"p_value", d.p_value}};
+}
+
+Difference parse_difference(const Json& j) {
+  return {number(j.at("difference_MPa")), parse_interval(j.at("difference_95")),
+          number(j.at("p_value"))};
+}
+
+Json floor_json(const NoiseFloor& f) {
+  return {{"method", f.method},
+          {"part", f.part},
+          {"mae_MPa", f.mae_MPa},
+          {"rmse_MPa", f.rmse_MPa},
+          {"mae_95", interval_json(f.mae_interval)},
+          {"rmse_95", interval_json(f.rmse_interval)},
+          {"n_rows", f.n_rows},
+          {"n_experiments", f.n_experiments},
+          {"n_groups", f.n_groups},
+          {"lower_bound", f.lower_bound},
+          {"synthetic_only", f.method == "oracle"}};
+}
+
+NoiseFloor parse_floor(const Json& j) {
+  return {j.at("method"),
+          j.at("part"),
+          number(j.at("mae_MPa")),
+          number(j.at("rmse_MPa")),
+          parse_interval(j.at("mae_95")),
+          parse_interval(j.at("rmse_95")),
+          j.at("n_rows"),
+          j.at("n_experiments"),
+          j.at("n_groups"),
+          j.at("lower_bound")};
+}
+
+Json conditional_fit_json(const ConditionalFit& fit) {
+  return {{"name", fit.law},
+          {"usual_gain_of_first_part", fit.usual_first},
+          {"usual_gain_of_rest", fit.usual_rest},
+          {"gain_between_experiments_sd", fit.between_sd},
+          {"gain_error_sd", fit.error_sd},
+          {"trust", fit.trust},
+          {"unconditional", metrics_json(fit.unconditional)},
+          {"conditional", metrics_json(fit.conditional)},
+          {"gain", difference_json(fit.gain)}};
+}
+
+ConditionalFit parse_conditional_fit(const Json& j) {
+  return {j.at("name"),
+          number(j.at("usual_gain_of_first_part")),
+          number(j.at("usual_gain_of_rest")),
+          number(j.at("gain_between_experiments_sd")),
+          number(j.at("gain_error_sd")),
+          number(j.at("trust")),
+          parse_metrics(j.at("unconditional")),
+          parse_metrics(j.at("conditional")),
+          parse_difference(j.at("gain"))};
+}
+
+} // namespace
+
+Json metrics_json(const Metrics& m) {
+  return {{"mae_MPa", m.mae_MPa},
+          {"rmse_MPa", m.rmse_MPa},
+          {"bias_MPa", m.bias_MPa},
+          {"mae_95", interval_json(m.mae_interval)},
+          {"rmse_95", interval_json(m.rmse_interval)},
+          {"bias_95", interval_json(m.bias_interval)},
+          {"n_rows", m.n_rows},
+          {"n_experiments", m.n_experiments}};
+}
+
+Metrics parse_metrics(const Json& j) {
+  return {number(j.at("mae_MPa")),
+          number(j.at("rmse_MPa")),
+          number(j.at("bias_MPa")),
+          parse_interval(j.at("mae_95")),
+          parse_interval(j.at("rmse_95")),
+          parse_interval(j.at("bias_95")),
+          j.at("n_rows"),
+          j.at("n_experiments")};
+}
+
+Json comparisons_json(const Comparisons& c) {
+  Json pairs = Json::array(), laws = Json::array();
+  for (const Comparison& pair : c.pairs)
+    pairs.push_back({{"law", pair.law},
+                     {"other", pair.other},
+                     {"mae", difference_json(pair.mae)},
+                     {"rmse", difference_json(pair.rmse)},
+                     {"verdict", pair.mae.distinguishable() ? "better" : "not distinguishable"}});
+  for (std::size_t i = 0; i < c.laws.size(); ++i)
+    laws.push_back({{"name", c.laws[i]},
+                    {"p_value", c.best_p_values[i]},
+                    {"may_be_best", c.best_p_values[i] >= 0.05}});
+  return {{"meaning", "differences: other minus law; intervals and p-values per pair, paired by "
+                      "experiment; best_of_all: for all laws together"},
+          {"n_experiments", c.n_experiments},
+          {"resamples", c.resamples},
+          {"best_of_all", laws},
+          {"pairs", pairs}};
+}
+
+Comparisons parse_comparisons(const Json& j) {
+  Comparisons c;
+  c.n_experiments = j.at("n_experiments");
+  c.resamples = j.at("resamples");
+  for (const Json& law : j.at("best_of_all")) {
+    c.laws.push_back(law.at("name"));
+    c.best_p_values.push_back(number(law.at("p_value")));
+  }
+  for (const Json& pair : j.at("pairs"))
+    c.pairs.push_back({pair.at("law"), pair.at("other"), parse_difference(pair.at("mae")),
+                       parse_difference(pair.at("rmse"))});
+  return c;
+}
+
+Json noise_floors_json(const std::vector<NoiseFloor>& floors) {
+  if (floors.empty()) return nullptr;
+  Json first = floor_json(floors.front());
+  first["also"] = Json::array();
+  for (std::size_t i = 1; i < floors.size(); ++i)
+    first["also"].push_back(floor_json(floors[i]));
+  return first;
+}
+
+std::vector<NoiseFloor> parse_noise_floors(const Json& j) {
+  if (j.is_null()) return {};
+  std::vector<NoiseFloor> floors = {parse_floor(j)};
+  for (const Json& other : j.at("also"))
+    floors.push_back(parse_floor(other));
+  return floors;
+}
+
+Json conditional_json(const Conditional& c) {
+  if (c.laws.empty()) return nullptr;
+  Json laws = Json::array();
+  for (const ConditionalFit& fit : c.laws)
+    laws.push_back(conditional_fit_json(fit));
+  return {{"meaning", "uses the first part of every test to predict its rest; not to be ranked "
+                      "with unconditional laws; errors on rows beyond condition_on_mm only"},
+          {"condition_on_mm", c.condition_on_mm},
+          {"usual_rows", c.usual_rows},
+          {"n_experiments", c.n_experiments},
+          {"n_without_start", c.n_without_start},
+          {"n_without_rest", c.n_without_rest},
+          {"models", laws}};
+}
+
+Conditional parse_conditional(const Json& j) {
+  Conditional c;
+  if (j.is_null()) return c;
+  c.condition_on_mm = number(j.at("condition_on_mm"));
+  c.usual_rows = j.at("usual_rows");
+  c.n_experiments = j.at("n_experiments");
+  c.n_without_start = j.at("n_without_start");
+  c.n_without_rest = j.at("n_without_rest");
+  for (const Json& law : j.at("models"))
+    c.laws.push_back(parse_conditional_fit(law));
+  return c;
+}
+
+} // namespace frictab

@@ -1,0 +1,24 @@
+// Errors, comparisons, noise floors and conditional use as parts of calibration.json.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "calibrate/judgement.h"
+
+namespace frictab {
+
+nlohmann::ordered_json metrics_json(const Metrics& metrics);
+Metrics parse_metrics(const nlohmann::ordered_json& j);
+
+nlohmann::ordered_json comparisons_json(const Comparisons& comparisons);
+Comparisons parse_comparisons(const nlohmann::ordered_json& j);
+
+// The first one, with the others as its `also`; null where there is none.
+nlohmann::ordered_json noise_floors_json(const std::vector<NoiseFloor>& floors);
+std::vector<NoiseFloor> parse_noise_floors(const nlohmann::ordered_json& j);
+
+// null where it was not asked for.
+nlohmann::ordered_json conditional_json(const Conditional& conditional);
+Conditional parse_conditional(const nlohmann::ordered_json& j);
+
+} // namespace frictab

@@ -1,0 +1,216 @@
+// Noise floors: oracle, replicates, scatter within experiments.
+#include "calibrate/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/metrics.h"
+#include "calibrate/replicates.h"
+#include "core/text.h"
+
+namespace frictab {
+
+namespace {
+
+using Rows = std::span<const double>;
+
+NoiseFloor floor_of(const std::string& method, const std::vector<ErrorSums>& sums,
+                    std::size_t resamples, std::uint64_t seed) {
+  const Metrics m = metrics(sums, resamples, seed);
+  NoiseFloor floor;
+  floor.method = method;
+  floor.mae_MPa = m.mae_MPa;
+  floor.rmse_MPa = m.rmse_MPa;
+  floor.mae_interval = m.mae_interval;
+  floor.rmse_interval = m.rmse_interval;
+  floor.n_rows = m.n_rows;
+  floor.n_experiments = m.n_experiments;
+  return floor;
+}
+
+void add(ErrorSums& sums, double r) {
+  sums.absolute += std::abs(r);
+  sums.square += r * r;
+  sums.residual += r;
+  ++sums.rows;
+}
+
+constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+
+// Row of experiment `other` that stands at row `row` of experiment `own`; the same position where
+// its sliding distance fits, else the nearest distance. `s` may be empty: position alone counts.
+class Partner {
+public:
+  Partner(const Dataset& data)
+      : first_(data.first_row), s_(data.has("s_mm") ? data.values("s_mm") : Rows{}) {
+    if (s_.empty()) return;
+    const auto [low, high] = std::minmax_element(s_.begin(), s_.end());
+    tolerance_ = replicate_tolerance * (*high - *low);
+  }
+  std::size_t of(std::size_t own, std::size_t row, std::size_t other) const {
+    const std::size_t begin = first_[other], end = first_[other + 1];
+    const std::size_t same = begin + row - first_[own];
+    if (s_.empty()) return same < end ? same : nowhere;
+    if (same < end && std::abs(s_[same] - s_[row]) <= 1e-6 * tolerance_) return same;
+    // Sliding distance does not shrink along an experiment.
+    const auto at = std::lower_bound(s_.begin() + static_cast<long>(begin),
+                                     s_.begin() + static_cast<long>(end), s_[row]);
+    std::size_t best = std::min(static_cast<std::size_t>(at - s_.begin()), end - 1);
+    if (best > begin && std::abs(s_[best - 1] - s_[row]) < std::abs(s_[best] - s_[row])) --best;
+    return std::abs(s_[best] - s_[row]) <= tolerance_ ? best : nowhere;
+  }
+
+private:
+  const std::vector<std::size_t>& first_;
+  Rows s_;
+  double tolerance_ = 0;
+};
+
+// One experiment against the others of its group, scaled to the scatter of a single one.
+void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std::size_t own,
+                     const Dataset& data, const Partner& partner) {
+  const Rows tau = data.values("tau_R_MPa");
+  for (std::size_t i = data.first_row[own]; i < data.first_row[own + 1]; ++i) {
+    double sum = 0, others = 0;
+    for (const std::size_t other : group) {
+      const std::size_t j = other == own ? nowhere : partner.of(own, i, other);
+      if (j == nowhere) continue;
+      sum += tau[j];
+      ++others;
+    }
+    if (others > 0) add(sums, (tau[i] - sum / others) * std::sqrt(others / (others + 1)));
+  }
+}
+
+// Least-squares line through a window that slides along an experiment; sums are kept, so the cost
+// does not grow with the window.
+struct Window {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  void take(double at, double value, double sign) {
+    n += sign;
+    x += sign * at;
+    y += sign * value;
+    xx += sign * at * at;
+    xy += sign * at * value;
+  }
+  // Residual of one of its rows over sqrt(1 - leverage); an unbiased share of the scatter.
+  double scatter(double at, double value) const {
+    const double mean = x / n, sxx = xx - x * mean, sxy = xy - x * y / n;
+    const double slope = sxx > 0 ? sxy / sxx : 0;
+    const double leverage = 1 / n + (sxx > 0 ? (at - mean) * (at - mean) / sxx : 0);
+    return (value - y / n - slope * (at - mean)) / std::sqrt(1 - leverage);
+  }
+};
+
+constexpr std::size_t least_window = 9;
+
+// Rows are evenly spaced enough along the sliding distance for the row number to stand for it.
+ErrorSums scatter_within(Rows tau) {
+  ErrorSums sums;
+  const std::size_t n = tau.size();
+  if (n < least_window) return sums;
+  const std::size_t width = std::max(least_window, n / 20), half = width / 2;
+  const double middle = static_cast<double>(n) / 2;
+  const auto at = [&](std::size_t i) { return static_cast<double>(i) - middle; };
+  Window window;
+  std::size_t begin = 0, end = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t want = std::min(i > half ? i - half : 0, n - width);
+    for (; end < want + width; ++end)
+      window.take(at(end), tau[end], 1);
+    for (; begin < want; ++begin)
+      window.take(at(begin), tau[begin], -1);
+    add(sums, window.scatter(at(i), tau[i]));
+  }
+  return sums;
+}
+
+} // namespace
+
+std::optional<NoiseFloor> oracle_floor(const Dataset& data, std::size_t resamples,
+                                       std::uint64_t seed) {
+  if (data.oracle_MPa.empty()) return {};
+  return floor_of("oracle", error_sums(data.values("tau_R_MPa"), data.oracle_MPa, data.first_row),
+                  resamples, seed);
+}
+
+std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resamples,
+                                          std::uint64_t seed) {
+  const auto groups = replicate_groups(data);
+  const Partner partner(data);
+  std::vector<ErrorSums> sums; // one per group: its differences belong together
+  std::size_t experiments = 0;
+  for (const auto& group : groups) {
+    ErrorSums one;
+    for (const std::size_t own : group)
+      add_differences(one, group, own, data, partner);
+    if (one.rows == 0) continue;
+    sums.push_back(one);
+    experiments += group.size();
+  }
+  if (sums.empty()) return {};
+  NoiseFloor floor = floor_of("replicates", sums, resamples, seed);
+  floor.n_groups = sums.size();
+  floor.n_experiments = experiments;
+  return floor;
+}
+
+std::optional<NoiseFloor> within_floor(const Dataset& data, std::size_t resamples,
+                                       std::uint64_t seed) {
+  const Rows tau = data.values("tau_R_MPa");
+  std::vector<ErrorSums> sums;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const ErrorSums one =
+        scatter_within(tau.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]));
+    if (one.rows > 0) sums.push_back(one);
+  }
+  if (sums.empty()) return {};
+  NoiseFloor floor = floor_of("within_experiments", sums, resamples, seed);
+  floor.lower_bound = true;
+  return floor;
+}
+
+void add_noise_floors(Calibration& calibration, const CalibrationInput& input) {
+  for (auto* method : {oracle_floor, replicate_floor, within_floor}) {
+    std::vector<NoiseFloor> both;
+    for (const auto& [data, part] :
+         {std::pair{&input.validation, "validation"}, std::pair{&input.training, "training"}})
+      if (auto floor = method(*data, input.options.bootstrap, input.options.seed)) {
+        floor->part = part;
+        both.push_back(*floor);
+      }
+    std::stable_sort(both.begin(), both.end(), [](const NoiseFloor& a, const NoiseFloor& b) {
+      return a.n_groups > b.n_groups; // 0 but for replicates
+    });
+    calibration.noise_floors.insert(calibration.noise_floors.end(), both.begin(), both.end());
+  }
+}
+
+std::string noise_floor_name(const NoiseFloor& floor) {
+  if (floor.method == "oracle") return "the twin's own truth, synthetic data only";
+  if (floor.method == "replicates")
+    return fmt::format("{} repeated tests in {} group{}", floor.n_experiments, floor.n_groups,
+                       floor.n_groups == 1 ? "" : "s");
+  return "scatter within experiments only";
+}
+
+std::string noise_floor_sentence(const Calibration& calibration, int decimals) {
+  if (calibration.noise_floors.empty())
+    return "noise floor unknown: no repeated tests, and experiments too short to see their scatter";
+  const NoiseFloor& floor = calibration.noise_floors.front();
+  return fmt::format("noise floor {}{:.{}f} MPa: {}{}", floor.lower_bound ? "above " : "",
+                     floor.mae_MPa, decimals, noise_floor_name(floor),
+                     floor.lower_bound          ? ", scatter between experiments not included"
+                     : floor.part == "training" ? ", of the training data"
+                                                : "");
+}
+
+std::string noise_floor_advice(const Calibration& calibration) {
+  const bool known =
+      !calibration.noise_floors.empty() && !calibration.noise_floors.front().lower_bound;
+  return known ? "" : "repeat some tests at the same set levels to know it";
+}
+
+} // namespace frictab

@@ -1,0 +1,41 @@
+// The error that is left where a law of the state is exact: what no law can go below.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "calibrate/calibration.h"
+
+namespace frictab {
+
+// oracle: error of the noise-free stress that synthetic data bring with them (data.oracle).
+std::optional<NoiseFloor> oracle_floor(const Dataset& data, std::size_t resamples,
+                                       std::uint64_t seed);
+
+// replicates: each row against the mean of the other replicates at the same row, or at the nearest
+// sliding distance (at most 1 % of its range away). With n replicates of variance S that difference
+// has the variance S n/(n-1); each one is multiplied by sqrt((n-1)/n). The RMSE is then unbiased in
+// its square for any distribution; the MAE is unbiased for normal scatter.
+std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resamples,
+                                          std::uint64_t seed);
+
+// within_experiments: scatter around a straight line through the neighbouring rows (a twentieth of
+// the experiment, at least 9 rows), corrected for the row's own leverage. A lower bound: factors
+// that a whole experiment shares, and slow ones, are not in it. None where no experiment has 9
+// rows.
+std::optional<NoiseFloor> within_floor(const Dataset& data, std::size_t resamples,
+                                       std::uint64_t seed);
+
+// All that the data allow, for validation and training; the one to trust most comes first: the
+// oracle, then replicates (of the part with more of them), then scatter within experiments.
+void add_noise_floors(Calibration& calibration, const CalibrationInput& input);
+
+// "noise floor 8.34 MPa: ...", in one sentence without a full stop: what it is and what it is not.
+// `decimals` of the MPa.
+std::string noise_floor_sentence(const Calibration& calibration, int decimals);
+// Where it is only a lower bound: what would give the floor itself. Empty otherwise.
+std::string noise_floor_advice(const Calibration& calibration);
+// "the twin's own truth" -> table cell: "oracle (synthetic data only)".
+std::string noise_floor_name(const NoiseFloor& floor);
+
+} // namespace frictab

@@ -1,0 +1,65 @@
+// Sums per experiment and resampling of whole experiments.
+#include "calibrate/resampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace frictab {
+
+std::vector<ErrorSums> error_sums(std::span<const double> measured,
+                                  std::span<const double> predicted,
+                                  std::span<const std::size_t> first_row) {
+  std::vector<ErrorSums> sums(first_row.size() - 1);
+  for (std::size_t e = 0; e < sums.size(); ++e)
+    for (std::size_t i = first_row[e]; i < first_row[e + 1]; ++i) {
+      const double r = measured[i] - predicted[i];
+      sums[e].absolute += std::abs(r);
+      sums[e].square += r * r;
+      sums[e].residual += r;
+      ++sums[e].rows;
+    }
+  return sums;
+}
+
+void resample(std::uint64_t seed, std::size_t index, std::span<double> times) {
+  Random random(seed, 0x6d65747269630000 + index);
+  std::fill(times.begin(), times.end(), 0.0);
+  for (std::size_t e = 0; e < times.size(); ++e)
+    ++times[random.below(times.size())];
+}
+
+double ratio_of(std::span<const double> x, std::span<const double> n, std::span<const double> times,
+                Measure measure, std::span<double> influence) {
+  double sum = 0, rows = 0;
+  for (std::size_t e = 0; e < x.size(); ++e) {
+    sum += times[e] * x[e];
+    rows += times[e] * n[e];
+  }
+  const double mean = sum / rows;
+  const double value = measure == Measure::mean ? mean : std::sqrt(mean);
+  const double slope = measure == Measure::mean ? 1 : value > 0 ? 0.5 / value : 0;
+  for (std::size_t e = 0; e < x.size(); ++e)
+    influence[e] = slope * (x[e] - mean * n[e]) / rows;
+  return value;
+}
+
+double standard_error(std::span<const double> influence, std::span<const double> times) {
+  double sum = 0;
+  for (std::size_t e = 0; e < influence.size(); ++e)
+    sum += times[e] * influence[e] * influence[e];
+  const double experiments = static_cast<double>(influence.size());
+  return std::sqrt(sum * experiments / (experiments - 1));
+}
+
+double quantile_of(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  const double x = share * static_cast<double>(values.size() - 1);
+  const auto i = static_cast<std::size_t>(x);
+  const double next = values[std::min(i + 1, values.size() - 1)];
+  const double part = x - static_cast<double>(i);
+  return part == 0 || next == values[i] ? values[i] : values[i] + part * (next - values[i]);
+}
+
+} // namespace frictab

@@ -1,0 +1,39 @@
+// Errors summed per experiment, and whole experiments resampled alike for every law.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frictab {
+
+// Sums over the rows of one experiment; residual r = measured - predicted in MPa.
+struct ErrorSums {
+  double absolute = 0; // |r|
+  double square = 0;   // r^2
+  double residual = 0; // r
+  double rows = 0;
+};
+
+// One entry per experiment; first_row has experiments + 1 entries.
+std::vector<ErrorSums> error_sums(std::span<const double> measured,
+                                  std::span<const double> predicted,
+                                  std::span<const std::size_t> first_row);
+
+// How often each experiment (one entry of `times` each) is in resample number `index`, drawn with
+// replacement. The same seed, index and number of experiments give the same counts: laws on the
+// same data are resampled alike (paired).
+void resample(std::uint64_t seed, std::size_t index, std::span<double> times);
+
+// A ratio of sums over experiments, or its root, in one resample: value = f(sum x / sum n), with
+// the influence of each experiment on it (infinitesimal jackknife). sqrt(E/(E-1) sum times
+// influence^2) is its standard error.
+enum class Measure { mean, root_mean };
+double ratio_of(std::span<const double> x, std::span<const double> n, std::span<const double> times,
+                Measure measure, std::span<double> influence);
+double standard_error(std::span<const double> influence, std::span<const double> times);
+
+// Linear interpolation between order statistics; `values` is sorted in place.
+double quantile_of(std::vector<double>& values, double share);
+
+} // namespace frictab

@@ -1,0 +1,125 @@
+// What a run says about its laws beside their ranking: comparison, noise floor, conditional use.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+
+namespace frictab {
+namespace {
+
+using test::run_frictab;
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Judgement : testing::Test {
+  // A small synthetic campaign, its job.toml and what `calibrate` says.
+  std::string calibrate(std::vector<std::string> twin_options, std::vector<std::string> settings) {
+    std::vector<std::string> twin = {"twin", directory.path("data"), "--seed", "3", "--design",
+                                     design};
+    twin.insert(twin.end(), twin_options.begin(), twin_options.end());
+    const auto made = run_frictab(twin);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    std::vector<std::string> arguments = {"calibrate", directory.path("data/job.toml")};
+    for (const std::string& setting : settings)
+      arguments.insert(arguments.end(), {"--set", setting});
+    const auto result = run_frictab(arguments);
+    exit_code = result.exit_code;
+    error = result.err;
+    return result.out;
+  }
+  nlohmann::json calibration() const {
+    return nlohmann::json::parse(directory.read("data/out/calibration.json"));
+  }
+  std::string design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=100;validation=12";
+  const std::string two_laws = "models.use=[\"log_coulomb\", \"coulomb_0.04\"]";
+  const TemporaryDirectory directory;
+  int exit_code = -1;
+  std::string error;
+};
+
+TEST_F(Judgement, SummaryHoldsTheFloorOfTheOracleAndWhoIsBest) {
+  const std::string out = calibrate({"--oracle"}, {two_laws});
+  ASSERT_EQ(exit_code, 0) << error;
+  EXPECT_THAT(directory.read("data/job.toml"),
+              HasSubstr("oracle = [\"training_oracle.csv\", \"validation_oracle.csv\"]"));
+  EXPECT_THAT(out, testing::ContainsRegex(
+                       "  noise floor +[0-9.]+  [0-9.]+ \\.\\. [0-9.]+ +[0-9.]+ +the twin's own "
+                       "truth, synthetic data only\n"
+                       "  log_coulomb is better than all others \\(95 % per pair, paired by "
+                       "experiment\\)\n"
+                       "  log_coulomb is the best of them \\(95 % for all 2 laws together\\)\n"));
+  const auto floor = calibration().at("noise_floor");
+  EXPECT_EQ(floor.at("method"), "oracle");
+  EXPECT_EQ(floor.at("part"), "validation");
+  EXPECT_EQ(floor.at("synthetic_only"), true);
+  const auto twin = nlohmann::json::parse(directory.read("data/twin.json"));
+  EXPECT_NEAR(floor.at("mae_MPa").get<double>(),
+              twin.at("validation").at("errors").at("oracle").at("mae_MPa").get<double>(), 1e-9);
+  const auto pair = calibration().at("comparisons").at("pairs").at(0);
+  EXPECT_EQ(pair.at("law"), "log_coulomb");
+  EXPECT_EQ(pair.at("verdict"), "better");
+}
+
+TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {
+  const std::string out = calibrate({}, {two_laws});
+  EXPECT_THAT(out, testing::ContainsRegex("  noise floor +> [0-9.]+ .*scatter within experiments "
+                                          "only\n  the noise floor is not known: repeat some tests "
+                                          "at the same set levels to know it\n"));
+  EXPECT_EQ(calibration().at("noise_floor").at("lower_bound"), true);
+  EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr("\n| | *noise floor* | \\> "));
+}
+
+TEST_F(Judgement, RepeatedTestsGiveTheFloorOfTheirPart) {
+  design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=6;replicates=3";
+  const std::string out = calibrate({}, {two_laws});
+  EXPECT_THAT(out, HasSubstr("48 repeated tests in 16 groups, training data\n"));
+  EXPECT_THAT(out, Not(HasSubstr("the noise floor is not known")));
+}
+
+TEST_F(Judgement, MeasuredDataHaveNoOracle) {
+  calibrate({"--oracle"}, {two_laws});
+  const std::string job =
+      directory.write("data/measured.toml", "[data]\ntraining = \"training.csv\"\nbystanders = []\n"
+                                            "oracle = \"training_oracle.csv\"\n");
+  const auto result = run_frictab({"calibrate", job});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, job + ":4:10: error: data.oracle is for synthetic data: measured data have "
+                              "no known truth\n  hint: synthetic data say so in a column `origin`; "
+                              "for measured data, repeated tests give the noise floor\n");
+}
+
+TEST_F(Judgement, ConditionalUseStandsApartFromTheRanking) {
+  const std::string out = calibrate({}, {two_laws, "calibration.condition_on_mm=2"});
+  ASSERT_EQ(exit_code, 0) << error;
+  EXPECT_THAT(out, HasSubstr("\nConditional use, NOT ranked above: a gain per experiment from its "
+                             "own first 2 mm\n(MAE of the rest, MPa):\n"
+                             "  law                MAE  without gain   gained, 95 % interval\n"));
+  const auto j = calibration();
+  EXPECT_EQ(j.at("models").size(), 2u);
+  EXPECT_EQ(j.at("conditional").at("models").size(), 2u);
+  EXPECT_EQ(j.at("conditional").at("condition_on_mm"), 2);
+  const std::string page = directory.read("data/out/benchmark.md");
+  EXPECT_THAT(page,
+              HasSubstr("## Conditional use: part of every test predicts its rest\n\n**Not to "
+                        "be compared with the ranking above.**"));
+  EXPECT_GT(page.find("## Conditional use"), page.find("## Published figures"));
+}
+
+TEST_F(Judgement, ConditionBeyondTheDataIsAFaultOfTheJob) {
+  calibrate({}, {two_laws, "calibration.condition_on_mm=200"});
+  EXPECT_EQ(exit_code, 2);
+  EXPECT_THAT(error, HasSubstr("calibration.condition_on_mm = 200 leaves no row of the training "
+                               "data to be judged on: the longest sliding distance is 19.8 mm"));
+}
+
+TEST(ExplainJob, DocumentsConditionalUseAndTheOracle) {
+  const auto result = run_frictab({"explain", "calibration.condition_on_mm"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("never ranked"));
+  EXPECT_THAT(run_frictab({"explain", "data.oracle"}).out, HasSubstr("SYNTHETIC data only"));
+}
+
+} // namespace
+} // namespace frictab

@@ -1,0 +1,239 @@
+// Comparing laws: what equals stays equal, what differs is found, and chance is given its due.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibrate/calibration_file.h"
+#include "calibrate/comparison.h"
+#include "calibrate/metrics.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "support/sample_data.h"
+
+namespace frictab {
+namespace {
+
+using testing::ElementsAre;
+
+// An experiment of 50 rows whose mean absolute error is `mae`.
+ErrorSums experiment(double mae, double rows = 50) {
+  return {mae * rows, 1.5 * mae * mae * rows, 0, rows};
+}
+
+LawErrors law(const std::string& name, const std::vector<double>& mae) {
+  LawErrors errors{name, {}};
+  for (const double value : mae)
+    errors.sums.push_back(experiment(value));
+  return errors;
+}
+
+// Laws whose errors have a part in common and an own one, skewed as absolute errors are, all with
+// the same distribution.
+std::vector<LawErrors> exchangeable(std::size_t laws, std::size_t experiments, Random& random) {
+  std::vector<std::vector<double>> mae(laws);
+  for (std::size_t e = 0; e < experiments; ++e) {
+    const double common = 8 * std::abs(random.normal());
+    for (auto& own : mae)
+      own.push_back(1 + std::abs(common + 4 * random.normal()));
+  }
+  std::vector<LawErrors> errors;
+  for (std::size_t l = 0; l < laws; ++l)
+    errors.push_back(law("law" + std::to_string(l), mae[l]));
+  return errors;
+}
+
+TEST(Comparison, OfALawWithItselfIsExactlyZero) {
+  const std::vector<double> mae{3, 8, 1, 12, 5, 6, 2};
+  const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", mae)}, 500, 1);
+  ASSERT_EQ(c.pairs.size(), 1u);
+  for (const Difference& d : {c.pairs[0].mae, c.pairs[0].rmse}) {
+    EXPECT_EQ(d.value_MPa, 0);
+    EXPECT_EQ(d.interval.low, 0);
+    EXPECT_EQ(d.interval.high, 0);
+    EXPECT_EQ(d.p_value, 1);
+    EXPECT_FALSE(d.distinguishable());
+  }
+  EXPECT_THAT(possibly_best(c), ElementsAre("a", "b"));
+}
+
+TEST(Comparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
+  std::vector<double> mae{3, 8, 1, 12, 5, 6, 2}, worse = mae;
+  for (double& value : worse)
+    value += 1;
+  const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", worse)}, 999, 1);
+  EXPECT_NEAR(c.pairs[0].mae.value_MPa, 1, 1e-12);
+  EXPECT_NEAR(c.pairs[0].mae.interval.low, 1, 1e-9) << "what both share does not widen it";
+  EXPECT_NEAR(c.pairs[0].mae.interval.high, 1, 1e-9);
+  EXPECT_LT(c.pairs[0].mae.p_value, 0.01);
+  EXPECT_THAT(possibly_best(c), ElementsAre("a"));
+}
+
+TEST(Comparison, FindsADifferenceThatTheSeparateIntervalsHide) {
+  Random random(5);
+  std::vector<double> better, worse;
+  std::vector<std::size_t> first_row{0};
+  for (int e = 0; e < 30; ++e) {
+    better.push_back(2 + 10 * std::abs(random.normal()));
+    worse.push_back(better.back() + 1 + 0.5 * random.normal());
+  }
+  const std::vector<LawErrors> laws{law("a", better), law("b", worse)};
+  const Metrics a = metrics(laws[0].sums, 1000, 1), b = metrics(laws[1].sums, 1000, 1);
+  EXPECT_GT(a.mae_interval.high, b.mae_MPa);
+  EXPECT_TRUE(compare(laws, 1000, 1).pairs[0].mae.distinguishable());
+}
+
+TEST(Comparison, IntervalLeavesZeroOutExactlyWhereThePValueIsBelowFivePercent) {
+  Random random(9);
+  int distinguishable = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const Comparisons c = compare(exchangeable(3, 8, random), 150 + i, i);
+    for (const Comparison& pair : c.pairs)
+      for (const Difference& d : {pair.mae, pair.rmse}) {
+        EXPECT_EQ(d.interval.low > 0 || d.interval.high < 0, d.distinguishable()) << d.p_value;
+        distinguishable += d.distinguishable();
+      }
+  }
+  EXPECT_GT(distinguishable, 5);
+}
+
+TEST(Comparison, KeepsPairsInTheOrderOfRanks) {
+  Random random(1);
+  const Comparisons c = compare(exchangeable(4, 10, random), 200, 1);
+  std::vector<std::string> pairs;
+  for (const Comparison& pair : c.pairs)
+    pairs.push_back(pair.law + "-" + pair.other);
+  EXPECT_THAT(pairs, ElementsAre("law0-law1", "law0-law2", "law0-law3", "law1-law2", "law1-law3",
+                                 "law2-law3"));
+}
+
+// Kolmogorov-Smirnov: 1.63/sqrt(n) is passed by 1 of 100 uniform samples.
+TEST(Comparison, PValuesOfEquallyGoodLawsAreUniform) {
+  constexpr std::size_t pairs = 200;
+  std::vector<double> mae, rmse;
+  Random random(11);
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const Comparisons c = compare(exchangeable(2, 30, random), 500, i);
+    mae.push_back(c.pairs[0].mae.p_value);
+    rmse.push_back(c.pairs[0].rmse.p_value);
+  }
+  for (auto* p : {&mae, &rmse}) {
+    std::sort(p->begin(), p->end());
+    double distance = 0;
+    for (std::size_t i = 0; i < pairs; ++i)
+      distance = std::max({distance, std::abs((*p)[i] - static_cast<double>(i) / pairs),
+                           std::abs((*p)[i] - static_cast<double>(i + 1) / pairs)});
+    EXPECT_LT(distance, 1.63 / std::sqrt(static_cast<double>(pairs)));
+  }
+}
+
+// Pair by pair, the leader of 8 equally good laws beats one of them far more often than 5 %.
+TEST(Comparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
+  constexpr int campaigns = 200;
+  Random random(12);
+  int first_excluded = 0, one_left = 0, naive = 0;
+  for (int i = 0; i < campaigns; ++i) {
+    auto laws = exchangeable(8, 30, random);
+    const auto mae = [](const LawErrors& l) { return metrics(l.sums, 0, 0).mae_MPa; };
+    std::stable_sort(laws.begin(), laws.end(),
+                     [&](const LawErrors& a, const LawErrors& b) { return mae(a) < mae(b); });
+    const Comparisons c = compare(laws, 500, static_cast<std::uint64_t>(i));
+    const auto best = possibly_best(c);
+    first_excluded += std::find(best.begin(), best.end(), "law0") == best.end();
+    one_left += best.size() == 1;
+    naive += as_good_as_first(c).size() < 7;
+  }
+  // 5 % and three standard errors of 200 trials.
+  EXPECT_LE(first_excluded, 0.096 * campaigns);
+  EXPECT_LE(one_left, 0.05 * campaigns);
+  EXPECT_GT(naive, 0.2 * campaigns) << "why the family-wise answer is needed";
+}
+
+TEST(Comparison, IsTheSameForAnyNumberOfThreads) {
+  Random random(3);
+  const auto laws = exchangeable(5, 12, random);
+  Calibration one, two;
+  set_threads(1);
+  one.comparisons = compare(laws, 300, 1);
+  set_threads(2);
+  two.comparisons = compare(laws, 300, 1);
+  set_threads(0);
+  EXPECT_EQ(calibration_json(one), calibration_json(two));
+}
+
+TEST(Comparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
+  const std::vector<LawErrors> one{law("a", {3}), law("b", {4})};
+  EXPECT_TRUE(compare(one, 500, 1).pairs.empty());
+  const std::vector<LawErrors> two{law("a", {3, 4}), law("b", {4, 9})};
+  EXPECT_TRUE(compare(two, 0, 1).pairs.empty());
+  EXPECT_EQ(pairwise_sentence(compare(one, 500, 1)), "");
+  EXPECT_EQ(family_sentence(compare(one, 500, 1)), "");
+}
+
+TEST(Comparison, IsSaidInTheseWords) {
+  Comparisons c;
+  c.laws = {"a", "b", "c"};
+  c.best_p_values = {1, 0.3, 0.01};
+  c.pairs = {{"a", "b", {1, {-1, 3}, 0.3}, {}},
+             {"a", "c", {9, {7, 11}, 0.001}, {}},
+             {"b", "c", {8, {6, 10}, 0.001}, {}}};
+  EXPECT_EQ(pairwise_sentence(c),
+            "a is better than all but b (95 % per pair, paired by experiment)");
+  EXPECT_EQ(family_sentence(c), "the best of them is one of a, b (95 % for all 3 laws together)");
+  c.pairs[0].mae.p_value = 0.01;
+  c.best_p_values[1] = 0.02;
+  EXPECT_EQ(pairwise_sentence(c),
+            "a is better than all others (95 % per pair, paired by experiment)");
+  EXPECT_EQ(family_sentence(c), "a is the best of them (95 % for all 3 laws together)");
+  c.pairs[0].mae.p_value = c.pairs[1].mae.p_value = 0.5;
+  c.best_p_values = {1, 0.5, 0.5};
+  EXPECT_EQ(pairwise_sentence(c), "a is not distinguishable from any other law (95 % per pair, "
+                                  "paired by experiment)");
+  EXPECT_EQ(family_sentence(c), "any of them may be the best (95 % for all 3 laws together)");
+}
+
+TEST(Metrics, IntervalsHoldTheTruthIn90To98OfAHundredCampaignsOf30Experiments) {
+  // A law without its experiments' gains: tau 80..160 MPa, gain 8.6 %, slow and white noise.
+  const auto campaign = [](std::size_t experiments, Random& random) {
+    std::vector<ErrorSums> sums(experiments);
+    for (ErrorSums& one : sums) {
+      const double tau = random.uniform(80, 160), gain = 0.086 * random.normal();
+      for (int i = 0; i < 20; ++i) {
+        const double r = tau * (gain + 0.034 * random.normal());
+        one.absolute += std::abs(r);
+        one.square += r * r;
+        one.residual += r;
+        ++one.rows;
+      }
+    }
+    return sums;
+  };
+  Random random(7);
+  const Metrics truth = metrics(campaign(200'000, random), 0, 1);
+  int mae = 0, rmse = 0, bias = 0;
+  const auto holds = [](const Interval& i, double value) {
+    return i.low <= value && value <= i.high;
+  };
+  for (std::uint64_t c = 0; c < 200; ++c) {
+    const Metrics m = metrics(campaign(30, random), 999, c);
+    mae += holds(m.mae_interval, truth.mae_MPa);
+    rmse += holds(m.rmse_interval, truth.rmse_MPa);
+    bias += holds(m.bias_interval, 0);
+  }
+  for (const int held : {mae, rmse, bias}) {
+    EXPECT_GE(held, 180);
+    EXPECT_LE(held, 196);
+  }
+}
+
+TEST(Metrics, HaveNoIntervalOfOneExperimentAndAWideOneOfTwo) {
+  const std::vector<ErrorSums> one{experiment(3)}, two{experiment(3), experiment(5)};
+  EXPECT_TRUE(std::isnan(metrics(one, 500, 1).mae_interval.low));
+  const Metrics m = metrics(two, 500, 1);
+  EXPECT_NEAR(m.mae_interval.high, 4 + 12.706, 0.01) << "Student's t, one degree of freedom";
+  EXPECT_EQ(m.mae_interval.low, 0) << "an error is not negative";
+}
+
+} // namespace
+} // namespace frictab
