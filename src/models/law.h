@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,11 @@ struct Parameter {
   double start; // default start value, or the value of a fixed law
   double lower;
   double upper;
+  std::string settled_by = {}; // what experiments would settle it: "experiments at several speeds"
 };
+
+// Columns by canonical name, with tau_R_MPa.
+using TrainingRows = std::map<std::string, std::span<const double>>;
 
 // tau_R = combine(value, state, parameters), value = value(state, parameters).
 // `value` is the smooth piece that is tabulated; kinks belong into `combine`, which is evaluated
@@ -57,6 +62,9 @@ struct Law {
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
   Formula (*build)(const Conventions&) = nullptr;
+  // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
+  // a search over the bounds. The first is the least-squares optimum.
+  std::vector<std::vector<double>> (*starts)(const Conventions&, const TrainingRows&) = nullptr;
 };
 
 // Shear yield stress k as a formula of the flow stress.
