@@ -9,7 +9,7 @@
 #include "calibrate/calibration.h"
 #include "calibrate/comparison.h"
 #include "calibrate/conditional.h"
-#include "calibrate/fit.h"
+#include "calibrate/law_problem.h"
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
 #include "core/parallel.h"
@@ -121,25 +121,6 @@ void fit_means(ModelFit& fit, const Dataset& data) {
   fit.evaluations = 1;
 }
 
-// Every `step`-th row: enough to find the right minimum, cheap enough to search globally.
-struct Thinned {
-  std::vector<std::vector<double>> columns;
-  std::vector<double> measured;
-};
-
-Thinned thin(const Dataset& data, const std::vector<std::string>& names) {
-  constexpr std::size_t wanted = 2000;
-  const std::size_t step = std::max<std::size_t>(1, data.rows() / wanted);
-  Thinned thinned;
-  thinned.columns.resize(names.size());
-  for (std::size_t i = step / 2; i < data.rows(); i += step) {
-    for (std::size_t c = 0; c < names.size(); ++c)
-      thinned.columns[c].push_back(data.values(names[c])[i]);
-    thinned.measured.push_back(data.values("tau_R_MPa")[i]);
-  }
-  return thinned;
-}
-
 void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
   for (const std::string& name : inputs(*fit.model.law, fit.model.conventions)) {
     const auto values = data.values(name);
@@ -152,37 +133,14 @@ void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
 }
 
 void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
-  const Law& law = *fit.model.law;
-  const auto names = inputs(law, fit.model.conventions);
-  const Program program(tau_formula(law, fit.model.conventions), names, parameter_names(law));
-  const Columns columns = columns_of(data, names);
-  const BoundProgram full(program, data.rows(), columns);
-  const Thinned thinned = thin(data, names);
-  Columns thin_columns;
-  for (const auto& column : thinned.columns)
-    thin_columns.push_back(column.data());
-  const BoundProgram coarse(program, thinned.measured.size(), thin_columns);
-  const FitProblem problem{full, data.values("tau_R_MPa"), law.parameters};
-  FitResult result = fit_global({coarse, thinned.measured, law.parameters}, problem, options.loss,
-                                options.huber_delta_MPa);
-  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
-  const double kernel_MPa = 2 * result.cost;
-  const bool l1 = options.loss == Loss::l1;
-  const LossFunction loss{options.loss, l1 ? kernel_MPa : options.huber_delta_MPa};
-  Uncertainty uncertainty = cluster_sandwich(problem, loss, result.parameters, data.first_row);
-  if (uncertainty.settled != result.parameters) {
-    const LossFunction fine{options.loss, l1 ? smallest_rounding_MPa : options.huber_delta_MPa};
-    const FitResult settled = fit_from(problem, fine, uncertainty.settled);
-    if (settled.cost <= result.cost * (1 + 1e-9)) {
-      result.parameters = settled.parameters;
-      result.evaluations += settled.evaluations;
-    }
-  }
-  fit.model.parameters = result.parameters;
-  fit.termination = result.termination;
-  fit.evaluations = result.evaluations;
-  fit.std_error = std::move(uncertainty.std_error);
-  fit.remarks = std::move(uncertainty.remarks);
+  const LawProblem problem(*fit.model.law, fit.model.conventions, data);
+  LawFit found = problem.fit(options.loss, options.huber_delta_MPa);
+  problem.add_uncertainty(found, options.loss, options.huber_delta_MPa, data.first_row);
+  fit.model.parameters = std::move(found.result.parameters);
+  fit.termination = std::move(found.result.termination);
+  fit.evaluations = found.result.evaluations;
+  fit.std_error = std::move(found.uncertainty.std_error);
+  fit.remarks = std::move(found.uncertainty.remarks);
   fit.std_error_method = "cluster sandwich by experiment";
   remark_constant_inputs(fit, data);
 }

@@ -1,86 +1,38 @@
-// Levenberg-Marquardt with bounds, and global starts by NLopt.
+// Levenberg-Marquardt with bounds.
 #include "calibrate/fit.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
-#include <nlopt.hpp>
 
-#include "core/random.h"
+#include "calibrate/normal.h"
 
 namespace frictab {
 
 namespace {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double mean_cost(const FitProblem& problem, const LossFunction& loss,
-                 std::span<const double> parameters) {
-  double sum = 0;
-  problem.law.sweep(parameters, false, [&](const BoundProgram::Block& block) {
-    double part = 0;
-    for (std::size_t i = 0; i < block.count; ++i)
-      part += loss.cost(problem.measured[block.first + i] - block.value[i]);
-    sum += part;
-  });
-  const double mean = sum / static_cast<double>(problem.law.rows());
-  return std::isfinite(mean) ? mean : std::numeric_limits<double>::infinity();
+// What a step moves: the parameter, or its logarithm where its bounds say that it is a positive
+// scale of unknown size. In C p^a both then act alike, and the valley between them is straight.
+double to_step_scale(const Parameter& p, double value) {
+  return is_scale(p) ? std::log(value) : value;
 }
-
-struct Normal {
-  MatrixXd hessian; // mean of w J'J
-  VectorXd descent; // mean of w r J: minus the gradient
-  double cost = 0;
-};
-
-Normal normal_equations(const FitProblem& problem, const LossFunction& loss,
-                        std::span<const double> parameters) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
-  Normal n{MatrixXd::Zero(size, size), VectorXd::Zero(size), 0};
-  std::vector<double> residual(Program::block), weight(Program::block);
-  problem.law.sweep(parameters, true, [&](const BoundProgram::Block& block) {
-    double part = 0;
-    for (std::size_t i = 0; i < block.count; ++i) {
-      const double r = problem.measured[block.first + i] - block.value[i];
-      residual[i] = r;
-      weight[i] = loss.weight(r);
-      part += loss.cost(r);
-    }
-    n.cost += part;
-    for (Eigen::Index a = 0; a < size; ++a) {
-      const double* ja = block.derivative[static_cast<std::size_t>(a)];
-      double d = 0;
-      for (std::size_t i = 0; i < block.count; ++i)
-        d += weight[i] * residual[i] * ja[i];
-      n.descent(a) += d;
-      for (Eigen::Index b = 0; b <= a; ++b) {
-        const double* jb = block.derivative[static_cast<std::size_t>(b)];
-        double h = 0;
-        for (std::size_t i = 0; i < block.count; ++i)
-          h += weight[i] * ja[i] * jb[i];
-        n.hessian(a, b) += h;
-      }
-    }
-  });
-  const double rows = static_cast<double>(problem.law.rows());
-  n.hessian = n.hessian.selfadjointView<Eigen::Lower>();
-  n.hessian /= rows;
-  n.descent /= rows;
-  n.cost /= rows;
-  return n;
+double from_step_scale(const Parameter& p, double moved) {
+  return std::clamp(is_scale(p) ? std::exp(moved) : moved, p.lower, p.upper);
 }
 
 // Parameters that may move: not those at a bound that the descent pushes them against, nor those
 // without any influence.
-std::vector<Eigen::Index> free_parameters(const FitProblem& problem, const Normal& n,
-                                          const std::vector<double>& x) {
-  std::vector<Eigen::Index> free;
+std::vector<Index> free_parameters(const FitProblem& problem, const Normal& n,
+                                   const std::vector<double>& x) {
+  std::vector<Index> free;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const auto at = static_cast<Index>(i);
     const bool low = x[i] <= problem.parameters[i].lower && n.descent(at) < 0;
     const bool high = x[i] >= problem.parameters[i].upper && n.descent(at) > 0;
     if (!low && !high && n.hessian(at, at) > 0) free.push_back(at);
@@ -88,161 +40,210 @@ std::vector<Eigen::Index> free_parameters(const FitProblem& problem, const Norma
   return free;
 }
 
-std::vector<double> damped_step(const FitProblem& problem, const Normal& n,
-                                const std::vector<Eigen::Index>& free, const std::vector<double>& x,
-                                double damping) {
-  const auto size = static_cast<Eigen::Index>(free.size());
+// Marquardt's damping on scaled normal equations: independent of the parameters' units.
+VectorXd solve_damped(const Normal& n, const std::vector<Index>& free, const VectorXd& descent,
+                      double damping) {
+  const auto size = static_cast<Index>(free.size());
   MatrixXd h(size, size);
-  VectorXd g(size);
-  VectorXd scale(size); // Marquardt's scaling: independent of the parameters' units
-  for (Eigen::Index a = 0; a < size; ++a)
+  VectorXd g(size), scale(size);
+  for (Index a = 0; a < size; ++a)
     scale(a) = 1 / std::sqrt(n.hessian(free[a], free[a]));
-  for (Eigen::Index a = 0; a < size; ++a) {
-    g(a) = n.descent(free[a]) * scale(a);
-    for (Eigen::Index b = 0; b < size; ++b)
+  for (Index a = 0; a < size; ++a) {
+    g(a) = descent(free[a]) * scale(a);
+    for (Index b = 0; b < size; ++b)
       h(a, b) = n.hessian(free[a], free[b]) * scale(a) * scale(b);
     h(a, a) += damping;
   }
-  const VectorXd step = h.ldlt().solve(g);
-  std::vector<double> next = x;
-  for (Eigen::Index a = 0; a < size; ++a) {
-    const auto i = static_cast<std::size_t>(free[a]);
-    const Parameter& p = problem.parameters[i];
-    next[i] = std::clamp(x[i] + step(a) * scale(a), p.lower, p.upper);
-  }
-  return next;
+  return h.ldlt().solve(g).cwiseProduct(scale);
 }
 
-} // namespace
+struct Step {
+  std::vector<double> to;
+  double predicted = 0; // reduction of the cost by the quadratic model
+};
 
-FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start) {
-  constexpr std::size_t max_iterations = 200;
-  constexpr double smallest_gain = 1e-13; // relative; below, rounding decides
-  FitResult result{std::move(start), 0, 0, "stopped: 200 iterations"};
-  std::vector<double>& x = result.parameters;
-  double damping = 1e-3;
-  int small_steps = 0;
-  for (std::size_t iteration = 0; iteration < max_iterations; ++iteration) {
-    const Normal n = normal_equations(problem, loss, x);
-    ++result.evaluations;
-    result.cost = n.cost;
-    if (!std::isfinite(n.cost)) {
-      result.termination = "stopped: the law is not finite at the start";
-      result.cost = std::numeric_limits<double>::infinity();
-      return result;
+// A parameter that would leave its bounds is put on the bound, and the others are solved again.
+Step bounded_step(const FitProblem& problem, const Normal& n, std::vector<Index> free,
+                  const std::vector<double>& x, double damping) {
+  VectorXd step = VectorXd::Zero(n.descent.size());
+  while (!free.empty()) {
+    const VectorXd part = solve_damped(n, free, n.descent - n.hessian * step, damping);
+    std::vector<Index> inside;
+    for (std::size_t a = 0; a < free.size(); ++a) {
+      const auto i = static_cast<std::size_t>(free[a]);
+      const Parameter& p = problem.parameters[i];
+      const double here = to_step_scale(p, x[i]), low = to_step_scale(p, p.lower),
+                   high = to_step_scale(p, p.upper);
+      const double wanted = here + part(static_cast<Index>(a));
+      if (wanted < low || wanted > high)
+        step(free[a]) = std::clamp(wanted, low, high) - here;
+      else
+        inside.push_back(free[a]);
     }
-    const auto free = free_parameters(problem, n, x);
-    if (free.empty()) {
-      result.termination = "converged: every parameter is held by a bound or without influence";
-      return result;
+    if (inside.size() == free.size()) {
+      for (std::size_t a = 0; a < free.size(); ++a)
+        step(free[a]) = part(static_cast<Index>(a));
+      break;
     }
-    bool improved = false;
-    for (int attempt = 0; attempt < 30 && !improved; ++attempt) {
-      const std::vector<double> next = damped_step(problem, n, free, x, damping);
-      const double cost = mean_cost(problem, loss, next);
-      ++result.evaluations;
-      if (cost < n.cost) {
-        improved = true;
-        small_steps = n.cost - cost <= smallest_gain * n.cost ? small_steps + 1 : 0;
-        x = next;
-        result.cost = cost;
-        damping = std::max(damping / 10, 1e-12);
-      } else {
-        damping *= 8;
-      }
-    }
-    if (!improved || small_steps >= 2) {
-      result.termination =
-          improved ? "converged: relative gain below 1e-13" : "converged: no step improves the fit";
-      return result;
-    }
+    free = std::move(inside);
+  }
+  Step result{x, step.dot(n.descent) - 0.5 * step.dot(n.hessian * step)};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Parameter& p = problem.parameters[i];
+    const double move = step(static_cast<Index>(i));
+    if (move != 0) result.to[i] = from_step_scale(p, to_step_scale(p, x[i]) + move);
   }
   return result;
 }
 
-namespace {
-
-// The loss with its final smoothing, approached in stages for L1 so that no stage is stiff.
-std::vector<LossFunction> stages(Loss loss, double huber_delta_MPa) {
-  if (loss != Loss::l1) return {{loss, huber_delta_MPa}};
-  return {{Loss::l1, 3.0}, {Loss::l1, 0.1}, {Loss::l1, smallest_rounding_MPa}};
+double mean_square(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values)
+    sum += v * v;
+  return sum / static_cast<double>(values.size());
 }
 
-std::vector<double> direct_start(const FitProblem& coarse, const LossFunction& loss,
-                                 FitResult& total) {
-  const std::size_t size = coarse.parameters.size();
-  std::vector<double> lower, upper, x;
-  for (const Parameter& p : coarse.parameters) {
-    lower.push_back(p.lower);
-    upper.push_back(p.upper);
-    x.push_back(p.start);
+// One fit: where it is, what it knows there, how bold it is.
+class Solver {
+public:
+  Solver(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
+         const FitOptions& options)
+      : problem_(problem), loss_(loss), options_(options), x_(std::move(start)),
+        here_(evaluate(x_)), damping_(options.damping),
+        exact_(1e-26 * mean_square(problem.measured)),
+        correction_(options.correction && options.correction->size() == here_.hessian.size()
+                        ? *options.correction
+                        : MatrixXd::Zero(here_.hessian.rows(), here_.hessian.cols())) {}
+
+  FitResult run() {
+    std::string why = fmt::format("stopped: {} iterations", options_.iterations);
+    if (!std::isfinite(here_.cost)) why = "stopped: the law is not finite at the start";
+    for (std::size_t i = 0; std::isfinite(here_.cost) && i < options_.iterations; ++i)
+      if (const char* end = iterate()) {
+        why = end;
+        break;
+      }
+    return {x_, here_.cost, evaluations_, why, correction_};
   }
-  nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(size));
-  search.set_lower_bounds(lower);
-  search.set_upper_bounds(upper);
-  search.set_maxeval(static_cast<int>(120 * size));
-  struct Context {
-    const FitProblem& problem;
-    const LossFunction& loss;
-    std::size_t& evaluations;
-  } context{coarse, loss, total.evaluations};
-  search.set_min_objective(
-      [](unsigned n, const double* p, double*, void* data) {
-        auto& c = *static_cast<Context*>(data);
-        ++c.evaluations;
-        const double cost = mean_cost(c.problem, c.loss, {p, n});
-        return std::isfinite(cost) ? cost : 1e300;
-      },
-      &context);
-  double best = 0;
-  search.optimize(x, best);
-  return x;
-}
+
+private:
+  double cost(const std::vector<double>& x) {
+    ++evaluations_;
+    return mean_cost(problem_, loss_, x);
+  }
+
+  Normal evaluate(const std::vector<double>& x) {
+    ++evaluations_;
+    Normal n = normal_equations(problem_, loss_, x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_scale(problem_.parameters[i])) {
+        const auto at = static_cast<Index>(i);
+        n.descent(at) *= x[i];
+        n.hessian.row(at) *= x[i];
+        n.hessian.col(at) *= x[i];
+      }
+    return n;
+  }
+
+  // Why the fit has ended, or nullptr.
+  const char* iterate() {
+    const auto free = free_parameters(problem_, here_, x_);
+    if (free.empty()) return "converged: every parameter is held by a bound or without influence";
+    if (here_.cost <= exact_) return "converged: the law passes through every row";
+    constexpr double undamped = 1e-12;
+    model_ = corrected(free);
+    const Step best = bounded_step(problem_, model_, free, x_, undamped);
+    if (best.predicted <= options_.tolerance * here_.cost)
+      return "converged: no step promises a gain";
+    const double before = here_.cost;
+    close_ = best.predicted < 1e-3 * before;
+    if (!descend(free)) return "converged: no step improves the fit";
+    // Where kinks spoil the promise, the gains themselves say that it is over.
+    small_gains_ = before - here_.cost <= options_.tolerance * before ? small_gains_ + 1 : 0;
+    return small_gains_ >= 3 ? "converged: the gains have become negligible" : nullptr;
+  }
+
+  // The normal equations with the correction, where that leaves a minimum to step to.
+  Normal corrected(const std::vector<Index>& free) {
+    Normal model = here_;
+    const auto size = static_cast<Index>(free.size());
+    MatrixXd h(size, size);
+    for (Index a = 0; a < size; ++a)
+      for (Index b = 0; b < size; ++b)
+        h(a, b) = (here_.hessian(free[a], free[b]) + correction_(free[a], free[b])) /
+                  std::sqrt(here_.hessian(free[a], free[a]) * here_.hessian(free[b], free[b]));
+    if (Eigen::LLT<MatrixXd>(h - 1e-9 * MatrixXd::Identity(size, size)).info() == Eigen::Success)
+      model.hessian += correction_;
+    else
+      correction_.setZero();
+    return model;
+  }
+
+  // What the step has shown of the curvature: symmetric rank one, in scaled parameters.
+  void learn(const std::vector<double>& to, const Normal& there) {
+    const Index size = correction_.rows();
+    VectorXd step(size), scale(size);
+    for (Index i = 0; i < size; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Parameter& p = problem_.parameters[at];
+      step(i) = to_step_scale(p, to[at]) - to_step_scale(p, x_[at]);
+      scale(i) = there.hessian(i, i) > 0 ? std::sqrt(there.hessian(i, i)) : 1;
+    }
+    const VectorXd missed = here_.descent - there.descent - (there.hessian + correction_) * step;
+    const double along = missed.dot(step);
+    const double size_of_step = step.cwiseProduct(scale).norm();
+    if (std::abs(along) > 1e-8 * missed.cwiseQuotient(scale).norm() * size_of_step)
+      correction_ += missed * missed.transpose() / along;
+  }
+
+  bool descend(const std::vector<Index>& free) {
+    double growth = 4;
+    for (int attempt = 0; attempt < 25; ++attempt) {
+      const Step step = bounded_step(problem_, model_, free, x_, damping_);
+      Normal there;
+      if (attempt == 0) // likely to be accepted: value and derivatives in one sweep
+        there = evaluate(step.to);
+      else
+        there.cost = cost(step.to);
+      if (there.cost < here_.cost) {
+        const double ratio = (here_.cost - there.cost) / step.predicted;
+        damping_ = std::max(damping_ * (ratio > 0.9   ? 0.01
+                                        : ratio > 0.5 ? 0.2
+                                        : ratio > 0.1 ? 1
+                                                      : 3),
+                            1e-12);
+        if (attempt > 0) there = evaluate(step.to);
+        if (close_) learn(step.to, there);
+        x_ = step.to;
+        here_ = std::move(there);
+        return true;
+      }
+      damping_ = std::max(damping_ * growth, 1e-6);
+      growth *= 2;
+      if (damping_ > 1e14) return false;
+    }
+    return false;
+  }
+
+  const FitProblem& problem_;
+  const LossFunction& loss_;
+  const FitOptions& options_;
+  std::size_t evaluations_ = 0;
+  std::vector<double> x_;
+  Normal here_;
+  double damping_;
+  double exact_; // L2 below which only rounding is left
+  MatrixXd correction_;
+  Normal model_;       // here_ with the correction
+  bool close_ = false; // to the minimum: gradients tell about curvature
+  int small_gains_ = 0;
+};
 
 } // namespace
 
-FitResult fit_global(const FitProblem& coarse, const FitProblem& full, Loss loss,
-                     double huber_delta_MPa) {
-  const auto losses = stages(loss, huber_delta_MPa);
-  const std::size_t size = full.parameters.size();
-  FitResult total;
-  std::vector<std::vector<double>> starts(1);
-  for (const Parameter& p : full.parameters)
-    starts[0].push_back(p.start);
-  starts.push_back(direct_start(coarse, losses.front(), total));
-  constexpr std::size_t halton_points = 6;
-  std::vector<double> unit(size);
-  for (std::size_t i = 0; i < halton_points; ++i) {
-    halton(i, unit);
-    std::vector<double> start;
-    for (std::size_t p = 0; p < size; ++p) {
-      const Parameter& parameter = full.parameters[p];
-      start.push_back(parameter.lower + unit[p] * (parameter.upper - parameter.lower));
-    }
-    starts.push_back(start);
-  }
-  std::vector<FitResult> rough;
-  for (const auto& start : starts) {
-    rough.push_back(fit_from(coarse, losses.front(), start));
-    total.evaluations += rough.back().evaluations;
-  }
-  std::stable_sort(rough.begin(), rough.end(),
-                   [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
-  // Laws with a kink have several minima; on all rows another one may win.
-  FitResult best;
-  best.cost = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < rough.size(); ++i) {
-    if (i > 0 && rough[i].cost > rough[0].cost * 1.01) break;
-    if (i > 0 && rough[i].cost - rough[i - 1].cost <= 1e-9 * rough[i].cost) continue; // the same
-    FitResult polished = rough[i];
-    for (const LossFunction& stage : losses) {
-      polished = fit_from(full, stage, polished.parameters);
-      total.evaluations += polished.evaluations;
-    }
-    if (polished.cost < best.cost) best = polished;
-  }
-  best.evaluations = total.evaluations;
-  return best;
+FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
+                   const FitOptions& options) {
+  return Solver(problem, loss, std::move(start), options).run();
 }
 
 } // namespace frictab

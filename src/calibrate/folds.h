@@ -1,14 +1,22 @@
-// Splits for cross-validation that never cut through an experiment.
+// Folds of cross-validation: they part experiments, never the rows of one.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "data/dataset.h"
+
 namespace frictab {
 
-// The fold (0 .. folds-1) of each experiment: balanced, drawn by seed and repeat.
+// The fold, 0 .. folds-1, of each experiment, drawn by seed and repeat. Fold sizes differ by one
+// experiment at most, and no fold is empty. Throws InputError where there are fewer than 2 folds or
+// fewer experiments than folds.
 std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t folds,
                                           std::uint64_t seed, std::uint64_t repeat);
+
+// Throws InputError where an experiment is in both parts, so that what is learned on one would be
+// judged on itself. For parts of one campaign: two files may both count their tests from 1.
+void require_whole_experiments(const Dataset& a, const Dataset& b);
 
 } // namespace frictab

@@ -1,18 +1,17 @@
 // The three losses of a residual r in MPa: L2 r^2/2, Huber, and L1 smoothed to sqrt(r^2+eps^2).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "job/job.h"
 
 namespace frictab {
 
-// How sharply L1 is rounded off at 0 in the end: far below any tribometer's resolution.
-constexpr double smallest_rounding_MPa = 0.003;
-
 struct LossFunction {
   Loss kind = Loss::l2;
   double width_MPa = 10; // Huber: where it turns linear; L1: eps, where it is rounded off
+  double kernel_MPa = 0; // L1: rows within about this much of 0 tell how far to step
 
   double cost(double r) const {
     switch (kind) {
@@ -47,6 +46,22 @@ struct LossFunction {
     }
     case Loss::huber:
       return std::abs(r) <= width_MPa ? 1 : 0;
+    }
+    return 0;
+  }
+  // What a step takes for the curvature. L1 has none of its own: twice the density of the residuals
+  // at 0, by Epanechnikov's kernel, and a little of the weight, so that steps stay short where no
+  // row is near 0.
+  double step_curvature(double r) const {
+    switch (kind) {
+    case Loss::l2:
+      return 1;
+    case Loss::l1: {
+      const double h = std::max(2 * width_MPa, kernel_MPa), x = r / h;
+      return std::max(0.0, 1 - x * x) * 1.5 / h + 0.02 * weight(r);
+    }
+    case Loss::huber:
+      return std::abs(r) <= width_MPa ? 1 : 0.1 * width_MPa / std::abs(r);
     }
     return 0;
   }

@@ -1,4 +1,4 @@
-// Compiles a formula to a list of instructions and sweeps it over blocks of rows.
+// Compiles a formula to a list of instructions and evaluates it over blocks of rows.
 #include "expr/program.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "expr/arithmetic.h"
+#include "expr/row_loops.h"
 
 namespace frictab {
 
@@ -15,101 +16,6 @@ namespace {
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
-
-// Derivative of an operation by operand `which`, given operand values and the result.
-double partial(Op op, std::size_t which, const double* v, double result) {
-  switch (op) {
-  case Op::negate:
-    return -1;
-  case Op::add:
-    return 1;
-  case Op::subtract:
-    return which == 0 ? 1 : -1;
-  case Op::multiply:
-    return which == 0 ? v[1] : v[0];
-  case Op::divide:
-    return which == 0 ? 1 / v[1] : -result / v[1];
-  case Op::power:
-    if (which == 0) return v[0] == 0 ? (v[1] == 1 ? 1 : 0) : v[1] * result / v[0];
-    return v[0] > 0 ? result * std::log(v[0]) : 0;
-  case Op::exp:
-    return result;
-  case Op::log:
-    return 1 / v[0];
-  case Op::sqrt:
-    return 0.5 / result;
-  case Op::sin:
-    return std::cos(v[0]);
-  case Op::tanh:
-    return 1 - result * result;
-  case Op::acos:
-    return -1 / std::sqrt(1 - v[0] * v[0]);
-  case Op::minimum:
-    return (v[1] < v[0]) == (which == 1) ? 1 : 0;
-  case Op::maximum:
-    return (v[1] > v[0]) == (which == 1) ? 1 : 0;
-  case Op::where_le:
-    return which >= 2 && (v[0] <= v[1]) == (which == 2) ? 1 : 0;
-  case Op::constant:
-  case Op::symbol:
-    break;
-  }
-  return 0;
-}
-
-// A register holds one value per row of the block, or one value for all rows (stride 0).
-struct Register {
-  const double* data = nullptr;
-  std::size_t stride = 0;
-  double operator[](std::size_t i) const { return data[i * stride]; }
-};
-
-template <class F> void unary(std::size_t n, Register a, double* out, F f) {
-  for (std::size_t i = 0; i < n; ++i)
-    out[i] = f(a[i]);
-}
-
-template <class F> void binary(std::size_t n, Register a, Register b, double* out, F f) {
-  if (a.stride == 1 && b.stride == 1)
-    for (std::size_t i = 0; i < n; ++i)
-      out[i] = f(a.data[i], b.data[i]);
-  else if (a.stride == 1)
-    for (std::size_t i = 0; i < n; ++i)
-      out[i] = f(a.data[i], *b.data);
-  else
-    for (std::size_t i = 0; i < n; ++i)
-      out[i] = f(*a.data, b[i]);
-}
-
-void run_operation(Op op, std::size_t n, const Register* r, double* out) {
-  switch (op) { // the cheap operations get loops the compiler vectorises
-  case Op::add:
-    return binary(n, r[0], r[1], out, [](double a, double b) { return a + b; });
-  case Op::subtract:
-    return binary(n, r[0], r[1], out, [](double a, double b) { return a - b; });
-  case Op::multiply:
-    return binary(n, r[0], r[1], out, [](double a, double b) { return a * b; });
-  case Op::divide:
-    return binary(n, r[0], r[1], out, [](double a, double b) { return a / b; });
-  case Op::minimum:
-    return binary(n, r[0], r[1], out, min_nan);
-  case Op::maximum:
-    return binary(n, r[0], r[1], out, max_nan);
-  case Op::negate:
-    return unary(n, r[0], out, [](double a) { return -a; });
-  default:
-    break;
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    out[i] = apply(op, r[0][i], r[1][i], r[2][i], r[3][i]);
-}
-
-const double zero = 0;
-
-// What an operation reads; unused places read zero.
-struct Operands {
-  Register r[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};
-};
 
 } // namespace
 
@@ -209,7 +115,7 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
           for (std::size_t k = 0; k < in.operands; ++k)
             operands.r[k] = work.registers[in.a[k]];
           const std::size_t count = in.kind == Kind::scalar ? 1 : n;
-          run_operation(in.op, count, operands.r, work.slot(i));
+          run_operation(in.op, count, operands, work.slot(i));
           target = {work.slot(i), in.kind == Kind::scalar ? std::size_t{0} : std::size_t{1}};
         }
       }
@@ -218,188 +124,6 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
         out[first + i] = result[i];
     }
   });
-}
-
-BoundProgram::BoundProgram(const Program& program, std::size_t rows,
-                           std::span<const double* const> columns)
-    : program_(program), rows_(rows), columns_(columns.begin(), columns.end()),
-      cached_(program.code_.size()) {
-  using Kind = Program::Kind;
-  std::vector<bool> wanted(program.code_.size(), false);
-  for (const auto& in : program.code_)
-    if (in.kind == Kind::row)
-      for (std::size_t k = 0; k < in.operands; ++k)
-        wanted[in.a[k]] = program.code_[in.a[k]].kind == Kind::data || wanted[in.a[k]];
-  wanted.back() = program.code_.back().kind == Kind::data || wanted.back();
-  for (std::size_t i = program.code_.size(); i-- > 0;) // what the wanted nodes are made of
-    if (wanted[i])
-      for (std::size_t k = 0; k < program.code_[i].operands; ++k)
-        wanted[program.code_[i].a[k]] = true;
-  for (std::size_t i = 0; i < program.code_.size(); ++i) {
-    const auto& in = program.code_[i];
-    if (!wanted[i] || in.kind != Kind::data || in.op == Op::symbol) continue;
-    Operands operands;
-    for (std::size_t k = 0; k < in.operands; ++k) {
-      const auto& from = program.code_[in.a[k]];
-      if (from.op == Op::constant)
-        operands.r[k] = {&from.value, 0};
-      else if (from.op == Op::symbol)
-        operands.r[k] = {columns_[from.index], 1};
-      else
-        operands.r[k] = {cached_[in.a[k]].data(), 1};
-    }
-    cached_[i].resize(rows);
-    run_operation(in.op, rows, operands.r, cached_[i].data());
-  }
-}
-
-// One sweep over all blocks: values forward, derivatives by each scalar backward.
-class BoundProgram::Sweep {
-public:
-  Sweep(const BoundProgram& bound, std::span<const double> scalars, bool derivatives)
-      : bound_(bound), code_(bound.program_.code_), parameters_(bound.program_.scalars_.size()),
-        work_(code_.size()), value_(code_.size()), slope_(code_.size() * parameters_) {
-    evaluate_scalars(scalars);
-    if (!derivatives) return;
-    adjoint_.resize(code_.size() * block);
-    gradient_.resize(parameters_ * block);
-    touched_.resize(code_.size());
-  }
-
-  Block run(std::size_t first, std::size_t count) {
-    forward(first, count);
-    const std::size_t last = code_.size() - 1;
-    if (work_.registers[last].stride == 0) { // a formula without columns
-      std::fill_n(work_.slot(last), count, value_[last]);
-      work_.registers[last] = {work_.slot(last), 1};
-    }
-    Block result{first, count, work_.registers[last].data, {}};
-    if (adjoint_.empty()) return result;
-    backward(count);
-    for (std::size_t p = 0; p < parameters_; ++p)
-      result.derivative.push_back(gradient_.data() + p * block);
-    return result;
-  }
-
-private:
-  using Kind = Program::Kind;
-  static constexpr std::size_t block = Program::block;
-
-  // Nodes without columns: once, with their derivatives by each parameter in forward mode.
-  void evaluate_scalars(std::span<const double> scalars) {
-    for (std::size_t i = 0; i < code_.size(); ++i) {
-      const auto& in = code_[i];
-      if (in.op == Op::constant) value_[i] = in.value;
-      if (in.kind != Kind::scalar || in.op == Op::constant) continue;
-      if (in.op == Op::symbol) {
-        value_[i] = scalars[in.index];
-        slope_[i * parameters_ + in.index] = 1;
-        continue;
-      }
-      double v[4] = {};
-      for (std::size_t k = 0; k < in.operands; ++k)
-        v[k] = value_[in.a[k]];
-      value_[i] = apply(in.op, v[0], v[1], v[2], v[3]);
-      for (std::size_t k = 0; k < in.operands; ++k)
-        for (std::size_t p = 0; p < parameters_; ++p)
-          if (const double s = slope_[in.a[k] * parameters_ + p]; s != 0)
-            slope_[i * parameters_ + p] += partial(in.op, k, v, value_[i]) * s;
-    }
-  }
-
-  void forward(std::size_t first, std::size_t count) {
-    for (std::size_t i = 0; i < code_.size(); ++i) {
-      const auto& in = code_[i];
-      const auto& cached = bound_.cached_[i];
-      Register& target = work_.registers[i];
-      if (in.kind == Kind::scalar)
-        target = {&value_[i], 0};
-      else if (in.op == Op::symbol)
-        target = {bound_.columns_[in.index] + first, 1};
-      else if (in.kind == Kind::data)
-        target = {cached.empty() ? nullptr : cached.data() + first, 1};
-      else {
-        Operands operands;
-        for (std::size_t k = 0; k < in.operands; ++k)
-          operands.r[k] = work_.registers[in.a[k]];
-        run_operation(in.op, count, operands.r, work_.slot(i));
-        target = {work_.slot(i), 1};
-      }
-    }
-  }
-
-  void backward(std::size_t count) {
-    std::fill(gradient_.begin(), gradient_.end(), 0.0);
-    std::fill(touched_.begin(), touched_.end(), 0);
-    const std::size_t last = code_.size() - 1;
-    std::fill_n(adjoint_.data() + last * block, count, 1.0);
-    touched_[last] = 1;
-    for (std::size_t i = code_.size(); i-- > 0;) {
-      const auto& in = code_[i];
-      if (!touched_[i] || in.kind == Kind::data) continue;
-      if (in.kind == Kind::scalar)
-        add_to_gradient(i, count);
-      else
-        for (std::size_t k = 0; k < in.operands; ++k)
-          pass_on(i, k, count);
-    }
-  }
-
-  void add_to_gradient(std::size_t i, std::size_t count) {
-    const double* a = adjoint_.data() + i * block;
-    for (std::size_t p = 0; p < parameters_; ++p)
-      if (const double s = slope_[i * parameters_ + p]; s != 0)
-        for (std::size_t j = 0; j < count; ++j)
-          gradient_[p * block + j] += a[j] * s;
-  }
-
-  // Adds the adjoint of node i, times its derivative by operand k, to that operand's adjoint.
-  void pass_on(std::size_t i, std::size_t k, std::size_t count) {
-    const auto& in = code_[i];
-    const std::size_t to = in.a[k];
-    if (code_[to].kind == Kind::data || code_[to].op == Op::constant) return;
-    const double* a = adjoint_.data() + i * block;
-    double* b = adjoint_.data() + to * block;
-    if (!touched_[to]) std::fill_n(b, count, 0.0);
-    touched_[to] = 1;
-    if (in.op == Op::add || (in.op == Op::subtract && k == 0)) {
-      for (std::size_t j = 0; j < count; ++j)
-        b[j] += a[j];
-      return;
-    }
-    if (in.op == Op::multiply) {
-      const Register other = work_.registers[in.a[1 - k]];
-      for (std::size_t j = 0; j < count; ++j)
-        b[j] += a[j] * other[j];
-      return;
-    }
-    Operands operands;
-    for (std::size_t o = 0; o < in.operands; ++o)
-      operands.r[o] = work_.registers[in.a[o]];
-    const double* out = work_.registers[i].data;
-    for (std::size_t j = 0; j < count; ++j) {
-      if (a[j] == 0) continue; // keeps an infinite slope of a branch not taken out
-      const double v[4] = {operands.r[0][j], operands.r[1][j], operands.r[2][j], operands.r[3][j]};
-      b[j] += a[j] * partial(in.op, k, v, out[j]);
-    }
-  }
-
-  const BoundProgram& bound_;
-  const std::vector<Program::Instruction>& code_;
-  std::size_t parameters_;
-  Workspace work_;
-  std::vector<double> value_;    // of scalar nodes
-  std::vector<double> slope_;    // of scalar nodes, by parameter
-  std::vector<double> adjoint_;  // per node and row of the block
-  std::vector<double> gradient_; // per parameter and row of the block
-  std::vector<char> touched_;
-};
-
-void BoundProgram::sweep(std::span<const double> scalars, bool derivatives,
-                         const std::function<void(const Block&)>& take) const {
-  Sweep sweep(*this, scalars, derivatives);
-  for (std::size_t first = 0; first < rows_; first += Program::block)
-    take(sweep.run(first, std::min(Program::block, rows_ - first)));
 }
 
 } // namespace frictab

@@ -15,7 +15,7 @@ namespace frictab {
 // Symbols are either `columns` (one value per row) or `scalars` (one value for all rows).
 class Program {
 public:
-  static constexpr std::size_t block = 256; // rows per sweep: the working set stays in L2
+  static constexpr std::size_t block = 128; // rows per sweep: the working set stays in L1
 
   // Throws std::logic_error where the formula has a symbol that is in neither list.
   Program(const Expr& formula, std::vector<std::string> columns, std::vector<std::string> scalars);
@@ -62,7 +62,7 @@ public:
     std::size_t first;
     std::size_t count;
     const double* value;
-    std::vector<const double*> derivative;
+    std::span<const double* const> derivative; // empty where none were asked for
   };
   void sweep(std::span<const double> scalars, bool derivatives,
              const std::function<void(const Block&)>& take) const;

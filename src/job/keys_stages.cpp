@@ -126,9 +126,8 @@ std::vector<KeyRule> table_keys() {
           Allowed{"friction law", laws_best_or_all},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
-          "share of experiments that stay below the table: 0.5 = the law itself, [0.05, 0.5, 0.95] "
-          "= "
-          "the law and both ends of the band in which experiments lie") |
+          "share of experiments that stay below the table: 0.5 = the law itself, "
+          "[0.05, 0.5, 0.95] = the law and both ends of the band in which experiments lie") |
           at_least(0.001, 0.999),
       key<double>(
           "table.tolerance_MPa", [](Job & job) -> auto& { return job.table.tolerance_MPa; },

@@ -16,7 +16,8 @@ Law coulomb() {
   law.title = "Coulomb friction";
   law.formula = "tau_R = mu sigma_N";
   law.reference = "Coulomb 1785; the field's standard law at low contact normal stress";
-  law.parameters = {{"mu", "1", "friction coefficient", 0.08, 0, 1}};
+  law.parameters = {{"mu", "1", "friction coefficient", 0.08, 0, 1,
+                     "experiments under load, below the shear limit"}};
   law.build = build;
   return law;
 }

@@ -6,9 +6,11 @@ namespace frictab {
 namespace {
 
 Formula build(const Conventions&) {
-  const Expr mu = Expr::symbol("mu0") *
-                  pow(maximum(state::sigma_n(), 1e-3) / 1000.0, Expr::symbol("a")) *
-                  exp(Expr::symbol("b") * (state::temperature() - 20.0));
+  // (sigma_N/1000)^a as exp(a ln(sigma_N/1000)): one exponential in all, and logarithms that do not
+  // change while the parameters do.
+  const Expr ln_stress = log(maximum(state::sigma_n(), 1e-3) / 1000.0);
+  const Expr mu = Expr::symbol("mu0") * exp(Expr::symbol("a") * ln_stress +
+                                            Expr::symbol("b") * (state::temperature() - 20.0));
   return {mu, state::value() * state::sigma_n()};
 }
 
@@ -20,9 +22,12 @@ Law exp_coulomb() {
   law.formula = "tau_R = sigma_N mu0 (sigma_N/1000)^a exp(b (T-20))";
   law.reference = "arguments as in the benchmark's multiplicative-exponential extension, which it "
                   "does not print; this form is ours";
-  law.parameters = {{"mu0", "1", "coefficient at 1000 MPa and 20 degC", 0.08, 1e-6, 2},
-                    {"a", "1", "exponent of the contact normal stress", 0, -3, 3},
-                    {"b", "1/K", "relative change per kelvin", 0, -0.1, 0.1}};
+  law.parameters = {{"mu0", "1", "coefficient at 1000 MPa and 20 degC", 0.08, 1e-6, 2,
+                     "experiments under load, below the shear limit"},
+                    {"a", "1", "exponent of the contact normal stress", 0, -3, 3,
+                     "experiments at several contact normal stresses"},
+                    {"b", "1/K", "relative change per kelvin", 0, -0.1, 0.1,
+                     "experiments at several temperatures"}};
   law.log_value = true;
   law.build = build;
   return law;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,11 @@ struct Parameter {
   double start; // default start value, or the value of a fixed law
   double lower;
   double upper;
+  std::string settled_by = {}; // what experiments would settle it: "experiments at several speeds"
 };
+
+// Columns by canonical name, with tau_R_MPa.
+using TrainingRows = std::map<std::string, std::span<const double>>;
 
 // tau_R = combine(value, state, parameters), value = value(state, parameters).
 // `value` is the smooth piece that is tabulated; kinks belong into `combine`, which is evaluated
@@ -61,6 +66,9 @@ struct Law {
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
   std::vector<std::string> may_use; // trained laws: states used where the data vary in them
   std::function<Formula(const Conventions&)> build;
+  // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
+  // a search over the bounds. The first is the least-squares optimum.
+  std::vector<std::vector<double>> (*starts)(const Conventions&, const TrainingRows&) = nullptr;
 };
 
 // Shear yield stress k as a formula of the flow stress.

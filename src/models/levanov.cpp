@@ -17,7 +17,8 @@ Law levanov() {
   law.title = "Levanov: shear friction saturating with contact normal stress";
   law.formula = "tau_R = m k (1 - exp(-1.25 sigma_N/sigma_f))";
   law.reference = "Levanov 1976; recalled; initial mu = 1.25 m/sqrt(3)";
-  law.parameters = {{"m", "1", "friction factor", 0.2, 0, 1}};
+  law.parameters = {
+      {"m", "1", "friction factor", 0.2, 0, 1, "experiments under load, below the shear limit"}};
   law.quantity = "tau_R";
   law.log_value = true;
   law.build = build;

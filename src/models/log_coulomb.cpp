@@ -29,11 +29,16 @@ Law log_coulomb() {
                 "+ c4 ln(T/100)); v >= 1e-6 mm/s, T >= 1 degC inside the logarithms";
   law.reference = "arguments as in the benchmark's logarithmic extension, which it does not print; "
                   "this form is ours";
-  law.parameters = {{"c0", "1", "coefficient at 1000 MPa, psi 1, 100 mm/s, 100 degC", 0.08, -2, 2},
-                    {"c1", "1", "change per ln(contact normal stress)", 0, -1, 1},
-                    {"c2", "1", "change per ln(surface expansion)", 0, -1, 1},
-                    {"c3", "1", "change per ln(sliding speed)", 0, -1, 1},
-                    {"c4", "1", "change per ln(contact temperature)", 0, -1, 1}};
+  law.parameters = {{"c0", "1", "coefficient at 1000 MPa, psi 1, 100 mm/s, 100 degC", 0.08, -2, 2,
+                     "experiments under load, below the shear limit"},
+                    {"c1", "1", "change per ln(contact normal stress)", 0, -1, 1,
+                     "experiments at several contact normal stresses"},
+                    {"c2", "1", "change per ln(surface expansion)", 0, -1, 1,
+                     "experiments at several surface expansions"},
+                    {"c3", "1", "change per ln(sliding speed)", 0, -1, 1,
+                     "experiments at several sliding speeds"},
+                    {"c4", "1", "change per ln(contact temperature)", 0, -1, 1,
+                     "experiments at several temperatures"}};
   law.log_axes = {{"T_contact_C", true}};
   law.build = build;
   return law;

@@ -1,4 +1,5 @@
 // Orowan: Coulomb up to the shear friction stress.
+#include "models/orowan_optimum.h"
 #include "models/symbols.h"
 
 namespace frictab {
@@ -11,6 +12,17 @@ Formula build(const Conventions& conventions) {
                                       Expr::symbol("m") * shear_yield_stress(conventions))};
 }
 
+std::vector<std::vector<double>> starts(const Conventions& conventions, const TrainingRows& rows) {
+  const auto sigma_f = rows.at("sigma_f_MPa");
+  std::vector<double> k(sigma_f.begin(), sigma_f.end());
+  for (double& x : k)
+    x *= conventions.k_over_sigma_f;
+  std::vector<std::vector<double>> points;
+  for (const auto& [mu, m] : orowan_optimum({rows.at("sigma_n_MPa"), k, rows.at("tau_R_MPa")}, 12))
+    points.push_back({mu, m});
+  return points;
+}
+
 Law orowan() {
   Law law;
   law.name = "orowan";
@@ -18,9 +30,12 @@ Law orowan() {
   law.title = "Orowan: Coulomb friction limited by shear friction";
   law.formula = "tau_R = min(mu sigma_N, m k)";
   law.reference = "Orowan 1943 (m = 1 in the original); form recalled, standard in the field";
-  law.parameters = {{"mu", "1", "friction coefficient", 0.08, 0, 1},
-                    {"m", "1", "friction factor of the limit", 0.3, 0, 1}};
+  law.parameters = {{"mu", "1", "friction coefficient", 0.08, 0, 1,
+                     "experiments at lower sigma_N/k, where friction still grows with sigma_N"},
+                    {"m", "1", "friction factor of the limit", 0.3, 0, 1,
+                     "experiments at higher sigma_N/k, where friction has reached m k"}};
   law.build = build;
+  law.starts = starts;
   return law;
 }
 

@@ -9,17 +9,19 @@ namespace frictab {
 namespace {
 
 Formula build(const Conventions& conventions) {
-  const Expr f = Expr::symbol("f");
+  // f = 1 (full sticking) is where slopes become infinite: it is approached to 1e-12.
+  const Expr f = Expr::symbol("f") * (1 - 1e-12);
   const Expr q = state::sigma_n() / state::sigma_f();
-  // t1: tau/k at the proportional limit q1; C1 there; tau -> f k for large q.
+  // t1: tau/k at the proportional limit q1; C1 there; tau -> f k for large q. With root =
+  // sqrt(1-f): f - t1 = root t1, so that nothing is divided by f - t1, which is 0 for f = 1.
   const Expr root = sqrt(1.0 - f);
   const Expr t1 = 1.0 - root;
-  const Expr q1 =
-      (1.0 + std::numbers::pi / 2 + acos(f) + sqrt(1.0 - f * f)) / (std::sqrt(3.0) * (1.0 + root));
-  const Expr line = t1 * q / q1;
+  const Expr q1 = (1.0 + std::numbers::pi / 2 + acos(f) + root * sqrt(1.0 + f)) /
+                  (std::sqrt(3.0) * (1.0 + root));
+  const Expr line = t1 / q1 * q;
   // Below q1 the exponent is held at 0, so that the branch not taken stays finite.
-  const Expr beyond = minimum(1.0 - q / q1, 0.0);
-  const Expr curve = t1 + (f - t1) * (1.0 - exp(beyond * t1 / (f - t1)));
+  const Expr beyond = minimum(1.0 / root - 1.0 / (q1 * root) * q, 0.0); // (1 - q/q1)/root
+  const Expr curve = t1 * (1.0 + root) - t1 * root * exp(beyond);
   const Expr tau = shear_yield_stress(conventions) * where_le(q, q1, line, curve);
   return {tau, state::value()};
 }
@@ -34,7 +36,8 @@ Law wanheim_bay() {
                 "q1 = (1+pi/2+acos f+sqrt(1-f^2))/(sqrt3 (1+sqrt(1-f)))";
   law.reference = "Wanheim and Bay 1976; recalled, its initial slope agrees to 4 digits with the "
                   "published equivalent mu = f/(1+pi/2+acos f+sqrt(1-f^2))";
-  law.parameters = {{"f", "1", "friction factor", 0.3, 1e-4, 0.9999}};
+  law.parameters = {
+      {"f", "1", "friction factor", 0.3, 1e-4, 1, "experiments under load, below the shear limit"}};
   law.quantity = "tau_R";
   law.log_value = true;
   law.build = build;

@@ -138,7 +138,8 @@ TEST(Calibration, NamesTheParameterThatTheDataDoNotDetermineAndWhatWouldSettleIt
   EXPECT_TRUE(std::isnan(fit.std_error[2]));
   EXPECT_EQ(fit.model.parameters[2], 0) << "left at its default";
   ASSERT_EQ(fit.remarks.size(), 2U);
-  EXPECT_EQ(fit.remarks[0], "c2 has no influence on these data");
+  EXPECT_EQ(fit.remarks[0], "c2 has no influence on these data: experiments at several surface "
+                            "expansions would settle it");
   EXPECT_EQ(fit.remarks[1], "psi is 1 in every row: experiments at other values would settle it");
 }
 

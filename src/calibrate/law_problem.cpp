@@ -1,0 +1,235 @@
+// Where to start, and how to get from few rows to all of them.
+#include "calibrate/law_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <nlopt.hpp>
+
+#include "calibrate/median.h"
+#include "calibrate/normal.h"
+#include "core/random.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t few_rows = 256;     // enough to tell one minimum from another
+constexpr std::size_t coarse_rows = 2800; // enough to come within a standard error of the optimum
+
+std::vector<double> default_start(const FitProblem& problem) {
+  std::vector<double> start;
+  for (const Parameter& p : problem.parameters)
+    start.push_back(p.start);
+  return start;
+}
+
+std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
+  std::vector<double> unit(problem.parameters.size()), start;
+  halton(index, unit);
+  for (std::size_t p = 0; p < unit.size(); ++p) {
+    const Parameter& b = problem.parameters[p];
+    start.push_back(is_scale(b) ? b.lower * std::pow(b.upper / b.lower, unit[p])
+                                : b.lower + unit[p] * (b.upper - b.lower));
+  }
+  return start;
+}
+
+// NLopt's DIRECT-L over the bounds.
+std::vector<double> direct_start(const FitProblem& problem, const LossFunction& loss) {
+  const std::size_t size = problem.parameters.size();
+  std::vector<double> lower, upper, x = default_start(problem);
+  for (const Parameter& p : problem.parameters) {
+    lower.push_back(p.lower);
+    upper.push_back(p.upper);
+  }
+  nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(size));
+  search.set_lower_bounds(lower);
+  search.set_upper_bounds(upper);
+  search.set_maxeval(static_cast<int>(120 * size));
+  struct Context {
+    const FitProblem& problem;
+    const LossFunction& loss;
+  } context{problem, loss};
+  search.set_min_objective(
+      [](unsigned n, const double* p, double*, void* data) {
+        const auto& c = *static_cast<Context*>(data);
+        const double cost = mean_cost(c.problem, c.loss, {p, n});
+        return std::isfinite(cost) ? cost : 1e300;
+      },
+      &context);
+  double best = 0;
+  search.optimize(x, best);
+  return x;
+}
+
+// Best first, without those that came to the same place, without hopeless ones.
+void keep_best(std::vector<FitResult>& fits, double slack) {
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+  std::vector<FitResult> kept;
+  for (FitResult& fit : fits) {
+    if (!kept.empty() && (fit.cost > kept.front().cost * (1 + slack) ||
+                          fit.cost - kept.back().cost <= 1e-7 * fit.cost))
+      continue;
+    kept.push_back(std::move(fit));
+  }
+  fits = std::move(kept);
+}
+
+bool agree(const std::vector<FitResult>& fits) {
+  double first = std::numeric_limits<double>::infinity(), second = first;
+  for (const FitResult& fit : fits) {
+    second = std::min(second, std::max(first, fit.cost));
+    first = std::min(first, fit.cost);
+  }
+  return second - first <= 1e-6 * first;
+}
+
+double root_mean_square(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values)
+    sum += v * v;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+void refine(FitResult& fit, const FitProblem& problem, const LossFunction& loss,
+            const FitOptions& options) {
+  const std::size_t before = fit.evaluations;
+  FitOptions with = options;
+  with.correction = &fit.correction;
+  fit = fit_from(problem, loss, fit.parameters, with);
+  fit.evaluations += before;
+}
+
+} // namespace
+
+LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dataset& data)
+    : law_(law), names_(inputs(law, conventions)),
+      program_(tau_formula(law, conventions), names_, parameter_names(law)) {
+  if (data.rows() >= 4 * few_rows) add_thinned(data, few_rows);
+  if (data.rows() >= 4 * coarse_rows) add_thinned(data, coarse_rows);
+  Level all;
+  for (const std::string& name : names_)
+    all.columns.push_back(data.values(name).data());
+  all.measured = data.values("tau_R_MPa");
+  all.formula.emplace(program_, data.rows(), all.columns);
+  levels_.push_back(std::move(all));
+  if (!law.starts) return;
+  TrainingRows rows{{"tau_R_MPa", data.values("tau_R_MPa")}};
+  for (const std::string& name : names_)
+    rows[name] = data.values(name);
+  offered_ = law.starts(conventions, rows);
+}
+
+// Evenly spaced rows, so that every experiment is seen in proportion.
+void LawProblem::add_thinned(const Dataset& data, std::size_t rows) {
+  Level& level = levels_.emplace_back();
+  std::vector<std::string> names = names_;
+  names.push_back("tau_R_MPa");
+  for (const std::string& name : names) {
+    const auto values = data.values(name);
+    auto& kept = level.kept.emplace_back();
+    kept.reserve(rows);
+    for (std::size_t i = 0; i < rows; ++i)
+      kept.push_back(values[(2 * i + 1) * values.size() / (2 * rows)]);
+  }
+  for (std::size_t c = 0; c < names_.size(); ++c)
+    level.columns.push_back(level.kept[c].data());
+  level.measured = level.kept.back();
+  level.formula.emplace(program_, rows, level.columns);
+}
+
+FitProblem LawProblem::problem(const Level& level) const {
+  return {*level.formula, level.measured, law_.parameters};
+}
+
+// Distinct minima on one level, best first. Least squares find them, `loss` ranks them; for L1
+// sets its rounding by the residuals that are left.
+std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss) const {
+  const FitProblem rows = problem(level);
+  const LossFunction squares{Loss::l2, 0};
+  std::vector<FitResult> fits;
+  std::size_t evaluations = 0;
+  const auto try_start = [&](std::vector<double> start) {
+    fits.push_back(fit_from(rows, squares, std::move(start), {.tolerance = 1e-8}));
+    evaluations += fits.back().evaluations;
+  };
+  try_start(default_start(rows));
+  for (const auto& start : offered_)
+    try_start(start);
+  // Until two starts have come to the same lowest minimum.
+  constexpr std::size_t most = 8;
+  for (std::size_t i = 0; offered_.empty() && !agree(fits); ++i) {
+    if (i == most) {
+      try_start(direct_start(rows, squares));
+      evaluations += 120 * rows.parameters.size();
+      break;
+    }
+    try_start(halton_start(rows, i));
+  }
+  keep_best(fits, 0.05);
+  if (loss.kind == Loss::l1) {
+    const double left = std::sqrt(2 * fits.front().cost);
+    loss.width_MPa = std::max(left, 1e-7 * root_mean_square(rows.measured));
+  }
+  if (loss.kind != Loss::l2) {
+    LossFunction rounded = loss;
+    rounded.width_MPa *= loss.kind == Loss::l1 ? 0.5 : 1;
+    for (FitResult& fit : fits)
+      refine(fit, rows, rounded, {.tolerance = 1e-6});
+    keep_best(fits, 0.05);
+  }
+  fits.front().evaluations += evaluations;
+  return fits;
+}
+
+LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
+  LossFunction loss{kind, huber_delta_MPa};
+  if (kind == Loss::l2 && !offered_.empty())
+    return {{offered_.front(),
+             mean_cost(problem(levels_.back()), loss, offered_.front()),
+             1,
+             "converged: closed form",
+             {}},
+            {}};
+  std::vector<FitResult> fits = search(levels_.front(), loss);
+  const double scale = loss.width_MPa; // of the residuals, for L1
+  const auto rounded = [&](double width, double kernel) {
+    return kind == Loss::l1 ? LossFunction{kind, width * scale, kernel * scale} : loss;
+  };
+  const bool exact = kind == Loss::l1 && law_.parameters.size() == 1;
+  std::size_t evaluations = 0;
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const bool last = i + 1 == levels_.size();
+    if (last && exact) break;
+    for (FitResult& fit : fits)
+      refine(fit, problem(levels_[i]), last ? rounded(0.003, 0.15) : rounded(0.05, 0.3),
+             {.tolerance = last ? 1e-9 : 1e-8, .damping = 1e-9});
+    for (const FitResult& fit : fits)
+      evaluations += fit.evaluations;
+    keep_best(fits, 0.01);
+  }
+  fits.front().evaluations = evaluations;
+  if (exact) exact_median(problem(levels_.back()), fits.front());
+  return {fits.front(), {}};
+}
+
+void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
+                                 std::span<const std::size_t> first_row) const {
+  const FitProblem all = problem(levels_.back());
+  FitResult& result = fit.result;
+  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
+  const double kernel_MPa = 2 * result.cost;
+  const LossFunction loss{kind, kind == Loss::l1 ? kernel_MPa : huber_delta_MPa};
+  fit.uncertainty = cluster_sandwich(all, loss, result.parameters, first_row);
+  if (fit.uncertainty.settled == result.parameters) return;
+  const LossFunction fine{kind, kind == Loss::l1 ? 1e-3 * result.cost : huber_delta_MPa};
+  const double here = mean_cost(all, fine, result.parameters);
+  const FitResult settled = fit_from(all, fine, fit.uncertainty.settled);
+  result.evaluations += settled.evaluations;
+  if (settled.cost <= here * (1 + 1e-9)) result.parameters = settled.parameters;
+}
+
+} // namespace frictab

@@ -1,0 +1,52 @@
+// A law and the rows it is fitted to, on all rows and on thinned copies of them.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "calibrate/fit.h"
+#include "data/dataset.h"
+
+namespace frictab {
+
+struct LawFit {
+  FitResult result;
+  Uncertainty uncertainty; // after add_uncertainty
+};
+
+// Coarse to fine: starts are tried on a few hundred rows, the survivors are refined on a few
+// thousand, and all rows are seen two or three times only.
+class LawProblem {
+public:
+  // The data must have inputs(law) and tau_R_MPa, and outlive the problem.
+  LawProblem(const Law& law, const Conventions& conventions, const Dataset& data);
+
+  // The best fit found. L1 is rounded off over a thousandth of the residuals; with one parameter it
+  // is exact (weighted median).
+  LawFit fit(Loss loss, double huber_delta_MPa) const;
+
+  // Standard errors and remarks; moves the parameters to Uncertainty::settled where that costs
+  // nothing.
+  void add_uncertainty(LawFit& fit, Loss loss, double huber_delta_MPa,
+                       std::span<const std::size_t> first_row) const;
+
+private:
+  struct Level {
+    std::vector<std::vector<double>> kept; // of a thinned copy: columns, then tau_R
+    std::vector<const double*> columns;
+    std::span<const double> measured;
+    std::optional<BoundProgram> formula;
+  };
+  FitProblem problem(const Level& level) const;
+  void add_thinned(const Dataset& data, std::size_t rows);
+  std::vector<FitResult> search(const Level& level, LossFunction& loss) const;
+
+  const Law& law_;
+  std::vector<std::string> names_;
+  Program program_;
+  std::deque<Level> levels_;                 // coarse to fine; the last has all rows
+  std::vector<std::vector<double>> offered_; // the law's own starts
+};
+
+} // namespace frictab

@@ -1,0 +1,34 @@
+// Sums over rows that every step of a fit needs.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "calibrate/fit.h"
+
+namespace frictab {
+
+// Mean loss and what a step needs to lower it, at one set of parameters.
+struct Normal {
+  double cost = 0;         // infinity where the law is not finite
+  Eigen::VectorXd descent; // mean of loss'(r) J: minus the gradient
+  Eigen::MatrixXd hessian; // mean of step curvature J'J
+};
+
+double mean_cost(const FitProblem& problem, const LossFunction& loss,
+                 std::span<const double> parameters);
+Normal normal_equations(const FitProblem& problem, const LossFunction& loss,
+                        std::span<const double> parameters);
+
+// Scores and curvature (loss.curvature, not the step's) of each experiment, at the optimum.
+struct ExperimentSums {
+  Eigen::VectorXd score;   // sum of loss'(r) J
+  Eigen::MatrixXd hessian; // sum of curvature J'J
+};
+std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,
+                                               std::span<const double> parameters,
+                                               std::span<const std::size_t> first_row);
+
+} // namespace frictab

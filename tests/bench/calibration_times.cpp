@@ -1,0 +1,61 @@
+// Times the fit of every calibrated law on a synthetic campaign.
+//
+// usage: calibration_times FILE.csv [ROUNDS]
+// Writes the 44,550 rows to FILE.csv and prints, per law and loss, the best wall time in ms of the
+// fit alone and with standard errors, the mean loss in the sense of the loss, and the parameters.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+
+#include "calibrate/law_problem.h"
+#include "data/write_dataset.h"
+#include "twin/twin.h"
+
+namespace frictab {
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+void time_law(const Law& law, const Dataset& data, Loss loss, int rounds) {
+  const Conventions conventions;
+  double fit_ms = 1e9, all_ms = 1e9;
+  LawFit fit;
+  for (int i = 0; i < rounds; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    const LawProblem problem(law, conventions, data);
+    fit = problem.fit(loss, 10);
+    fit_ms = std::min(fit_ms, milliseconds_since(begin));
+    problem.add_uncertainty(fit, loss, 10, data.first_row);
+    all_ms = std::min(all_ms, milliseconds_since(begin));
+  }
+  std::printf("%s %s %.3f %.3f %zu", law.name.c_str(), loss == Loss::l2 ? "L2" : "L1", fit_ms,
+              all_ms, fit.result.evaluations);
+  for (const double p : fit.result.parameters)
+    std::printf(" %.17g", p);
+  std::printf("\n");
+}
+
+} // namespace
+} // namespace frictab
+
+int main(int argc, char** argv) try {
+  using namespace frictab;
+  if (argc < 2) return 2;
+  const Dataset data = make_twin({}).training.data;
+  std::ofstream(argv[1]) << csv_text(data);
+  const int rounds = argc > 2 ? std::atoi(argv[2]) : 5;
+  for (const Loss loss : {Loss::l2, Loss::l1})
+    for (const Law& law : all_laws())
+      if (law.calibrated == Calibrated::fit) time_law(law, data, loss, rounds);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

@@ -1,0 +1,103 @@
+// Cross-validation never learns from an experiment it is judged on.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "calibrate/folds.h"
+#include "core/error.h"
+
+namespace frictab {
+namespace {
+
+Dataset campaign(std::size_t experiments, std::size_t rows) {
+  Dataset data;
+  data.columns = {{"x", "", {}, {}}};
+  for (std::size_t e = 0; e < experiments; ++e) {
+    for (std::size_t i = 0; i < rows; ++i)
+      data.columns[0].values.push_back(static_cast<double>(100 * e + i));
+    data.experiments.push_back("E" + std::to_string(e));
+    data.first_row.push_back(data.columns[0].values.size());
+  }
+  data.sources = {"rig.csv"};
+  return data;
+}
+
+// What a split by rows does: the first `rows` rows of every experiment, under its own name.
+Dataset first_rows(const Dataset& data, std::size_t rows) {
+  Dataset part;
+  part.columns = {{"x", "", {}, {}}};
+  part.sources = data.sources;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const auto begin = data.columns[0].values.begin() + static_cast<long>(data.first_row[e]);
+    part.columns[0].values.insert(part.columns[0].values.end(), begin,
+                                  begin + static_cast<long>(rows));
+    part.experiments.push_back(data.experiments[e]);
+    part.first_row.push_back(part.columns[0].values.size());
+  }
+  return part;
+}
+
+TEST(Folds, AreBalancedAndEveryExperimentIsInExactlyOne) {
+  for (const std::size_t experiments : {5, 7, 81, 100})
+    for (std::uint64_t repeat = 0; repeat < 3; ++repeat) {
+      const auto fold = experiment_folds(experiments, 5, 1, repeat);
+      ASSERT_EQ(fold.size(), experiments);
+      std::vector<std::size_t> size(5, 0);
+      for (const std::size_t f : fold)
+        ++size.at(f);
+      const auto [low, high] = std::minmax_element(size.begin(), size.end());
+      EXPECT_GE(*low, 1U);
+      EXPECT_LE(*high - *low, 1U);
+    }
+}
+
+TEST(Folds, RepeatBySeedAndDifferBetweenSeedsAndRepeats) {
+  const auto fold = experiment_folds(81, 5, 3, 0);
+  EXPECT_EQ(experiment_folds(81, 5, 3, 0), fold);
+  EXPECT_NE(experiment_folds(81, 5, 4, 0), fold);
+  EXPECT_NE(experiment_folds(81, 5, 3, 1), fold);
+}
+
+TEST(Folds, AreRefusedWhereAFoldWouldBeEmpty) {
+  EXPECT_THROW(experiment_folds(4, 5, 1, 0), InputError);
+  EXPECT_THROW(experiment_folds(10, 1, 1, 0), InputError);
+  EXPECT_NO_THROW(experiment_folds(5, 5, 1, 0));
+}
+
+TEST(Folds, PartsMadeFromThemShareNoExperiment) {
+  const Dataset data = campaign(23, 4);
+  const auto fold = experiment_folds(23, 4, 9, 2);
+  for (std::size_t f = 0; f < 4; ++f) {
+    std::vector<std::size_t> in, out;
+    for (std::size_t e = 0; e < fold.size(); ++e)
+      (fold[e] == f ? out : in).push_back(e);
+    EXPECT_NO_THROW(require_whole_experiments(data.subset(in), data.subset(out)));
+  }
+}
+
+TEST(Folds, HoldOutSharesNoExperimentBetweenItsParts) {
+  const Dataset data = campaign(23, 4);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Split split = hold_out(data, 0.3, seed);
+    EXPECT_NO_THROW(require_whole_experiments(split.training, split.validation));
+  }
+}
+
+TEST(Folds, ASplitThatCutsAnExperimentFails) {
+  const Dataset data = campaign(6, 10);
+  const Dataset early = first_rows(data, 5);
+  try {
+    require_whole_experiments(data.subset(std::vector<std::size_t>{0, 1}), early);
+    FAIL() << "a split by rows was accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "rig.csv: error: experiment 'E0' (and 1 more) is on both sides of a split\n"
+              "  hint: part the data by whole experiments");
+  }
+  // One experiment cut is enough.
+  const Dataset one = first_rows(data.subset(std::vector<std::size_t>{5}), 3);
+  EXPECT_THROW(require_whole_experiments(data, one), InputError);
+}
+
+} // namespace
+} // namespace frictab
