@@ -202,7 +202,7 @@ public:
   }
 
   // Ratio of measured to predicted stress (least squares) of each experiment, predicted by the nets
-  // that did not see it.
+  // that did not see it; at their last iteration, since the best one was chosen by the experiment.
   std::vector<double> held_out_gains(const std::vector<std::vector<NetworkFit>>& paths,
                                      std::size_t decay) const {
     const NetworkBins& bins = set_.bins;
@@ -212,7 +212,7 @@ public:
       for (std::size_t e = 0; e < bins.experiments(); ++e) {
         const NetworkBins one = bins.of(std::array{e});
         tau.segment(bins.first[e], one.stress.size()) +=
-            network_tau(one, set_.shape, set_.mu0, paths[r * folds_ + fold_of[e]][decay].weights);
+            network_tau(one, set_.shape, set_.mu0, paths[r * folds_ + fold_of[e]][decay].last);
       }
     }
     tau *= static_cast<double>(folds_) / static_cast<double>(paths.size());

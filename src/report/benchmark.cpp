@@ -80,6 +80,7 @@ std::string benchmark_md(const Calibration& calibration) {
   add_comparison(out, calibration, decimals);
   add_all_errors(out, calibration, decimals);
   add_published(out, calibration);
+  add_band(out, calibration);
   add_conditional_use(out, calibration, decimals);
   return out;
 }

@@ -98,6 +98,17 @@ void add_all_errors(std::string& out, const Calibration& calibration, int decima
   add_floors(out, calibration, decimals);
 }
 
+void add_band(std::string& out, const Calibration& calibration) {
+  if (calibration.fits.empty()) return;
+  out += "\n## The band of experiments\n\n" + std::string(band_sentence) +
+         "\n\n| law | 5 % below | 95 % below | validation experiments inside |\n"
+         "|---|--:|--:|--:|\n";
+  for (const ModelFit& fit : calibration.fits)
+    out +=
+        fmt::format("| {} | {} | {} | {} |\n", markdown_cell(fit.model.law->name),
+                    factor_text(fit.band.low), factor_text(fit.band.high), inside_text(fit.band));
+}
+
 void add_comparison(std::string& out, const Calibration& calibration, int decimals) {
   const Comparisons& c = calibration.comparisons;
   if (c.laws.size() < 2) return;

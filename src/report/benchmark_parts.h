@@ -14,6 +14,7 @@ std::string markdown_cell(const std::string& text);
 std::string floor_row(const Calibration& calibration, int decimals);
 
 void add_all_errors(std::string& out, const Calibration& calibration, int decimals);
+void add_band(std::string& out, const Calibration& calibration);
 void add_comparison(std::string& out, const Calibration& calibration, int decimals);
 void add_conditional_use(std::string& out, const Calibration& calibration, int decimals);
 

@@ -34,6 +34,9 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
     row.text["law"] = svg::escape(fit.model.law->name);
     put_errors(row, "validation", fit.validation, decimals);
     put_errors(row, "training", fit.training, decimals);
+    row.text["band_low"] = factor_text(fit.band.low);
+    row.text["band_high"] = factor_text(fit.band.high);
+    row.text["band_inside"] = inside_text(fit.band);
     rows.push_back(std::move(row));
   }
   std::vector<TemplateValues>& floors = page.lists["floors"];
@@ -51,6 +54,7 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
          {}});
   page.flags["has_floors"] = !floors.empty();
   page.text["floor_sentence"] = noise_floor_sentence(input.calibration, decimals);
+  page.text["band_sentence"] = band_sentence;
   const std::string advice = noise_floor_advice(input.calibration);
   page.text["floor_advice"] = advice.empty() ? "" : "; " + advice;
 }

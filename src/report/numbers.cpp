@@ -46,6 +46,15 @@ std::string interval_text(const Interval& interval, int decimals) {
   return fixed(interval.low, decimals) + " to " + fixed(interval.high, decimals);
 }
 
+std::string factor_text(const std::optional<double>& factor) {
+  return factor ? fixed(*factor, 3) : fixed(std::nan(""), 0);
+}
+
+std::string inside_text(const BandCheck& band) {
+  if (!band.low || !band.high) return "too few training experiments: 19 give these ends";
+  return fmt::format("{} of {} (90 % expected)", band.inside, band.experiments);
+}
+
 std::string p_text(double p_value) {
   return p_value < 0.001 ? "< 0.001" : figures(p_value, 2);
 }

@@ -19,6 +19,17 @@ std::string fixed(double value, int decimals);
 // "9.69 to 13.54"; a dash where there is none.
 std::string interval_text(const Interval& interval, int decimals);
 
+// What the factors of a band mean, and its two columns: "0.848" or a dash, "28 of 30 (90 %
+// expected)".
+inline constexpr const char* band_sentence =
+    "Tests differ from the law by a factor that no input explains. Of new experiments, 5 % are "
+    "expected below the law times the first factor and 95 % below the law times the second (order "
+    "statistics of the training experiments' factors, spread for the fitted parameters; the neural "
+    "network's from nets that had not seen the experiment). table.quantile = [0.05, 0.5, 0.95] "
+    "writes tables and sources of both ends.";
+std::string factor_text(const std::optional<double>& factor);
+std::string inside_text(const BandCheck& band);
+
 // "0.023", or "< 0.001".
 std::string p_text(double p_value);
 
