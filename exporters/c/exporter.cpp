@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "driver.h"
 #include "io/json.h"
+#include "table/spline.h"
 
 namespace frictab::c_target {
 
@@ -121,12 +122,22 @@ TemplateValues axis_values(const TableAxis& axis, std::size_t index, const std::
   std::vector<std::string> numbers;
   for (const double u : axis.coordinates())
     numbers.push_back(c_number(u));
+  std::vector<std::string> first, basis;
+  const SplineAxis spline = spline_axis(axis);
+  for (const int one : spline.first)
+    first.push_back(std::to_string(one));
+  for (const double one : spline.basis)
+    basis.push_back(c_number(one));
   TemplateValues values;
   values.text = {{"comment", comment_text(fmt::format("axis {}: {}{}", index, axis.log ? "ln " : "",
                                                       axis.name))},
                  {"index", std::to_string(index)},
                  {"nodes", std::to_string(numbers.size())},
                  {"values", number_lines(numbers, 98, "    ")},
+                 {"cells", std::to_string(first.size())},
+                 {"first", number_lines(first, 98, "    ")},
+                 {"n_basis", std::to_string(basis.size())},
+                 {"basis", number_lines(basis, 98, "    ")},
                  {"per_step", c_number(axis.per_step())},
                  {"coordinate", axis.log ? "ft_log(" + variable + ")" : variable}};
   return values;
@@ -146,7 +157,7 @@ std::vector<std::string> unused(const Table& table, const std::vector<InputArgum
   for (const TableAxis& axis : table.axes)
     logarithm = logarithm || axis.log;
   if (!logarithm) names.push_back("ft_log");
-  if (table.axes.empty()) names.push_back("ft_interpolate");
+  if (table.axes.empty() || is_cubic(table)) names.push_back("ft_interpolate");
   std::size_t c = 0;
   for (const auto& [name, value] : table.constants)
     if (++c; !in_formula.count(name)) names.push_back(fmt::format("c{}", c));
@@ -179,12 +190,18 @@ void add_state(TemplateValues& values, const Table& table,
   values.lists["axes"] = axes;
 }
 
+std::string kernel(const Table& table) {
+  std::string text(embedded_template("frictab_kernel.h"));
+  if (is_cubic(table)) text += "\n" + std::string(embedded_template("frictab_cubic.h"));
+  return text;
+}
+
 std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
   const SolverUnit stress = solver_unit("MPa", request.units);
   std::vector<std::string> numbers, names, arrays, unused_arrays;
-  for (const double value : table.value)
+  for (const double value : baked_values(table))
     numbers.push_back(c_number(value));
   for (const InputArgument& input : inputs) {
     names.push_back(input.argument);
@@ -195,9 +212,11 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
   values.text = {
       {"model", comment_text(table.model)},
       {"version", FRICTAB_VERSION},
-      {"kernel", std::string(embedded_template("frictab_kernel.h"))},
+      {"kernel", kernel(table)},
+      {"interpolate", is_cubic(table) ? "ft_cubic" : "ft_interpolate"},
       {"n_axes", std::to_string(table.axes.size())},
-      {"value_comment", comment_text(fmt::format("{}{}, last axis fastest",
+      {"value_comment", comment_text(fmt::format("{}{}{}, last axis fastest",
+                                                 is_cubic(table) ? "spline coefficients of " : "",
                                                  table.log_value ? "ln " : "", table.quantity))},
       {"n_values", std::to_string(numbers.size())},
       {"values", number_lines(numbers, 98, "    ")},
@@ -206,7 +225,9 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
       {"arrays", lines(parameters(inputs, "const double*"))},
       {"names", lines(names)},
       {"items", lines(arrays)}};
-  values.flags = {{"has_axes", !table.axes.empty()}, {"log_value", table.log_value}};
+  values.flags = {{"has_axes", !table.axes.empty()},
+                  {"cubic", is_cubic(table)},
+                  {"log_value", table.log_value}};
   add_state(values, table, inputs);
   values.lists["unused"] = items(unused(table, inputs, code));
   if (!symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));

@@ -1,4 +1,4 @@
-# Writes OUT: a C++ file with every template (and the interpolation kernel) as text.
+# Writes OUT: a C++ file with every template (and the interpolation kernels) as text.
 file(GLOB_RECURSE files RELATIVE ${ROOT}/templates ${ROOT}/templates/*)
 list(SORT files)
 set(code "// Generated from templates/ by src/codegen/embed.cmake.\n#include <string_view>\n#include <utility>\n")
@@ -6,10 +6,9 @@ string(APPEND code "namespace frictab {\nextern const std::pair<std::string_view
 string(APPEND code "extern const unsigned embedded_count;\n")
 string(APPEND code "const std::pair<std::string_view, std::string_view> embedded_files[] = {\n")
 set(count 0)
-foreach(file kernel ${files})
-  if(file STREQUAL "kernel")
-    set(path ${ROOT}/src/table/frictab_kernel.h)
-    set(file "frictab_kernel.h")
+foreach(file frictab_kernel.h frictab_cubic.h ${files})
+  if(file MATCHES "^frictab_[a-z]+\\.h$")
+    set(path ${ROOT}/src/table/${file})
   else()
     set(path ${ROOT}/templates/${file})
   endif()

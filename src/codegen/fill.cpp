@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "table/frictab_kernel.h"
+#include "table/spline.h"
 
 namespace frictab {
 
@@ -118,6 +119,23 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
   return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
 }
 
+namespace {
+
+void check_size(const Table& table, FaultList& faults) {
+  std::size_t numbers = table.value.size();
+  for (const TableAxis& axis : table.axes)
+    numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
+  if (numbers <= most_baked_numbers) return;
+  const std::string remedy = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
+  faults.add({},
+             fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
+                         "reasonable time and memory",
+                         table.model, thousands(numbers), thousands(most_baked_numbers)),
+             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states");
+}
+
+} // namespace
+
 void check_table(const Table& table) {
   FaultList faults;
   std::size_t nodes = 1;
@@ -138,11 +156,24 @@ void check_table(const Table& table) {
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
     faults.add({}, "the table holds values that are not finite");
-  if (table.interpolation != "linear")
+  if (table.interpolation != "linear" && table.interpolation != "cubic")
     faults.add({},
                fmt::format("no source is generated for '{}' interpolation", table.interpolation),
-               "set table.interpolation = \"linear\"");
+               "set table.interpolation = \"linear\" or \"cubic\"");
+  check_size(table, faults);
   faults.throw_if_any();
+}
+
+bool is_cubic(const Table& table) {
+  return table.interpolation == "cubic" && !table.axes.empty();
+}
+
+std::vector<double> baked_values(const Table& table) {
+  if (!is_cubic(table)) return table.value;
+  std::vector<SplineAxis> axes;
+  for (const TableAxis& axis : table.axes)
+    axes.push_back(spline_axis(axis));
+  return spline_coefficients(axes, table.value);
 }
 
 std::string comment_text(std::string_view text) {

@@ -24,6 +24,30 @@ Program::Program(const Expr& formula, std::vector<std::string> columns,
     : columns_(std::move(columns)), scalars_(std::move(scalars)) {
   std::vector<std::pair<const Expr::Node*, std::size_t>> seen;
   add(formula, seen);
+  assign_slots();
+}
+
+// A result's place is free again behind its last use, so that the blocks of a long formula stay in
+// the cache.
+void Program::assign_slots() {
+  std::vector<std::size_t> last(code_.size(), code_.size()), free;
+  for (std::size_t i = 0; i < code_.size(); ++i)
+    for (std::size_t k = 0; k < code_[i].operands; ++k)
+      last[code_[i].a[k]] = i;
+  slot_.assign(code_.size(), 0);
+  for (std::size_t i = 0; i < code_.size(); ++i) {
+    const Instruction& in = code_[i];
+    if (in.op == Op::constant || in.op == Op::symbol) continue;
+    if (free.empty()) free.push_back(slots_++);
+    slot_[i] = free.back();
+    free.pop_back();
+    for (std::size_t k = 0; k < in.operands; ++k) {
+      const Instruction& from = code_[in.a[k]];
+      const bool first = std::find(in.a, in.a + k, in.a[k]) == in.a + k;
+      if (first && last[in.a[k]] == i && from.op != Op::constant && from.op != Op::symbol)
+        free.push_back(slot_[in.a[k]]);
+    }
+  }
 }
 
 std::size_t Program::add(const Expr& e,
@@ -65,10 +89,8 @@ std::size_t Program::add(const Expr& e,
   return code_.size() - 1;
 }
 
-double Program::operator()(std::span<const double> row, std::span<const double> scalars) const {
-  double small[64];
-  std::vector<double> large(code_.size() > 64 ? code_.size() : 0);
-  double* v = large.empty() ? small : large.data();
+void Program::forward(std::span<const double> row, std::span<const double> scalars,
+                      double* v) const {
   for (std::size_t i = 0; i < code_.size(); ++i) {
     const Instruction& in = code_[i];
     if (in.op == Op::constant)
@@ -77,6 +99,32 @@ double Program::operator()(std::span<const double> row, std::span<const double> 
       v[i] = in.kind == Kind::data ? row[in.index] : scalars[in.index];
     else
       v[i] = apply(in.op, v[in.a[0]], v[in.a[1]], v[in.a[2]], v[in.a[3]]);
+  }
+}
+
+double Program::operator()(std::span<const double> row, std::span<const double> scalars) const {
+  double small[64];
+  std::vector<double> large(code_.size() > 64 ? code_.size() : 0);
+  double* v = large.empty() ? small : large.data();
+  forward(row, scalars, v);
+  return v[code_.size() - 1];
+}
+
+double Program::gradient(std::span<const double> row, std::span<const double> scalars,
+                         std::span<double> by_column) const {
+  std::vector<double> work(2 * code_.size(), 0.0);
+  double* v = work.data();
+  double* adjoint = v + code_.size();
+  forward(row, scalars, v);
+  std::fill(by_column.begin(), by_column.end(), 0.0);
+  adjoint[code_.size() - 1] = 1;
+  for (std::size_t i = code_.size(); i-- > 0;) {
+    const Instruction& in = code_[i];
+    if (adjoint[i] == 0) continue; // keeps an infinite slope of a branch not taken out
+    if (in.op == Op::symbol && in.kind == Kind::data) by_column[in.index] += adjoint[i];
+    const double operands[4] = {v[in.a[0]], v[in.a[1]], v[in.a[2]], v[in.a[3]]};
+    for (std::size_t k = 0; k < in.operands; ++k)
+      adjoint[in.a[k]] += adjoint[i] * partial(in.op, k, operands, v[i]);
   }
   return v[code_.size() - 1];
 }
@@ -87,7 +135,8 @@ namespace {
 struct Workspace {
   std::vector<Register> registers;
   std::vector<double> storage;
-  explicit Workspace(std::size_t size) : registers(size), storage(size * Program::block) {}
+  Workspace(std::size_t size, std::size_t slots)
+      : registers(size), storage(slots * Program::block) {}
   double* slot(std::size_t i) { return storage.data() + i * Program::block; }
 };
 
@@ -98,7 +147,7 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
   const std::size_t blocks = (rows + block - 1) / block;
   constexpr std::size_t per_task = 32;
   parallel_for((blocks + per_task - 1) / per_task, [&](std::size_t task) {
-    Workspace work(code_.size());
+    Workspace work(code_.size(), slots_);
     for (std::size_t b = task * per_task; b < std::min(blocks, (task + 1) * per_task); ++b) {
       const std::size_t first = b * block;
       const std::size_t n = std::min(block, rows - first);
@@ -115,8 +164,8 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
           for (std::size_t k = 0; k < in.operands; ++k)
             operands.r[k] = work.registers[in.a[k]];
           const std::size_t count = in.kind == Kind::scalar ? 1 : n;
-          run_operation(in.op, count, operands, work.slot(i));
-          target = {work.slot(i), in.kind == Kind::scalar ? std::size_t{0} : std::size_t{1}};
+          run_operation(in.op, count, operands, work.slot(slot_[i]));
+          target = {work.slot(slot_[i]), in.kind == Kind::scalar ? std::size_t{0} : std::size_t{1}};
         }
       }
       const Register result = work.registers.back();

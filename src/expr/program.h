@@ -26,6 +26,10 @@ public:
   // One row. `row` and `scalars` are in the order of the lists above.
   double operator()(std::span<const double> row, std::span<const double> scalars) const;
 
+  // The same, with the derivatives by each column, in one reverse sweep.
+  double gradient(std::span<const double> row, std::span<const double> scalars,
+                  std::span<double> by_column) const;
+
   // All rows: out[i] for i < rows; columns[c][i]. Parallel and independent of the thread count.
   void evaluate(std::size_t rows, std::span<const double* const> columns,
                 std::span<const double> scalars, double* out) const;
@@ -41,9 +45,13 @@ private:
     std::size_t a[4] = {}; // operands
     std::size_t operands = 0;
   };
+  void assign_slots();
+  void forward(std::span<const double> row, std::span<const double> scalars, double* v) const;
   std::size_t add(const Expr& e, std::vector<std::pair<const Expr::Node*, std::size_t>>& seen);
 
   std::vector<Instruction> code_;
+  std::vector<std::size_t> slot_; // per instruction: where `evaluate` keeps its result
+  std::size_t slots_ = 0;
   std::vector<std::string> columns_;
   std::vector<std::string> scalars_;
 };

@@ -117,6 +117,9 @@ void add_ranking(std::string& out, const Calibration& calibration) {
   add_left_out(out, calibration);
 }
 
+// From here on a linear table is slow to compile and no longer fits into a core's cache.
+constexpr std::size_t many_nodes = 50000;
+
 void add_tables(std::string& out, const Pipeline& p) {
   if (!p.tables().empty()) out += "\nTables:\n";
   for (const Table& table : p.tables()) {
@@ -124,9 +127,14 @@ void add_tables(std::string& out, const Pipeline& p) {
     for (const TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out += fmt::format("  {:<14}{} node{}, {}: {}\n", table.model, thousands(table.nodes()),
-                       table.nodes() == 1 ? "" : "s",
-                       human_bytes(static_cast<double>(table.bytes())), grid);
+    out +=
+        fmt::format("  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
+                    table.nodes() == 1 ? "" : "s", human_bytes(static_cast<double>(table.bytes())),
+                    grid, table.interpolation == "linear" ? "" : ", " + table.interpolation);
+    if (table.interpolation == "linear" && table.nodes() > many_nodes)
+      out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
+                         "law is smooth\n",
+                         "");
   }
 }
 

@@ -9,53 +9,21 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/random.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "table/drift.h"
+#include "table/grid.h"
 
 namespace frictab {
 
 namespace {
 
-constexpr std::size_t max_nodes_per_axis = 4097;
+using Counts = std::vector<std::size_t>; // per axis
 
-struct Plan {
-  TableAxis axis;
-  std::vector<double> fixed; // canonical: ends and kinks, ascending
-  std::size_t cells = 1;     // between the ends
-  bool by_user = false;
-};
-
-double to_u(const TableAxis& axis, double x) {
-  return axis.log ? std::log(x) : x;
-}
-double to_x(const TableAxis& axis, double u) {
-  return axis.log ? std::exp(u) : u;
-}
-
-// `cells` cells spread over the segments between fixed nodes in proportion to their length.
-std::vector<double> make_nodes(const Plan& plan, std::size_t cells) {
-  std::vector<double> nodes;
-  const double length = to_u(plan.axis, plan.fixed.back()) - to_u(plan.axis, plan.fixed.front());
-  for (std::size_t s = 0; s + 1 < plan.fixed.size(); ++s) {
-    const double a = to_u(plan.axis, plan.fixed[s]);
-    const double b = to_u(plan.axis, plan.fixed[s + 1]);
-    const auto share = static_cast<std::size_t>(
-        std::max(1.0, std::ceil(static_cast<double>(cells) * (b - a) / length - 1e-9)));
-    nodes.push_back(plan.fixed[s]);
-    for (std::size_t i = 1; i < share; ++i)
-      nodes.push_back(
-          to_x(plan.axis, a + (b - a) * static_cast<double>(i) / static_cast<double>(share)));
-  }
-  nodes.push_back(plan.fixed.back());
-  return nodes;
-}
-
-Plan plan_axis(const Law& law, const StateRange& range, const TableOptions& options) {
+AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& options) {
   const Quantity& quantity = *find_quantity(range.name);
   const auto asked = options.axes.find(range.name);
-  Plan plan;
+  AxisPlan plan;
   plan.axis.name = range.name;
   plan.axis.unit = quantity.unit;
   plan.axis.long_name = quantity.meaning;
@@ -63,6 +31,7 @@ Plan plan_axis(const Law& law, const StateRange& range, const TableOptions& opti
   plan.axis.log = (own == law.log_axes.end() ? quantity.log_axis : own->second) && range.low > 0;
   if (asked != options.axes.end() && asked->second.spacing) {
     plan.axis.log = *asked->second.spacing == "log";
+    plan.even = true;
     if (plan.axis.log && range.low <= 0)
       throw InputError(asked->second.place,
                        fmt::format("the axis {} cannot be logarithmic: its range starts at {}",
@@ -72,147 +41,77 @@ Plan plan_axis(const Law& law, const StateRange& range, const TableOptions& opti
   plan.fixed = {range.low, range.high};
   if (const auto kinks = law.kinks.find(range.name); kinks != law.kinks.end())
     for (const double kink : kinks->second)
-      if (kink > range.low && kink < range.high) plan.fixed.push_back(kink);
+      if (kink > range.low && kink < range.high) plan.axis.kinks.push_back(kink);
+  plan.fixed.insert(plan.fixed.end(), plan.axis.kinks.begin(), plan.axis.kinks.end());
   std::sort(plan.fixed.begin(), plan.fixed.end());
   if (asked != options.axes.end() && asked->second.nodes) {
     plan.cells = *asked->second.nodes - 1;
     plan.by_user = true;
   }
-  plan.axis.nodes = make_nodes(plan, plan.cells);
   return plan;
 }
 
-// tau_R from the tabulated piece, and the piece itself, as functions of all inputs.
-struct Pieces {
-  std::vector<std::string> names;
-  Program value;
-  Program combine; // row: value, then names
-  std::vector<double> parameters;
-};
-
-Pieces pieces_of(const Model& model, const std::vector<StateRange>& ranges) {
-  std::vector<std::string> names, row{"value"};
-  for (const StateRange& range : ranges) {
-    names.push_back(range.name);
-    row.push_back(range.name);
-  }
-  const Formula formula = model.law->build(model.conventions);
-  return {names, Program(formula.value, names, parameter_names(*model.law)),
-          Program(limited_combine(model), row, parameter_names(*model.law)), model.parameters};
-}
-
-// Largest error in MPa of linear interpolation along axis `d` alone, other states spread over their
-// ranges.
-double error_along(const Pieces& pieces, const std::vector<StateRange>& ranges, std::size_t d,
-                   const TableAxis& axis, bool log_value) {
-  constexpr std::size_t others = 96;
-  std::vector<double> errors(axis.nodes.size() - 1, 0.0);
-  parallel_for(errors.size(), [&](std::size_t cell) {
-    std::vector<double> unit(ranges.size()), state(ranges.size()), row(ranges.size() + 1);
-    const double low = axis.nodes[cell], high = axis.nodes[cell + 1];
-    const double middle = to_x(axis, 0.5 * (to_u(axis, low) + to_u(axis, high)));
-    const auto tau = [&](double value) {
-      row[0] = value;
-      std::copy(state.begin(), state.end(), row.begin() + 1);
-      return pieces.combine(row, pieces.parameters);
-    };
-    const auto value_at = [&](double x) {
-      state[d] = x;
-      return pieces.value(state, pieces.parameters);
-    };
-    for (std::size_t i = 0; i < others; ++i) {
-      halton(i, unit);
-      for (std::size_t k = 0; k < ranges.size(); ++k) {
-        // ends and inside alternate: errors of monotone laws are largest at the ends
-        const double share = i % 3 == 0 ? std::round(unit[k]) : unit[k];
-        state[k] = ranges[k].low + share * (ranges[k].high - ranges[k].low);
-      }
-      double a = value_at(low), b = value_at(high);
-      const double between =
-          log_value ? std::exp(0.5 * (std::log(a) + std::log(b))) : 0.5 * (a + b);
-      const double exact = value_at(middle);
-      errors[cell] = std::max(errors[cell], std::abs(tau(between) - tau(exact)));
-    }
-  });
-  return *std::max_element(errors.begin(), errors.end());
-}
-
-// Fewest cells with which the error along the axis stays below `target`.
-std::size_t cells_for(const Pieces& pieces, const std::vector<StateRange>& ranges, std::size_t d,
-                      Plan plan, bool log_value, double target) {
-  const auto error = [&](std::size_t cells) {
-    plan.axis.nodes = make_nodes(plan, cells);
-    return error_along(pieces, ranges, d, plan.axis, log_value);
-  };
-  std::size_t high = 1;
-  while (high < max_nodes_per_axis - 1 && error(high) > target)
-    high *= 2;
-  std::size_t low = high / 2; // fails
-  while (high - low > 1) {
-    const std::size_t middle = (low + high) / 2;
-    (error(middle) > target ? low : high) = middle;
-  }
-  return high;
-}
-
-std::size_t count_nodes(const std::vector<Plan>& plans) {
+std::size_t count_nodes(const std::vector<TableAxis>& axes) {
   std::size_t nodes = 1;
-  for (const Plan& plan : plans) {
-    if (nodes > SIZE_MAX / 16 / plan.axis.nodes.size()) return SIZE_MAX / 16;
-    nodes *= plan.axis.nodes.size();
+  for (const TableAxis& axis : axes) {
+    if (nodes > SIZE_MAX / 16 / axis.nodes.size()) return SIZE_MAX / 16;
+    nodes *= axis.nodes.size();
   }
   return nodes;
 }
 
-void check_memory(const std::vector<Plan>& plans, const TableOptions& options) {
-  const double bytes = 8.0 * static_cast<double>(count_nodes(plans));
+void check_memory(const std::vector<TableAxis>& axes, const TableOptions& options) {
+  const double bytes = 8.0 * static_cast<double>(count_nodes(axes));
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (bytes < 0.5 * memory) return;
   std::vector<std::string> counts;
-  for (const Plan& plan : plans)
-    counts.push_back(fmt::format("{} {}", plan.axis.name, plan.axis.nodes.size()));
+  for (const TableAxis& axis : axes)
+    counts.push_back(fmt::format("{} {}", axis.name, axis.nodes.size()));
   throw InputError(
       options.place,
       fmt::format("the table needs {} ({} nodes: {}), more than half of this machine's "
                   "memory",
-                  human_bytes(bytes), thousands(count_nodes(plans)), join(counts, ", ")),
+                  human_bytes(bytes), thousands(count_nodes(axes)), join(counts, ", ")),
       "fewer nodes in [table.axes], a larger tolerance_MPa, or narrower ranges");
 }
 
 // Values at all nodes, row-major, last axis fastest. Inputs that are no axis do not matter to the
 // piece; they are held at the lower end of their range.
 std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& ranges,
-                           const std::vector<Plan>& plans, const std::vector<std::size_t>& input) {
-  std::vector<double> values(count_nodes(plans));
-  constexpr std::size_t chunk = 16384;
+                           const std::vector<TableAxis>& axes) {
+  std::vector<double> values(count_nodes(axes));
+  constexpr std::size_t chunk = 4096;
   parallel_for((values.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    std::vector<double> state;
-    for (const StateRange& range : ranges)
-      state.push_back(range.low);
-    for (std::size_t i = c * chunk; i < std::min(values.size(), (c + 1) * chunk); ++i) {
-      std::size_t rest = i;
-      for (std::size_t a = plans.size(); a-- > 0;) {
-        const auto& nodes = plans[a].axis.nodes;
-        state[input[a]] = nodes[rest % nodes.size()];
-        rest /= nodes.size();
+    const std::size_t first = c * chunk, count = std::min(chunk, values.size() - first);
+    std::vector<std::vector<double>> states;
+    std::vector<const double*> columns;
+    for (const StateRange& range : ranges) {
+      std::size_t stride = 1; // nodes behind the axis of this state
+      const TableAxis* axis = nullptr;
+      for (std::size_t a = axes.size(); a-- > 0 && !axis;) {
+        if (axes[a].name == range.name) axis = &axes[a];
+        if (!axis) stride *= axes[a].nodes.size();
       }
-      values[i] = pieces.value(state, pieces.parameters);
+      states.emplace_back(count, range.low);
+      for (std::size_t i = 0; axis && i < count; ++i)
+        states.back()[i] = axis->nodes[(first + i) / stride % axis->nodes.size()];
+      columns.push_back(states.back().data());
     }
+    pieces.value.evaluate(count, columns, pieces.parameters, values.data() + first);
   });
   return values;
 }
 
 Table assemble(const Model& model, const Pieces& pieces, const std::vector<StateRange>& ranges,
-               const std::vector<Plan>& plans, const std::vector<std::size_t>& input,
-               bool log_value) {
+               std::vector<TableAxis> axes, const TableOptions& options, bool log_value) {
   Table table;
   table.model = model.name();
   table.quantity = model.law->quantity;
   table.log_value = log_value;
-  for (const Plan& plan : plans)
-    table.axes.push_back(plan.axis);
-  table.value = sample(pieces, ranges, plans, input);
+  table.interpolation = options.interpolation;
+  table.value = sample(pieces, ranges, axes);
+  table.axes = std::move(axes);
   if (log_value)
     for (double& value : table.value)
       value = std::log(value);
@@ -234,55 +133,159 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
   return table;
 }
 
+// The search for the fewest nodes. Errors of the axes add up; each axis gets the same target, which
+// needs the fewest nodes where errors fall with a power of the spacing. How far the whole table is
+// from its law is measured, and corrects the target; its worst states become lines along which the
+// axes are measured; then axes give up cells one by one.
+class Builder {
+public:
+  Builder(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options)
+      : model_(model), ranges_(ranges), options_(options), limit_(0.96 * options.tolerance_MPa),
+        pieces_(model, ranges), law_(model, pieces_.names) {
+    const auto used = symbols(model.law->build(model.conventions).value);
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+      if (used.count(ranges[r].name)) {
+        plans_.push_back(plan_axis(*model.law, ranges[r], options));
+        plans_.back().input = r;
+      }
+    Counts least;
+    for (const AxisPlan& plan : plans_)
+      least.push_back(plan.cells);
+    check_memory(axes_with(least), options);
+    const std::vector<double> ends = sample(pieces_, ranges, axes_with(least));
+    log_value_ = model.law->log_value && *std::min_element(ends.begin(), ends.end()) > 0;
+    box_ = with_law(law_, box_points(ranges, box_samples));
+  }
+
+  Table build() {
+    AxisErrors errors(pieces_, ranges_, log_value_, options_.interpolation == "cubic");
+    std::size_t active = 0;
+    for (const AxisPlan& plan : plans_)
+      active += errors.largest(plan, plan.cells) > 1e-3 * options_.tolerance_MPa;
+    const double target = limit_ / static_cast<double>(std::max<std::size_t>(active, 1));
+    for (AxisPlan& plan : plans_)
+      errors.place_nodes(plan, target);
+    refine(errors, target);
+    if (best_.drift <= limit_) trim();
+    best_.table.number_attributes["tolerance_MPa"] = options_.tolerance_MPa;
+    best_.table.text_attributes["refinement"] = trail_;
+    return std::move(best_.table);
+  }
+
+private:
+  static constexpr std::size_t box_samples = 20000;
+  static constexpr std::size_t most_trim_nodes = 4'000'000; // sampled while trimming
+
+  struct Trial {
+    Counts cells;
+    Table table;
+    double drift = HUGE_VAL;
+  };
+
+  std::vector<TableAxis> axes_with(const Counts& cells) const {
+    std::vector<TableAxis> axes;
+    for (std::size_t a = 0; a < plans_.size(); ++a)
+      axes.push_back(axis_with(plans_[a], cells[a]));
+    return axes;
+  }
+
+  // Samples the whole table and looks for the worst state; not further than to a known state where
+  // the table is already past `enough`.
+  Trial attempt(const Counts& cells, double enough) {
+    Trial trial;
+    trial.cells = cells;
+    std::vector<TableAxis> axes = axes_with(cells);
+    check_memory(axes, options_);
+    trial.table = assemble(model_, pieces_, ranges_, std::move(axes), options_, log_value_);
+    const TableFunction function(trial.table);
+    trial.drift = compare(peaks_, function);
+    if (trial.drift > enough) return trial;
+    Probe all = with_law(law_, cell_points(ranges_, trial.table.axes, box_samples));
+    append(all, box_);
+    compare(all, function);
+    const WorstCase worst = worst_case(law_, function, ranges_, all);
+    append(peaks_, with_law(law_, worst.peaks));
+    trial.drift = std::max(trial.drift, worst.drift_MPa);
+    return trial;
+  }
+
+  void remember(const Trial& trial) {
+    trail_ += fmt::format("{}{} nodes: {:.3g} MPa", trail_.empty() ? "" : "; ",
+                          thousands(trial.table.nodes()), trial.drift);
+  }
+
+  void refine(AxisErrors& errors, double target) {
+    double passed = 0, failed = HUGE_VAL; // targets
+    Counts cells;
+    for (int round = 0; round < 12; ++round) {
+      Counts next;
+      for (const AxisPlan& plan : plans_)
+        next.push_back(plan.by_user ? plan.cells : errors.cells_for(plan, target));
+      if (round > 0 && next == cells) return;
+      cells = next;
+      const std::size_t known = peaks_.law.size();
+      Trial trial = attempt(cells, HUGE_VAL);
+      remember(trial);
+      const double ratio = trial.drift / limit_;
+      const bool fewer = trial.table.nodes() < best_.table.nodes();
+      if (best_.cells.empty() || (ratio <= 1 ? best_.drift > limit_ || fewer
+                                             : best_.drift > limit_ && trial.drift < best_.drift))
+        best_ = std::move(trial);
+      if (ratio <= 1 && ratio > 0.85) return;
+      for (std::size_t i = known; i < std::min(known + 8, peaks_.law.size()); ++i)
+        errors.add(state_of(peaks_, i));
+      (ratio <= 1 ? passed : failed) = target;
+      target *= std::clamp(0.95 / ratio, 0.2, 5.0);
+      if (passed > 0 && target <= passed) target = 0.5 * (passed + std::min(failed, 2 * passed));
+      if (target >= failed) target = passed > 0 ? 0.5 * (passed + failed) : 0.5 * failed;
+      if (failed < 1.05 * passed) return;
+    }
+  }
+
+  // The axis with the fewest cells first: there one cell less saves most.
+  void trim() {
+    Counts step;
+    for (std::size_t a = 0; a < plans_.size(); ++a)
+      step.push_back(plans_[a].by_user ? 0 : std::max<std::size_t>(1, best_.cells[a] / 8));
+    const std::size_t before = best_.table.nodes();
+    for (std::size_t sampled = 0; sampled < most_trim_nodes;) {
+      std::size_t at = plans_.size();
+      for (std::size_t a = 0; a < plans_.size(); ++a)
+        if (step[a] > 0 && best_.cells[a] > plans_[a].cells &&
+            (at == plans_.size() || best_.cells[a] * step[at] < best_.cells[at] * step[a]))
+          at = a;
+      if (at == plans_.size()) break;
+      Counts cells = best_.cells;
+      cells[at] -= std::min(step[at], cells[at] - plans_[at].cells);
+      Trial trial = attempt(cells, limit_);
+      sampled += trial.table.nodes();
+      if (trial.drift <= limit_)
+        best_ = std::move(trial);
+      else
+        step[at] /= 2;
+    }
+    if (best_.table.nodes() < before) remember(best_);
+  }
+
+  const Model& model_;
+  const std::vector<StateRange>& ranges_;
+  const TableOptions& options_;
+  const double limit_; // below the tolerance: what is found is not quite the largest there is
+  Pieces pieces_;
+  LawFunction law_;
+  std::vector<AxisPlan> plans_;
+  bool log_value_ = false;
+  Probe box_;   // the same for every trial
+  Probe peaks_; // worst states of all trials
+  Trial best_;
+  std::string trail_;
+};
+
 } // namespace
 
 Table build_table(const Model& model, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
-  const Pieces pieces = pieces_of(model, ranges);
-  const auto used = symbols(model.law->build(model.conventions).value);
-  std::vector<Plan> plans;
-  std::vector<std::size_t> input;
-  for (std::size_t r = 0; r < ranges.size(); ++r)
-    if (used.count(ranges[r].name)) {
-      plans.push_back(plan_axis(*model.law, ranges[r], options));
-      input.push_back(r);
-    }
-  check_memory(plans, options);
-  const std::vector<double> ends = sample(pieces, ranges, plans, input);
-  const bool log_value = model.law->log_value && *std::min_element(ends.begin(), ends.end()) > 0;
-  const LawFunction law(model, pieces.names);
-  std::string trail;
-  Table table;
-  // Errors of the axes add up; each gets an equal share, which needs the fewest nodes for errors
-  // that fall with the square of the spacing. Cross terms can ask for another round.
-  double share = 0.9;
-  for (int round = 0; round < 8; ++round, share *= 0.6) {
-    std::size_t active = 0;
-    for (std::size_t a = 0; a < plans.size(); ++a)
-      active += error_along(pieces, ranges, input[a], plans[a].axis, log_value) >
-                1e-3 * options.tolerance_MPa;
-    const double target =
-        share * options.tolerance_MPa / static_cast<double>(std::max<std::size_t>(active, 1));
-    for (std::size_t a = 0; a < plans.size(); ++a) {
-      if (!plans[a].by_user)
-        plans[a].cells = std::max(plans[a].cells,
-                                  cells_for(pieces, ranges, input[a], plans[a], log_value, target));
-      plans[a].axis.nodes = make_nodes(plans[a], plans[a].cells);
-    }
-    check_memory(plans, options);
-    table = assemble(model, pieces, ranges, plans, input, log_value);
-    const TableFunction function(table);
-    const WorstCase worst =
-        worst_case(law, function, ranges, probe_points(ranges, table.axes, 20000));
-    trail += fmt::format("{}{} nodes: {:.3g} MPa", trail.empty() ? "" : "; ",
-                         thousands(table.nodes()), worst.drift_MPa);
-    const bool fixed =
-        std::all_of(plans.begin(), plans.end(), [](const Plan& p) { return p.by_user; });
-    if (worst.drift_MPa <= options.tolerance_MPa || fixed) break;
-  }
-  table.number_attributes["tolerance_MPa"] = options.tolerance_MPa;
-  table.text_attributes["refinement"] = trail;
-  return table;
+  return Builder(model, ranges, options).build();
 }
 
 } // namespace frictab

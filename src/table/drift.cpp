@@ -34,10 +34,8 @@ std::vector<double> middles(const StateRange& range, const std::vector<TableAxis
 
 } // namespace
 
-std::vector<std::vector<double>> probe_points(const std::vector<StateRange>& ranges,
-                                              const std::vector<TableAxis>& axes,
-                                              std::size_t samples) {
-  std::vector<std::vector<double>> points(ranges.size());
+States box_points(const std::vector<StateRange>& ranges, std::size_t samples) {
+  States points(ranges.size());
   const std::size_t dims = ranges.size();
   std::vector<double> unit(dims);
   for (std::size_t i = 0; i < samples; ++i) { // even fill; every second in log coordinates
@@ -53,26 +51,92 @@ std::vector<std::vector<double>> probe_points(const std::vector<StateRange>& ran
   for (std::size_t corner = 0; corner < (std::size_t{1} << dims); ++corner)
     for (std::size_t d = 0; d < dims; ++d)
       points[d].push_back((corner >> d) & 1 ? ranges[d].high : ranges[d].low);
-  std::vector<std::vector<double>> grid;
+  return points;
+}
+
+States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                   std::size_t wanted) {
+  States points(ranges.size()), grid;
   std::size_t cells = 1;
   for (const StateRange& range : ranges) {
     grid.push_back(middles(range, axes));
     cells *= grid.back().size();
   }
-  // All centres where they are few; else every so-many-th, by a stride that shares no factor.
-  const std::size_t wanted = std::max<std::size_t>(samples, 1000);
+  // Every so-many-th, by a stride that shares no factor with the counts of the axes.
   std::size_t stride = cells / wanted + 1;
   while (stride > 1 && std::any_of(grid.begin(), grid.end(),
                                    [&](const auto& g) { return g.size() % stride == 0; }))
     ++stride;
   for (std::size_t i = 0; i < cells; i += stride) {
     std::size_t rest = i;
-    for (std::size_t d = 0; d < dims; ++d) {
+    for (std::size_t d = 0; d < ranges.size(); ++d) {
       points[d].push_back(grid[d][rest % grid[d].size()]);
       rest /= grid[d].size();
     }
   }
   return points;
+}
+
+States probe_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                    std::size_t samples) {
+  States points = box_points(ranges, samples);
+  const States centres = cell_points(ranges, axes, std::max<std::size_t>(samples, 1000));
+  for (std::size_t d = 0; d < ranges.size(); ++d)
+    points[d].insert(points[d].end(), centres[d].begin(), centres[d].end());
+  return points;
+}
+
+namespace {
+
+std::vector<const double*> pointers(const States& states) {
+  std::vector<const double*> columns;
+  for (const auto& column : states)
+    columns.push_back(column.data());
+  return columns;
+}
+
+// Both undefined is agreement; one undefined is the worst there is.
+double difference(double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) return 0;
+  const double d = std::abs(a - b);
+  return std::isnan(d) ? HUGE_VAL : d;
+}
+
+} // namespace
+
+Probe with_law(const LawFunction& law, States states) {
+  Probe out;
+  out.law.resize(states.empty() ? 0 : states.front().size());
+  law.evaluate(out.law.size(), pointers(states), out.law.data());
+  out.states = std::move(states);
+  return out;
+}
+
+double compare(Probe& probed, const TableFunction& table) {
+  probed.table.resize(probed.law.size());
+  probed.outside.resize(probed.law.size());
+  table.evaluate(probed.law.size(), pointers(probed.states), probed.table, probed.outside);
+  double worst = 0;
+  for (std::size_t i = 0; i < probed.law.size(); ++i)
+    worst = std::max(worst, difference(probed.table[i], probed.law[i]));
+  return worst;
+}
+
+void append(Probe& to, const Probe& from) {
+  const auto add = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
+  to.states.resize(from.states.size());
+  for (std::size_t d = 0; d < from.states.size(); ++d)
+    add(to.states[d], from.states[d]);
+  add(to.law, from.law);
+  add(to.table, from.table);
+  add(to.outside, from.outside);
+}
+
+std::vector<double> state_of(const Probe& probed, std::size_t i) {
+  std::vector<double> state;
+  for (const auto& column : probed.states)
+    state.push_back(column[i]);
+  return state;
 }
 
 namespace {
@@ -83,76 +147,77 @@ struct Ascent {
   std::size_t points = 0;
 };
 
-// Both undefined is agreement; one undefined is the worst there is.
-double difference(double a, double b) {
-  if (std::isnan(a) && std::isnan(b)) return 0;
-  const double d = std::abs(a - b);
-  return std::isnan(d) ? HUGE_VAL : d;
-}
-
 double objective(unsigned n, const double* x, double*, void* data) {
   auto& ascent = *static_cast<Ascent*>(data);
   ++ascent.points;
   return difference(ascent.table({x, n}), ascent.law({x, n}));
 }
 
+// From one state upwards.
+WorstCase ascend(const LawFunction& law, const TableFunction& table,
+                 const std::vector<StateRange>& ranges, std::vector<double> x, double drift) {
+  std::vector<double> lower, upper;
+  for (const StateRange& range : ranges) {
+    lower.push_back(range.low);
+    upper.push_back(range.high);
+  }
+  Ascent ascent{law, table};
+  WorstCase found{drift, x, 0, {}};
+  nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
+  search.set_lower_bounds(lower);
+  search.set_upper_bounds(upper);
+  search.set_maxeval(400);
+  search.set_ftol_rel(1e-6);
+  search.set_max_objective(objective, &ascent);
+  double best = 0;
+  try {
+    search.optimize(x, best);
+  } catch (const nlopt::roundoff_limited&) { // x and best are still the best found
+  }
+  if (best > found.drift_MPa) found = {best, x, 0, {}};
+  found.points = ascent.points;
+  return found;
+}
+
 } // namespace
 
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
-                     const std::vector<StateRange>& ranges,
-                     const std::vector<std::vector<double>>& points) {
-  constexpr std::size_t starts = 24;
-  const std::size_t dims = ranges.size();
-  const std::size_t count = points.front().size();
-  std::vector<const double*> columns;
-  for (const auto& column : points)
-    columns.push_back(column.data());
-  std::vector<double> exact(count), tabulated(count);
-  law.evaluate(count, columns, exact.data());
-  table.evaluate(count, columns, tabulated);
+                     const std::vector<StateRange>& ranges, const Probe& probed,
+                     std::size_t starts) {
+  const std::size_t count = probed.law.size();
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i)
     order[i] = i;
-  const auto drift = [&](std::size_t i) { return difference(tabulated[i], exact[i]); };
-  std::partial_sort(order.begin(), order.begin() + static_cast<long>(std::min(starts, count)),
-                    order.end(), [&](std::size_t a, std::size_t b) {
+  const auto drift = [&](std::size_t i) { return difference(probed.table[i], probed.law[i]); };
+  const std::size_t climbs = std::min(starts, count);
+  std::partial_sort(order.begin(), order.begin() + static_cast<long>(climbs), order.end(),
+                    [&](std::size_t a, std::size_t b) {
                       return drift(a) != drift(b) ? drift(a) > drift(b) : a < b;
                     });
-  const std::size_t climbs = std::min(starts, count);
   std::vector<WorstCase> found(climbs);
   parallel_for(climbs, [&](std::size_t s) {
-    std::vector<double> x(dims), lower, upper;
-    for (std::size_t d = 0; d < dims; ++d) {
-      x[d] = points[d][order[s]];
-      lower.push_back(ranges[d].low);
-      upper.push_back(ranges[d].high);
-    }
-    Ascent ascent{law, table};
-    found[s] = {drift(order[s]), x, 0};
-    nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(dims));
-    search.set_lower_bounds(lower);
-    search.set_upper_bounds(upper);
-    search.set_maxeval(400);
-    search.set_ftol_rel(1e-6);
-    search.set_max_objective(objective, &ascent);
-    double best = 0;
-    try {
-      search.optimize(x, best);
-    } catch (const nlopt::roundoff_limited&) { // x and best are still the best found
-    }
-    if (best > found[s].drift_MPa) found[s] = {best, x, 0};
-    found[s].points = ascent.points;
+    found[s] = ascend(law, table, ranges, state_of(probed, order[s]), drift(order[s]));
   });
   WorstCase worst = found.front();
   worst.points = count;
+  worst.peaks.resize(ranges.size());
   for (const WorstCase& one : found) {
     worst.points += one.points;
+    for (std::size_t d = 0; d < ranges.size(); ++d)
+      worst.peaks[d].push_back(one.state[d]);
     if (one.drift_MPa > worst.drift_MPa) {
       worst.drift_MPa = one.drift_MPa;
       worst.state = one.state;
     }
   }
   return worst;
+}
+
+WorstCase worst_case(const LawFunction& law, const TableFunction& table,
+                     const std::vector<StateRange>& ranges, const States& points) {
+  Probe probed = with_law(law, points);
+  compare(probed, table);
+  return worst_case(law, table, ranges, probed);
 }
 
 } // namespace frictab

@@ -23,23 +23,46 @@ private:
   std::vector<double> parameters_;
 };
 
-// Points that fill a box of states: Halton points, corners, and - where a table's axes are given -
-// the centres of its cells and the middles between nodes, with the other states at ends and middle.
-// One vector per range, in their order.
-std::vector<std::vector<double>> probe_points(const std::vector<StateRange>& ranges,
-                                              const std::vector<TableAxis>& axes,
-                                              std::size_t samples);
+// States one after the other: one vector per range, in their order.
+using States = std::vector<std::vector<double>>;
+
+// Points that fill a box of states: `samples` Halton points, and all corners.
+States box_points(const std::vector<StateRange>& ranges, std::size_t samples);
+
+// Centres of a table's cells, with the other states at ends and middle: all, or about `wanted`
+// spread evenly where there are more.
+States cell_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                   std::size_t wanted);
+
+// Both.
+States probe_points(const std::vector<StateRange>& ranges, const std::vector<TableAxis>& axes,
+                    std::size_t samples);
+
+// States with the law's and the table's answer (MPa).
+struct Probe {
+  States states;
+  std::vector<double> law;
+  std::vector<double> table;
+  std::vector<unsigned> outside; // bits of the axes that were clamped
+};
+Probe with_law(const LawFunction& law, States states);     // no table yet
+double compare(Probe& probed, const TableFunction& table); // fills it in; the largest |table - law|
+void append(Probe& to, const Probe& from);
+std::vector<double> state_of(const Probe& probed, std::size_t i);
 
 struct WorstCase {
   double drift_MPa = 0;
   std::vector<double> state; // in the order of the ranges
   std::size_t points = 0;    // evaluated, ascent included
+  States peaks;              // where the ascents ended
 };
 
-// The largest |table - law| found: all probe points, then local ascent (NLopt SBPLX) from the
-// worst. Found, not proven: the true maximum may be larger.
+// The largest |table - law| found: all probed states, then local ascent (NLopt SBPLX) from the
+// `starts` worst. Found, not proven: the true maximum may be larger.
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
-                     const std::vector<StateRange>& ranges,
-                     const std::vector<std::vector<double>>& points);
+                     const std::vector<StateRange>& ranges, const Probe& probed,
+                     std::size_t starts = 24);
+WorstCase worst_case(const LawFunction& law, const TableFunction& table,
+                     const std::vector<StateRange>& ranges, const States& points);
 
 } // namespace frictab

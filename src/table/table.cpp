@@ -1,13 +1,17 @@
 // Evaluation of a table: axis coordinates, interpolation by the shared kernel, combination.
 #include "table/table.h"
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "core/parallel.h"
 #include "data/quantity.h"
 #include "expr/program.h"
 #include "table/frictab_kernel.h"
+// The two that stand behind it.
+#include "table/frictab_cubic.h"
+#include "table/frictab_gradient.h"
+#include "table/spline.h"
 
 namespace frictab {
 
@@ -48,31 +52,50 @@ std::size_t Table::bytes() const {
 
 struct TableFunction::Data {
   std::vector<std::string> inputs;
-  std::vector<std::vector<double>> coordinates;
-  std::vector<ft_axis> axes;
+  std::vector<std::vector<double>> coordinates; // of linear axes
+  std::vector<ft_axis> linear;
+  std::vector<SplineAxis> splines;
+  std::vector<ft_spline_axis> cubic;
+  bool is_cubic = false;
   std::vector<std::size_t> input_of_axis;
   std::vector<char> log;
-  std::vector<double> value;
+  std::vector<double> value; // at the nodes, or coefficients
   bool log_value = false;
   std::unique_ptr<Program> combine; // row: value, then inputs; scalars: constants
   std::vector<double> constants;
+
+  int axes() const { return static_cast<int>(log.size()); }
+  void coordinates_of(std::span<const double> state, double* u) const {
+    for (std::size_t a = 0; a < log.size(); ++a) {
+      const double x = state[input_of_axis[a]];
+      u[a] = log[a] ? ft_log(x) : x;
+    }
+  }
+  void add_axes(const Table& table);
 };
+
+void TableFunction::Data::add_axes(const Table& table) {
+  is_cubic = table.interpolation == "cubic";
+  for (const TableAxis& axis : table.axes) {
+    log.push_back(axis.log);
+    input_of_axis.push_back(static_cast<std::size_t>(
+        std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin()));
+    coordinates.push_back(axis.coordinates());
+    if (is_cubic) splines.push_back(spline_axis(axis));
+  }
+  for (std::size_t a = 0; a < table.axes.size(); ++a) { // pointers only when nothing moves any more
+    linear.push_back(
+        {static_cast<int>(coordinates[a].size()), table.axes[a].per_step(), coordinates[a].data()});
+    if (is_cubic)
+      cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
+  }
+  value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
+}
 
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.inputs = table.inputs();
-  for (const TableAxis& axis : table.axes) {
-    d.coordinates.push_back(axis.coordinates());
-    d.log.push_back(axis.log);
-    std::size_t input = 0;
-    while (d.inputs[input] != axis.name)
-      ++input;
-    d.input_of_axis.push_back(input);
-  }
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    d.axes.push_back({static_cast<int>(d.coordinates[a].size()), table.axes[a].per_step(),
-                      d.coordinates[a].data()});
-  d.value = table.value;
+  d.add_axes(table);
   d.log_value = table.log_value;
   std::vector<std::string> row{"value"}, scalars;
   row.insert(row.end(), d.inputs.begin(), d.inputs.end());
@@ -91,18 +114,38 @@ const std::vector<std::string>& TableFunction::inputs() const {
 
 double TableFunction::operator()(std::span<const double> state, unsigned* outside) const {
   const Data& d = *data_;
-  double u[FT_MAX_AXES];
-  for (std::size_t a = 0; a < d.axes.size(); ++a) {
-    const double x = state[d.input_of_axis[a]];
-    u[a] = d.log[a] ? ft_log(x) : x;
-  }
-  const double raw =
-      ft_interpolate(static_cast<int>(d.axes.size()), d.axes.data(), d.value.data(), u, outside);
-  double row[1 + 16];
+  double u[FT_MAX_AXES], row[1 + 16];
+  d.coordinates_of(state, u);
+  const double raw = d.is_cubic
+                         ? ft_cubic(d.axes(), d.cubic.data(), d.value.data(), u, outside)
+                         : ft_interpolate(d.axes(), d.linear.data(), d.value.data(), u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
-  for (std::size_t i = 0; i < state.size(); ++i)
-    row[i + 1] = state[i];
+  std::copy(state.begin(), state.end(), row + 1);
   return (*d.combine)(std::span<const double>(row, state.size() + 1), d.constants);
+}
+
+double TableFunction::gradient(std::span<const double> state, std::span<double> derivative,
+                               unsigned* outside) const {
+  const Data& d = *data_;
+  double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
+  d.coordinates_of(state, u);
+  const double raw =
+      d.is_cubic
+          ? ft_cubic_gradient(d.axes(), d.cubic.data(), d.value.data(), u, by_u, outside)
+          : ft_interpolate_gradient(d.axes(), d.linear.data(), d.value.data(), u, by_u, outside);
+  row[0] = d.log_value ? std::exp(raw) : raw;
+  std::copy(state.begin(), state.end(), row + 1);
+  const double tau = d.combine->gradient({row, state.size() + 1}, d.constants,
+                                         std::span<double>(by_row, state.size() + 1));
+  for (std::size_t i = 0; i < state.size(); ++i)
+    derivative[i] = by_row[1 + i];
+  const double by_raw = d.log_value ? by_row[0] * row[0] : by_row[0];
+  for (std::size_t a = 0; a < d.log.size(); ++a) {
+    if (by_u[a] == 0) continue; // clamped: no 0/0 at the origin of a logarithmic axis
+    const std::size_t i = d.input_of_axis[a];
+    derivative[i] += by_raw * (d.log[a] ? by_u[a] / state[i] : by_u[a]);
+  }
+  return tau;
 }
 
 void TableFunction::evaluate(std::size_t rows, std::span<const double* const> columns,

@@ -13,11 +13,12 @@
 namespace frictab {
 
 struct TableAxis {
-  std::string name;          // canonical
-  std::string unit;          // canonical
-  std::string long_name;     // meaning
-  bool log = false;          // interpolate in ln x
-  std::vector<double> nodes; // ascending, canonical unit, >= 2
+  std::string name;               // canonical
+  std::string unit;               // canonical
+  std::string long_name;          // meaning
+  bool log = false;               // interpolate in ln x
+  std::vector<double> nodes;      // ascending, canonical unit, >= 2
+  std::vector<double> kinks = {}; // inner nodes at which a cubic spline may bend; else it is C2
 
   std::vector<double> coordinates() const; // x, or ln x
   double
@@ -38,7 +39,7 @@ struct Table {
   std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
-  std::string interpolation = "linear";
+  std::string interpolation = "linear";    // linear | cubic: the spline of table/spline.h
   Expr combine;                            // tau_R_MPa of "value", state names and constants
   std::map<std::string, double> constants; // of combine
   // Root attributes: tool_version, model, data_hash, data_origin, tolerance_MPa, worst_case_MPa,
@@ -69,6 +70,11 @@ public:
 
   // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: axis d was clamped.
   double operator()(std::span<const double> state, unsigned* outside = nullptr) const;
+
+  // The same value, and its derivatives by each state (MPa per canonical unit) in one pass. At a
+  // node or kink one of the two one-sided derivatives; 0 by an axis that was clamped.
+  double gradient(std::span<const double> state, std::span<double> derivative,
+                  unsigned* outside = nullptr) const;
 
   // For all rows; columns in the order of inputs(); outside may be empty. Parallel.
   void evaluate(std::size_t rows, std::span<const double* const> columns, std::span<double> tau,

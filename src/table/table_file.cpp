@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -11,9 +12,22 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/hdf5.h"
+#include "io/number.h"
 #include "table/frictab_kernel.h"
+#include "table/spline.h"
 
 namespace frictab {
+
+namespace {
+
+std::string numbers_text(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers)
+    texts.push_back(shortest(number));
+  return join(texts, " ");
+}
+
+} // namespace
 
 void write_table(const Table& table, const std::filesystem::path& file, int compress) {
   Hdf5Writer out(file);
@@ -25,6 +39,8 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
     out.attribute(axis.name, "units", axis.unit);
     out.attribute(axis.name, "long_name", axis.long_name);
     out.attribute(axis.name, "transform", std::string(axis.log ? "log" : "linear"));
+    if (table.interpolation == "cubic" && !axis.kinks.empty())
+      out.attribute(axis.name, "kinks", numbers_text(axis.kinks));
   }
   out.dataset("value", shape, table.value, compress);
   for (std::size_t a = 0; a < table.axes.size(); ++a)
@@ -33,6 +49,7 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
   out.attribute("value", "units", std::string(table.quantity == "mu" ? "1" : "MPa"));
   out.attribute("value", "transform", std::string(table.log_value ? "log" : "linear"));
   out.attribute("value", "interpolation", table.interpolation);
+  if (table.interpolation == "cubic") out.attribute("value", "spline", std::string(spline_name));
   out.attribute("value", "combine", to_text(table.combine));
   std::vector<std::string> names;
   for (const auto& [name, value] : table.constants) {
@@ -121,7 +138,8 @@ private:
     table_.value = in_.values("value");
     table_.quantity = text("value", "quantity", {"mu", "tau_R"});
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
-    table_.interpolation = text("value", "interpolation", {"linear"});
+    table_.interpolation = text("value", "interpolation", {"linear", "cubic"});
+    if (table_.interpolation == "cubic") text("value", "spline", {spline_name});
     for (std::size_t i = 0; i < table_.value.size(); ++i)
       if (!std::isfinite(table_.value[i])) {
         fault(fmt::format("value {} of {} is not finite", i, table_.value.size()));
@@ -144,6 +162,7 @@ private:
       axis.long_name = in_.text_attribute(axis.name, "long_name").value_or("");
       axis.log = text(axis.name, "transform", {"linear", "log"}) == "log";
       check_axis(axis, shape_[a]);
+      read_kinks(axis);
       table_.axes.push_back(axis);
     }
   }
@@ -167,6 +186,21 @@ private:
     if (quantity && axis.unit != quantity->unit)
       fault(fmt::format("axis '{}' is in '{}'", axis.name, axis.unit),
             "its unit is " + quantity->unit);
+  }
+
+  // Only a cubic spline is concerned: a linear table bends at every node.
+  void read_kinks(TableAxis& axis) {
+    if (table_.interpolation != "cubic") return;
+    std::istringstream words(in_.text_attribute(axis.name, "kinks").value_or(""));
+    for (std::string word; words >> word;) {
+      double kink = std::nan("");
+      scan_number(word.data(), word.data() + word.size(), '.', kink);
+      if (std::find(axis.nodes.begin(), axis.nodes.end(), kink) == axis.nodes.end())
+        fault(fmt::format("axis '{}' has a kink at '{}', where it has no node", axis.name, word),
+              "a kink is a node, written so that it reads back to the same bits");
+      else
+        axis.kinks.push_back(kink);
+    }
   }
 
   void read_combine() {

@@ -19,19 +19,12 @@ namespace {
 using Columns = std::vector<const double*>;
 
 // States in the order of the table's inputs, with the law's and the table's answer.
-struct Reference {
-  std::vector<std::vector<double>> states; // one vector per input
-  std::vector<double> law;
-  std::vector<double> table;
-  std::vector<unsigned> outside;
-  Columns columns() const {
-    Columns pointers;
-    for (const auto& column : states)
-      pointers.push_back(column.data());
-    return pointers;
-  }
-  std::size_t rows() const { return law.size(); }
-};
+Columns columns_of(const Probe& reference) {
+  Columns pointers;
+  for (const auto& column : reference.states)
+    pointers.push_back(column.data());
+  return pointers;
+}
 
 double difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
@@ -42,19 +35,15 @@ double difference(double a, double b) {
 // Everything of one table that its sources are compared with.
 struct Subjects {
   std::vector<std::string> names; // the table's inputs
-  Reference rows;
-  Reference range;
+  Probe rows;
+  Probe range;
   WorstCase worst;
 };
 
-void evaluate(Reference& reference, std::size_t count, const LawFunction& law,
-              const TableFunction& table) {
-  reference.law.resize(count);
-  reference.table.resize(count);
-  reference.outside.resize(count);
-  const Columns columns = reference.columns();
-  law.evaluate(count, columns, reference.law.data());
-  table.evaluate(count, columns, reference.table, reference.outside);
+Probe probe(const LawFunction& law, const TableFunction& table, States states) {
+  Probe out = with_law(law, std::move(states));
+  compare(out, table);
+  return out;
 }
 
 Subjects prepare(const VerifyInput& input) {
@@ -70,29 +59,30 @@ Subjects prepare(const VerifyInput& input) {
   const LawFunction law(input.model, s.names);
   const TableFunction table(input.table);
   const auto ranges = table_ranges(input.table, input.rows, input.table_name);
-  s.range.states = probe_points(ranges, input.table.axes, input.samples);
-  s.worst = worst_case(law, table, ranges, s.range.states);
-  for (std::size_t d = 0; d < ranges.size(); ++d) // sources are looked at there as well
-    s.range.states[d].push_back(s.worst.state[d]);
-  evaluate(s.range, s.range.states.front().size(), law, table);
+  s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
+  s.worst = worst_case(law, table, ranges, s.range);
+  States worst;
+  for (const double x : s.worst.state)
+    worst.push_back({x});
+  append(s.range, probe(law, table, worst)); // sources are looked at there as well
   if (input.rows) {
+    States states;
     for (const std::string& name : s.names) {
       if (!input.rows->has(name))
         throw InputError({join(input.rows->sources, ", "), 0, 0},
                          "the data have no column " + name + ", which the table needs");
       const auto values = input.rows->values(name);
-      s.rows.states.emplace_back(values.begin(), values.end());
+      states.emplace_back(values.begin(), values.end());
     }
-    evaluate(s.rows, input.rows->rows(), law, table);
+    s.rows = probe(law, table, std::move(states));
   }
   return s;
 }
 
-void compare_rows(DriftRecord& record, const Reference& reference,
-                  const std::vector<double>& answer) {
+void compare_rows(DriftRecord& record, const Probe& reference, const std::vector<double>& answer) {
   std::vector<double> inside;
   double sum = 0, squares = 0;
-  for (std::size_t i = 0; i < reference.rows(); ++i) {
+  for (std::size_t i = 0; i < reference.law.size(); ++i) {
     const double d = difference(answer[i], reference.law[i]);
     if (reference.outside[i]) {
       ++record.n_outside;
@@ -103,7 +93,7 @@ void compare_rows(DriftRecord& record, const Reference& reference,
     sum += d;
     squares += d * d;
   }
-  record.n_rows = reference.rows();
+  record.n_rows = reference.law.size();
   if (inside.empty()) return;
   const auto count = static_cast<double>(inside.size());
   record.rows.mean_abs = sum / count;
@@ -116,9 +106,9 @@ void compare_rows(DriftRecord& record, const Reference& reference,
 
 void compare_range(DriftRecord& record, const Subjects& s, const std::vector<double>& answer) {
   std::size_t at = 0;
-  record.n_points = s.range.rows();
+  record.n_points = s.range.law.size();
   record.worst_case_MPa = -1;
-  for (std::size_t i = 0; i < s.range.rows(); ++i) {
+  for (std::size_t i = 0; i < s.range.law.size(); ++i) {
     const double d = difference(answer[i], s.range.law[i]);
     record.max_vs_table_MPa =
         std::max(record.max_vs_table_MPa, difference(answer[i], s.range.table[i]));
@@ -132,13 +122,13 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
 }
 
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
-                    const std::function<void(const Reference&, std::vector<double>&)>& answer) {
+                    const std::function<void(const Probe&, std::vector<double>&)>& answer) {
   DriftRecord record;
   record.model = input.model.name();
   record.subject = subject;
-  for (const Reference* reference : {&s.rows, &s.range}) {
-    std::vector<double> tau(reference->rows());
-    if (reference->rows() == 0) continue;
+  for (const Probe* reference : {&s.rows, &s.range}) {
+    std::vector<double> tau(reference->law.size());
+    if (reference->law.size() == 0) continue;
     answer(*reference, tau);
     if (reference == &s.rows)
       compare_rows(record, *reference, tau);
@@ -163,9 +153,9 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   }
   const TemporaryDirectory directory;
   const Library library(compile_library(source.bundle, variant, directory.path()));
-  return compare(input, s, subject, [&](const Reference& reference, std::vector<double>& tau) {
-    source.exporter->drive(library.handle(), variant, source.request, reference.rows(),
-                           reference.columns(), tau);
+  return compare(input, s, subject, [&](const Probe& reference, std::vector<double>& tau) {
+    source.exporter->drive(library.handle(), variant, source.request, reference.law.size(),
+                           columns_of(reference), tau);
   });
 }
 
@@ -175,8 +165,8 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
                                 const std::vector<GeneratedSource>& sources) {
   const Subjects s = prepare(input);
   std::vector<DriftRecord> records;
-  records.push_back(compare(input, s, "table",
-                            [](const Reference& r, std::vector<double>& tau) { tau = r.table; }));
+  records.push_back(
+      compare(input, s, "table", [](const Probe& r, std::vector<double>& tau) { tau = r.table; }));
   records.back().n_points = s.worst.points;
   for (const GeneratedSource& source : sources)
     for (const BuildVariant& variant : source.exporter->variants(source.request))

@@ -254,6 +254,103 @@ C     @{constant.comment}
       return
       end
 C
+@if cubic
+C     Cubic spline, the twin of frictab_cubic.h: same cells, same
+C     polynomials, same order of operations. The numbers below are
+C     never changed: safe in threads and parallel domains.
+      double precision function ftintp(u)
+      implicit none
+      integer naxes, nnodes, nvals, ncells, nbasis
+      parameter (naxes = @{n_axes}, nnodes = @{n_nodes})
+      parameter (nvals = @{n_values}, ncells = @{n_cells})
+      parameter (nbasis = @{n_basis})
+      double precision u(naxes)
+      integer d, cell, size, at, i, l
+      integer nax(naxes), off(naxes), oc(naxes), fc(ncells)
+@if many_axes
+      integer taps, stride(naxes), tap(naxes), row(4)
+      double precision total(4,naxes)
+@end
+      double precision lane(4), w(4,naxes), t
+      double precision ps(naxes), un(nnodes), tb(nbasis), tv(nvals)
+      save nax, off, oc, fc, ps, un, tb, tv
+C     nodes per axis, where each begins, where its cells begin,
+C     1/step where even
+@{data_nax}
+@{data_off}
+@{data_oc}
+@{data_ps}
+C     nodes (logarithms on logarithmic axes)
+@{data_un}
+C     per cell: first coefficient; 4 polynomials of the cell's weight
+@{data_fc}
+@{data_tb}
+C     @{value_comment}
+@{data_tv}
+      at = 1
+      size = 1
+      do d = naxes, 1, -1
+        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, t)
+        cell = cell + oc(d)
+        i = 16*(cell - 1)
+        do l = 1, 4
+          w(l,d) = tb(i+l) + t*(tb(i+l+4)
+     &      + t*(tb(i+l+8) + t*tb(i+l+12)))
+        end do
+        at = at + fc(cell)*size
+@if many_axes
+        stride(d) = size
+        tap(d) = 0
+        do l = 1, 4
+          total(l,d) = 0.0D0
+        end do
+@end
+        size = size*nax(d)
+      end do
+@if many_axes
+      do i = 1, 4
+        row(i) = 0
+        if (i .le. nax(naxes-1)) row(i) = (i-1)*stride(naxes-1)
+      end do
+C     The two last axes as one block; its sums are carried upwards
+C     like digits.
+      do
+        do l = 1, 4
+          i = at + l - 1
+          lane(l) = (w(1,naxes-1)*tv(i+row(1))
+     &      + w(2,naxes-1)*tv(i+row(2)))
+     &      + (w(3,naxes-1)*tv(i+row(3))
+     &      + w(4,naxes-1)*tv(i+row(4)))
+        end do
+        do d = naxes - 2, 1, -1
+          t = w(tap(d)+1,d)
+          do l = 1, 4
+            total(l,d) = total(l,d) + t*lane(l)
+          end do
+          at = at + stride(d)
+          tap(d) = tap(d) + 1
+          taps = min(nax(d), 4)
+          if (tap(d) .lt. taps) exit
+          at = at - taps*stride(d)
+          tap(d) = 0
+          do l = 1, 4
+            lane(l) = total(l,d)
+            total(l,d) = 0.0D0
+          end do
+        end do
+        if (d .lt. 1) exit
+      end do
+@else
+      do l = 1, 4
+        lane(l) = tv(at+l-1)
+      end do
+@end
+      ftintp = (w(1,naxes)*lane(1) + w(2,naxes)*lane(2))
+     &  + (w(3,naxes)*lane(3) + w(4,naxes)*lane(4))
+      return
+      end
+C
+@else
 @if has_axes
 C     Multilinear interpolation, the twin of frictab_kernel.h: same
 C     nodes, same cells, same order of operations. The numbers below
@@ -314,6 +411,9 @@ C     @{value_comment}
       return
       end
 C
+@end
+@end
+@if has_axes
 C     The cell (from 0) of u among n nodes, and the weight of its
 C     upper node; at the nearest edge where u lies outside.
       subroutine ftloc(n, ps, x, u, cell, w)

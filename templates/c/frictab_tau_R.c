@@ -9,8 +9,24 @@
 static const double ft_u@{axis.index}[@{axis.nodes}] = {
 @{axis.values}
 };
+@if cubic
+static const int ft_first@{axis.index}[@{axis.cells}] = {
+@{axis.first}
+};
+static const double ft_basis@{axis.index}[@{axis.n_basis}] = {
+@{axis.basis}
+};
+@end
 
 @end
+@if cubic
+static const ft_spline_axis ft_axes[@{n_axes}] = {
+@for axis in axes
+    {{@{axis.nodes}, @{axis.per_step}, ft_u@{axis.index}}, ft_first@{axis.index}, ft_basis@{axis.index}},
+@end
+};
+
+@else
 @if has_axes
 static const ft_axis ft_axes[@{n_axes}] = {
 @for axis in axes
@@ -18,6 +34,7 @@ static const ft_axis ft_axes[@{n_axes}] = {
 @end
 };
 
+@end
 @end
 /* @{value_comment} */
 static const double ft_value[@{n_values}] = {
@@ -48,7 +65,7 @@ static double ft_tau(
   u[@{axis.index}] = @{axis.coordinate};
 @end
 @if has_axes
-  value = ft_interpolate(@{n_axes}, ft_axes, ft_value, u, outside);
+  value = @{interpolate}(@{n_axes}, ft_axes, ft_value, u, outside);
 @else
   value = ft_value[0];
 @end

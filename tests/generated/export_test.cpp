@@ -75,15 +75,27 @@ TEST(Export, RefusesTablesThatCannotBecomeCode) {
   for (const Exporter& exporter : all_exporters()) {
     Table table = test::one_axis_table();
     table.value[1] = std::nan("");
-    table.interpolation = "cubic";
+    table.interpolation = "quintic";
     table.axes[0].nodes[2] = table.axes[0].nodes[1];
     const std::string what = refusal({table, "mm-t-s", {}}, exporter.name);
-    EXPECT_THAT(what, testing::AllOf(HasSubstr("not finite"), HasSubstr("'cubic' interpolation"),
+    EXPECT_THAT(what, testing::AllOf(HasSubstr("not finite"), HasSubstr("'quintic' interpolation"),
                                      HasSubstr("axis 'psi' do not ascend")));
     table = test::one_axis_table();
     table.value.pop_back();
     EXPECT_THAT(refusal({table, "mm-t-s", {}}, exporter.name), HasSubstr("4 values for 5 nodes"));
   }
+}
+
+TEST(Export, RefusesTablesNoCompilerTakesAndNamesTheRemedy) {
+  Table table = test::one_axis_table();
+  table.axes[0].nodes.clear();
+  for (int i = 0; i < 200000; ++i)
+    table.axes[0].nodes.push_back(1 + i);
+  table.value.assign(200000, 1.0);
+  for (const Exporter& exporter : all_exporters())
+    EXPECT_THAT(refusal({table, "mm-t-s", {}}, exporter.name),
+                testing::AllOf(HasSubstr("needs 400,000 numbers in the source"),
+                               HasSubstr("table.interpolation = \"cubic\"")));
 }
 
 TEST(Export, NamesAndTextsFromOutsideStayInsideComments) {

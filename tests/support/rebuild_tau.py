@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 import pandas as pd
 import xarray as xr
+from scipy.interpolate import make_interp_spline
 
 
 def multilinear(nodes, values, points):
@@ -30,12 +31,30 @@ def multilinear(nodes, values, points):
     return total
 
 
+def spline(nodes, kinks, values, points):
+    """Tensor product of interpolating splines, not-a-knot (scipy's default), split at the kinks;
+    clamped at the edges."""
+    total = None
+    for u, bends, x in zip(nodes, kinks, points):
+        x = np.clip(x, u[0], u[-1])
+        weights = np.zeros((len(x), len(u)))
+        ends = [0, *bends, len(u) - 1]
+        for a, b in zip(ends, ends[1:]):
+            here = (x >= u[a]) & (x <= u[b])
+            unit = make_interp_spline(u[a : b + 1], np.eye(b - a + 1), k=min(3, b - a))
+            weights[here] = 0
+            weights[here, a : b + 1] = unit(x[here])
+        total = (np.tensordot(weights, values, 1) if total is None
+                 else np.einsum("pi,pi...->p...", weights, total))
+    return total if total is not None else values
+
+
 def rebuild(path, states):
     with h5py.File(path) as f:
         value = f["value"]
         attributes = value.attrs
         text = lambda a: a.decode() if isinstance(a, bytes) else a
-        nodes, points = [], []
+        nodes, points, kinks = [], [], []
         for d in range(value.ndim):
             scale = value.dims[d][0]
             name = scale.name.lstrip("/")
@@ -43,7 +62,13 @@ def rebuild(path, states):
             nodes.append(np.log(scale[:]) if log else scale[:])
             x = states[name].to_numpy()
             points.append(np.log(x) if log else x)
-        tabulated = multilinear(nodes, value[()], points)
+            bends = np.array(text(scale.attrs.get("kinks", "")).split(), float)
+            kinks.append(np.flatnonzero(np.isin(scale[:], bends)))
+        if text(attributes["interpolation"]) == "cubic":
+            assert text(attributes["spline"]) == "not-a-knot"
+            tabulated = spline(nodes, kinks, value[()], points)
+        else:
+            tabulated = multilinear(nodes, value[()], points)
         if text(attributes["transform"]) == "log":
             tabulated = np.exp(tabulated)
         names = {c: states[c].to_numpy() for c in states.columns}

@@ -116,12 +116,38 @@ Table traced_table() {
   return table;
 }
 
+Table spline_table() {
+  Table table;
+  table.model = "spline";
+  table.log_value = true;
+  table.interpolation = "cubic";
+  table.axes = {axis("v_rel_mm_s", true, even(5, 500, 7, true)),
+                axis("sigma_n_MPa", true, {500, 700, 1300, 2000, 2750}),
+                axis("T_contact_C", false, {20, 90, 200}), axis("psi", false, {1, 20})};
+  table.axes[0].kinks = {table.axes[0].nodes[2]};
+  fill(table, 0.08, 0.12);
+  table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
+  table.constants = {{"m", 0.8}};
+  return table;
+}
+
+Table spline_axis_table() {
+  Table table;
+  table.model = "spline_axis";
+  table.quantity = "tau_R";
+  table.interpolation = "cubic";
+  table.axes = {axis("psi", false, {1, 2, 4, 7, 12, 20})};
+  fill(table, 20, 40);
+  table.combine = Expr::symbol("value");
+  return table;
+}
+
 const std::vector<NamedTable>& sample_tables() {
-  static const std::vector<NamedTable> tables = {{"constant", constant_table()},
-                                                 {"one_axis", one_axis_table()},
-                                                 {"four_axes", four_axis_table()},
-                                                 {"branching", branching_table()},
-                                                 {"traced", traced_table()}};
+  static const std::vector<NamedTable> tables = {
+      {"constant", constant_table()},      {"one_axis", one_axis_table()},
+      {"four_axes", four_axis_table()},    {"branching", branching_table()},
+      {"traced", traced_table()},          {"spline", spline_table()},
+      {"spline_axis", spline_axis_table()}};
   return tables;
 }
 

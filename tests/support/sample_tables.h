@@ -14,6 +14,8 @@ Table one_axis_table();  // psi, even nodes; the table is tau_R itself
 Table four_axis_table(); // log and linear, even and uneven nodes; ln value; shear limit
 Table branching_table(); // sliding distance; where, minimum, maximum, power, exp, constants
 Table traced_table();    // six axes, one of them a column that is not canonical
+Table spline_table();    // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
+Table spline_axis_table(); // cubic, one axis
 
 struct NamedTable {
   std::string name;

@@ -179,14 +179,6 @@ TEST(JobMessages, SayTheAllowedWords) {
             "  hint: for example psi = \"constant:1.0\"");
 }
 
-TEST(JobMessages, SayWhatThisVersionLacks) {
-  EXPECT_EQ(
-      with("[table]\n"
-           "interpolation = \"cubic\""),
-      "job.toml:4:17: error: table.interpolation = \"cubic\" is not available in this version\n"
-      "  hint: use \"linear\": the grid is refined until table.tolerance_MPa holds");
-}
-
 TEST(JobMessages, NameTheNearestLawTargetAndQuantity) {
   EXPECT_EQ(with("[models]\n"
                  "use = \"coulom\""),

@@ -48,13 +48,22 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 class TableOfEveryLaw : public testing::TestWithParam<std::string> {};
 
+TableOptions options_of(const std::string& interpolation, double tolerance = 0.5) {
+  TableOptions options;
+  options.interpolation = interpolation;
+  options.tolerance_MPa = tolerance;
+  return options;
+}
+const char* const interpolations[] = {"linear", "cubic"};
+
 TEST_P(TableOfEveryLaw, MeetsTheAskedToleranceOverTheWholeRange) {
-  for (const double tolerance : {1.0, 0.05}) {
-    TableOptions options;
-    options.tolerance_MPa = tolerance;
-    const Table table = table_of(GetParam(), options);
-    EXPECT_LE(worst_of(GetParam(), table), tolerance) << table.nodes() << " nodes";
-  }
+  for (const char* interpolation : interpolations)
+    for (const double tolerance : {1.0, 0.05}) {
+      const Table table = table_of(GetParam(), options_of(interpolation, tolerance));
+      EXPECT_EQ(table.interpolation, interpolation);
+      EXPECT_LE(worst_of(GetParam(), table), tolerance)
+          << interpolation << ", " << table.nodes() << " nodes";
+    }
 }
 
 TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
@@ -75,11 +84,9 @@ TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
   }
 }
 
-TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
+// Python rebuilds tau_R of the file.
+void expect_rebuilt(const Table& table) {
   const std::string python = FRICTAB_PYTHON;
-  if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, xarray"}).exit_code != 0)
-    GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -xarray are not installed";
-  const Table table = table_of(GetParam());
   const test::TemporaryDirectory directory;
   write_table(table, directory.path("table.h5"));
   const TableFunction function(table);
@@ -102,6 +109,15 @@ TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
                          directory.path("table.h5"), file});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.substr(0, 3), "ok ") << result.out;
+}
+
+TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
+  const std::string python = FRICTAB_PYTHON;
+  if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, scipy, xarray"}).exit_code !=
+      0)
+    GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -scipy, -xarray are not installed";
+  for (const char* interpolation : interpolations)
+    expect_rebuilt(table_of(GetParam(), options_of(interpolation)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
