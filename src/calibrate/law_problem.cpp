@@ -250,14 +250,13 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
                                  std::span<const std::size_t> first_row) const {
   const FitProblem all = problem(levels_.back());
   FitResult& result = fit.result;
-  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
-  const double kernel_MPa = 2 * result.cost;
-  const LossFunction loss{kind, kind == Loss::l1 ? kernel_MPa : huber_delta_MPa};
+  // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
+  const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
+                                             : LossFunction{kind, huber_delta_MPa};
   fit.uncertainty = cluster_sandwich(all, loss, result.parameters, first_row);
   if (fit.uncertainty.settled == result.parameters) return;
-  const LossFunction fine{kind, kind == Loss::l1 ? 1e-3 * result.cost : huber_delta_MPa};
-  const double here = mean_cost(all, fine, result.parameters);
-  const FitResult settled = fit_from(all, fine, fit.uncertainty.settled);
+  const double here = mean_cost(all, loss, result.parameters);
+  const FitResult settled = fit_from(all, loss, fit.uncertainty.settled);
   result.evaluations += settled.evaluations;
   if (settled.cost <= here * (1 + 1e-9)) result.parameters = settled.parameters;
 }
