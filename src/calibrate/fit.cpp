@@ -40,9 +40,9 @@ std::vector<Index> free_parameters(const FitProblem& problem, const Normal& n,
   return free;
 }
 
-// Marquardt's damping on scaled normal equations: independent of the parameters' units.
+// Damped and scaled normal equations: independent of the parameters' units.
 VectorXd solve_damped(const Normal& n, const std::vector<Index>& free, const VectorXd& descent,
-                      double damping) {
+                      const VectorXd& damping) {
   const auto size = static_cast<Index>(free.size());
   MatrixXd h(size, size);
   VectorXd g(size), scale(size);
@@ -52,7 +52,7 @@ VectorXd solve_damped(const Normal& n, const std::vector<Index>& free, const Vec
     g(a) = descent(free[a]) * scale(a);
     for (Index b = 0; b < size; ++b)
       h(a, b) = n.hessian(free[a], free[b]) * scale(a) * scale(b);
-    h(a, a) += damping;
+    h(a, a) += damping(free[a]) * scale(a) * scale(a);
   }
   return h.ldlt().solve(g).cwiseProduct(scale);
 }
@@ -64,7 +64,7 @@ struct Step {
 
 // A parameter that would leave its bounds is put on the bound, and the others are solved again.
 Step bounded_step(const FitProblem& problem, const Normal& n, std::vector<Index> free,
-                  const std::vector<double>& x, double damping) {
+                  const std::vector<double>& x, const VectorXd& damping) {
   VectorXd step = VectorXd::Zero(n.descent.size());
   while (!free.empty()) {
     const VectorXd part = solve_damped(n, free, n.descent - n.hessian * step, damping);
@@ -113,7 +113,8 @@ public:
         exact_(1e-26 * mean_square(problem.measured)),
         correction_(options.correction && options.correction->size() == here_.hessian.size()
                         ? *options.correction
-                        : MatrixXd::Zero(here_.hessian.rows(), here_.hessian.cols())) {}
+                        : MatrixXd::Zero(here_.hessian.rows(), here_.hessian.cols())),
+        largest_(here_.hessian.diagonal()) {}
 
   FitResult run() {
     std::string why = fmt::format("stopped: {} iterations", options_.iterations);
@@ -152,7 +153,9 @@ private:
     if (here_.cost <= exact_) return "converged: the law passes through every row";
     constexpr double undamped = 1e-12;
     model_ = corrected(free);
-    const Step best = bounded_step(problem_, model_, free, x_, undamped);
+    largest_ = largest_.cwiseMax(here_.hessian.diagonal());
+    const Step best =
+        bounded_step(problem_, model_, free, x_, undamped * model_.hessian.diagonal());
     if (best.predicted <= options_.tolerance * here_.cost)
       return "converged: no step promises a gain";
     const double before = here_.cost;
@@ -191,15 +194,19 @@ private:
     }
     const VectorXd missed = here_.descent - there.descent - (there.hessian + correction_) * step;
     const double along = missed.dot(step);
-    const double size_of_step = step.cwiseProduct(scale).norm();
-    if (std::abs(along) > 1e-8 * missed.cwiseQuotient(scale).norm() * size_of_step)
+    const double size_of_missed = missed.cwiseQuotient(scale).norm();
+    if (std::abs(along) > 1e-3 * size_of_missed * step.cwiseProduct(scale).norm())
       correction_ += missed * missed.transpose() / along;
+    // More than the curvature itself: a kink was crossed, and there is nothing to learn.
+    const MatrixXd relative =
+        scale.cwiseInverse().asDiagonal() * correction_ * scale.cwiseInverse().asDiagonal();
+    if (!(relative.norm() < 3)) correction_.setZero();
   }
 
   bool descend(const std::vector<Index>& free) {
     double growth = 4;
     for (int attempt = 0; attempt < 25; ++attempt) {
-      const Step step = bounded_step(problem_, model_, free, x_, damping_);
+      const Step step = bounded_step(problem_, model_, free, x_, damping_ * largest_);
       Normal there;
       if (attempt == 0) // likely to be accepted: value and derivatives in one sweep
         there = evaluate(step.to);
@@ -234,6 +241,7 @@ private:
   double damping_;
   double exact_; // L2 below which only rounding is left
   MatrixXd correction_;
+  VectorXd largest_;   // curvature seen by each parameter: what damping is measured in (More 1978)
   Normal model_;       // here_ with the correction
   bool close_ = false; // to the minimum: gradients tell about curvature
   int small_gains_ = 0;

@@ -40,4 +40,36 @@ void require_whole_experiments(const Dataset& a, const Dataset& b) {
                    "part the data by whole experiments");
 }
 
+namespace {
+
+// One experiment's rows in the given columns, as a key.
+std::string rows_of(const Dataset& data, std::size_t experiment,
+                    const std::vector<std::string>& names) {
+  std::string key;
+  const std::size_t first = data.first_row[experiment], end = data.first_row[experiment + 1];
+  for (const std::string& name : names) {
+    const auto rows = data.values(name).subspan(first, end - first);
+    key.append(reinterpret_cast<const char*>(rows.data()), rows.size_bytes());
+  }
+  return key;
+}
+
+} // namespace
+
+std::string leak_note(const Dataset& training, const Dataset& validation) {
+  std::vector<std::string> names;
+  for (const Column& column : validation.columns)
+    if (column.levels.empty() && training.has(column.name)) names.push_back(column.name);
+  std::set<std::string> known;
+  for (std::size_t e = 0; e < training.experiments.size(); ++e)
+    known.insert(rows_of(training, e, names));
+  std::size_t shared = 0;
+  for (std::size_t e = 0; e < validation.experiments.size(); ++e)
+    shared += known.count(rows_of(validation, e, names));
+  if (shared == 0 || names.empty()) return "";
+  return fmt::format("{} of {} validation experiments have the rows of a training experiment: "
+                     "errors on them are not errors of prediction",
+                     shared, validation.experiments.size());
+}
+
 } // namespace frictab

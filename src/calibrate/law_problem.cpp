@@ -78,6 +78,20 @@ void keep_best(std::vector<FitResult>& fits, double slack) {
   fits = std::move(kept);
 }
 
+// The few that lie lowest: neighbours lead to the same place.
+std::vector<std::vector<double>> best_starts(const FitProblem& problem,
+                                             std::vector<std::vector<double>> starts) {
+  constexpr std::size_t few = 4;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    order.emplace_back(mean_cost(problem, {Loss::l2, 0}, starts[i]), i);
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<double>> best;
+  for (std::size_t i = 0; i < std::min(few, order.size()); ++i)
+    best.push_back(starts[order[i].second]);
+  return best;
+}
+
 bool agree(const std::vector<FitResult>& fits) {
   double first = std::numeric_limits<double>::infinity(), second = first;
   for (const FitResult& fit : fits) {
@@ -101,6 +115,23 @@ void refine(FitResult& fit, const FitProblem& problem, const LossFunction& loss,
   with.correction = &fit.correction;
   fit = fit_from(problem, loss, fit.parameters, with);
   fit.evaluations += before;
+}
+
+// L1 rounded off over `share` of the residuals' scale.
+LossFunction rounded(double scale, double share) {
+  return {Loss::l1, share * scale, 6 * share * scale};
+}
+
+// On all rows, to the end. The fewer the rows, the more each corner of L1 matters.
+void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
+  const FitOptions options{.tolerance = 1e-9, .damping = 1e-9};
+  if (loss.kind != Loss::l1) return refine(fit, all, loss, options);
+  if (all.parameters.size() == 1) return exact_median(all, fit);
+  const double rows = static_cast<double>(all.measured.size());
+  const double last = std::clamp(7e-8 * rows, 1e-5, 3e-3);
+  for (double share = 3e-3; share > last * 1.5; share /= 6)
+    refine(fit, all, rounded(loss.width_MPa, share), options);
+  refine(fit, all, rounded(loss.width_MPa, last), options);
 }
 
 } // namespace
@@ -157,11 +188,12 @@ std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss
     evaluations += fits.back().evaluations;
   };
   try_start(default_start(rows));
-  for (const auto& start : offered_)
+  for (const auto& start : best_starts(rows, offered_))
     try_start(start);
-  // Until two starts have come to the same lowest minimum.
-  constexpr std::size_t most = 8;
-  for (std::size_t i = 0; offered_.empty() && !agree(fits); ++i) {
+  // Until two starts, of a few, have come to the same lowest minimum.
+  const std::size_t few = rows.parameters.size() > 1 ? rows.parameters.size() + 2 : 2;
+  const std::size_t most = few + 6;
+  for (std::size_t i = 0; offered_.empty() && (fits.size() < few || !agree(fits)); ++i) {
     if (i == most) {
       try_start(direct_start(rows, squares));
       evaluations += 120 * rows.parameters.size();
@@ -195,24 +227,22 @@ LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
              {}},
             {}};
   std::vector<FitResult> fits = search(levels_.front(), loss);
-  const double scale = loss.width_MPa; // of the residuals, for L1
-  const auto rounded = [&](double width, double kernel) {
-    return kind == Loss::l1 ? LossFunction{kind, width * scale, kernel * scale} : loss;
-  };
-  const bool exact = kind == Loss::l1 && law_.parameters.size() == 1;
   std::size_t evaluations = 0;
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    const bool last = i + 1 == levels_.size();
-    if (last && exact) break;
+  for (std::size_t i = 1; i + 1 < levels_.size(); ++i) {
+    const LossFunction rough = kind == Loss::l1 ? rounded(loss.width_MPa, 0.05) : loss;
     for (FitResult& fit : fits)
-      refine(fit, problem(levels_[i]), last ? rounded(0.003, 0.15) : rounded(0.05, 0.3),
-             {.tolerance = last ? 1e-9 : 1e-8, .damping = 1e-9});
+      refine(fit, problem(levels_[i]), rough, {.tolerance = 1e-8, .damping = 1e-9});
     for (const FitResult& fit : fits)
       evaluations += fit.evaluations;
     keep_best(fits, 0.01);
   }
+  const FitProblem all = problem(levels_.back());
+  for (FitResult& fit : fits)
+    polish(fit, all, loss);
+  for (const FitResult& fit : fits)
+    evaluations += fit.evaluations;
+  keep_best(fits, 0);
   fits.front().evaluations = evaluations;
-  if (exact) exact_median(problem(levels_.back()), fits.front());
   return {fits.front(), {}};
 }
 
@@ -220,14 +250,13 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
                                  std::span<const std::size_t> first_row) const {
   const FitProblem all = problem(levels_.back());
   FitResult& result = fit.result;
-  // L1 has no curvature of its own: its density at 0 is estimated over a kernel of this width.
-  const double kernel_MPa = 2 * result.cost;
-  const LossFunction loss{kind, kind == Loss::l1 ? kernel_MPa : huber_delta_MPa};
+  // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
+  const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
+                                             : LossFunction{kind, huber_delta_MPa};
   fit.uncertainty = cluster_sandwich(all, loss, result.parameters, first_row);
   if (fit.uncertainty.settled == result.parameters) return;
-  const LossFunction fine{kind, kind == Loss::l1 ? 1e-3 * result.cost : huber_delta_MPa};
-  const double here = mean_cost(all, fine, result.parameters);
-  const FitResult settled = fit_from(all, fine, fit.uncertainty.settled);
+  const double here = mean_cost(all, loss, result.parameters);
+  const FitResult settled = fit_from(all, loss, fit.uncertainty.settled);
   result.evaluations += settled.evaluations;
   if (settled.cost <= here * (1 + 1e-9)) result.parameters = settled.parameters;
 }

@@ -11,7 +11,7 @@ namespace frictab {
 struct LossFunction {
   Loss kind = Loss::l2;
   double width_MPa = 10; // Huber: where it turns linear; L1: eps, where it is rounded off
-  double kernel_MPa = 0; // L1: rows within about this much of 0 tell how far to step
+  double kernel_MPa = 0; // L1: rows within this much of 0 tell the curvature
 
   double cost(double r) const {
     switch (kind) {
@@ -36,30 +36,29 @@ struct LossFunction {
     }
     return 0;
   }
+  // L1 has no curvature of its own: what its mean has is twice the density of the residuals at 0,
+  // by Epanechnikov's kernel.
   double curvature(double r) const {
     switch (kind) {
     case Loss::l2:
       return 1;
     case Loss::l1: {
-      const double s = std::sqrt(r * r + width_MPa * width_MPa);
-      return width_MPa * width_MPa / (s * s * s);
+      const double h = std::max(2 * width_MPa, kernel_MPa), x = r / h;
+      return std::max(0.0, 1 - x * x) * 1.5 / h;
     }
     case Loss::huber:
       return std::abs(r) <= width_MPa ? 1 : 0;
     }
     return 0;
   }
-  // What a step takes for the curvature. L1 has none of its own: twice the density of the residuals
-  // at 0, by Epanechnikov's kernel, and a little of the weight, so that steps stay short where no
-  // row is near 0.
+  // What a step takes for it: with a little of the weight, so that steps stay short where no row
+  // has any.
   double step_curvature(double r) const {
     switch (kind) {
     case Loss::l2:
       return 1;
-    case Loss::l1: {
-      const double h = std::max(2 * width_MPa, kernel_MPa), x = r / h;
-      return std::max(0.0, 1 - x * x) * 1.5 / h + 0.02 * weight(r);
-    }
+    case Loss::l1:
+      return curvature(r) + 0.02 * weight(r);
     case Loss::huber:
       return std::abs(r) <= width_MPa ? 1 : 0.1 * width_MPa / std::abs(r);
     }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "calibrate/folds.h"
 #include "cli/command.h"
 #include "run/pipeline.h"
 
@@ -28,6 +29,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
     Pipeline pipeline = open_job(*file, common);
     stages(pipeline);
     pipeline.commit();
+    if (pipeline.training())
+      if (const std::string leak = leak_note(*pipeline.training(), *pipeline.validation());
+          !leak.empty())
+        note(common, "warning: " + leak);
     if (common.verbose && pipeline.training())
       for (const std::string& line : pipeline.training()->notes)
         note(common, line);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/folds.h"
 #include "codegen/exporter.h"
 #include "codegen/recipe.h"
 #include "core/error.h"
@@ -43,6 +44,8 @@ void Pipeline::need_data() {
   training_ = load_dataset(job_.data.training, job_.data);
   if (!job_.data.validation.empty()) {
     validation_ = load_dataset(job_.data.validation, job_.data);
+    if (const std::string leak = leak_note(*training_, *validation_); !leak.empty())
+      validation_->notes.push_back(leak);
   } else {
     Split split = hold_out(*training_, job_.data.holdout, job_.calibration.seed);
     training_ = std::move(split.training);

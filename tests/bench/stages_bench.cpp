@@ -22,6 +22,17 @@ void calibrate_law(benchmark::State& state, const char* law, Loss loss) {
   for (auto _ : state)
     benchmark::DoNotOptimize(calibrate(input).fits.front());
 }
+// Every calibrated law, and the errors and intervals of all on training and validation rows.
+void calibrate_all(benchmark::State& state, Loss loss) {
+  CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
+  for (const Law& law : all_laws())
+    if (law.calibrated == Calibrated::fit) input.models.use.push_back(law.name);
+  input.options.loss = loss;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(calibrate(input).fits.front());
+}
+BENCHMARK_CAPTURE(calibrate_all, closed_forms_L2, Loss::l2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(calibrate_all, closed_forms_L1, Loss::l1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(calibrate_law, coulomb_L2, "coulomb", Loss::l2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(calibrate_law, orowan_L2, "orowan", Loss::l2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(calibrate_law, orowan_L1, "orowan", Loss::l1)->Unit(benchmark::kMillisecond);

@@ -1,4 +1,5 @@
 // Calibration: every law finds its own parameters again; errors and intervals by experiment.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -141,6 +142,67 @@ TEST(Calibration, NamesTheParameterThatTheDataDoNotDetermineAndWhatWouldSettleIt
   EXPECT_EQ(fit.remarks[0], "c2 has no influence on these data: experiments at several surface "
                             "expansions would settle it");
   EXPECT_EQ(fit.remarks[1], "psi is 1 in every row: experiments at other values would settle it");
+}
+
+TEST(Calibration, SaysWhichExperimentsWouldSettleShawsExponentAtItsBound) {
+  const Model truth = test::plausible_model(*find_law("orowan")); // a kink: n beyond any bound
+  test::SampleOptions options;
+  options.noise_MPa = 2;
+  const ModelFit fit = fit_of("shaw", test::sample_data(truth, options));
+  EXPECT_EQ(fit.model.parameters[2], 20);
+  EXPECT_TRUE(std::isnan(fit.std_error[2]));
+  ASSERT_EQ(fit.remarks.size(), 1U);
+  EXPECT_EQ(fit.remarks[0], "n is at its bound 20: experiments with sigma_N around m k/mu (u near "
+                            "1) would settle it");
+}
+
+TEST(Calibration, WanheimBayReachesFullSticking) {
+  Model truth = test::plausible_model(*find_law("wanheim_bay"));
+  for (const double f : {0.9, 0.99, 0.9999, 1.0}) {
+    truth.parameters = {f};
+    const Dataset data = test::sample_data(truth);
+    for (const Loss loss : {Loss::l2, Loss::l1}) {
+      const ModelFit fit = fit_of("wanheim_bay", data, loss);
+      EXPECT_NEAR(fit.model.parameters[0], f, 1e-6) << fit.termination;
+      EXPECT_LT(fit.training.mae_MPa, 1e-3);
+    }
+  }
+}
+
+TEST(Calibration, TheWeightedMedianIsTheLeastMeanErrorOfOneParameter) {
+  test::SampleOptions options;
+  options.experiments = 5;
+  options.rows = 21;
+  options.noise_MPa = 20;
+  for (const char* name : {"coulomb", "shear", "levanov"}) {
+    const Model truth = test::plausible_model(*find_law(name));
+    const Dataset data = test::sample_data(truth, options);
+    const ModelFit fit = fit_of(name, data, Loss::l1);
+    Model trial = truth;
+    for (int i = -1000; i <= 1000; ++i) {
+      trial.parameters = {fit.model.parameters[0] * (1 + 1e-4 * i)};
+      const std::vector<double> tau = predict(trial, data);
+      double sum = 0;
+      for (std::size_t r = 0; r < tau.size(); ++r)
+        sum += std::abs(data.values("tau_R_MPa")[r] - tau[r]);
+      ASSERT_GE(sum / static_cast<double>(tau.size()), fit.training.mae_MPa * (1 - 1e-14)) << name;
+    }
+  }
+}
+
+TEST(Calibration, NamesAParameterThatOneExperimentAloneDetermines) {
+  test::SampleOptions options;
+  options.noise_MPa = 3;
+  Dataset data = test::sample_data(test::plausible_model(*find_law("log_coulomb")), options);
+  for (Column& column : data.columns) // psi differs from 1 in the first experiment only
+    if (column.name == "psi")
+      std::fill(column.values.begin() + static_cast<long>(data.first_row[1]), column.values.end(),
+                1.0);
+  const ModelFit fit = fit_of("log_coulomb", data);
+  EXPECT_TRUE(std::isnan(fit.std_error[2]));
+  EXPECT_GT(fit.std_error[0], 0);
+  ASSERT_EQ(fit.remarks.size(), 1U);
+  EXPECT_EQ(fit.remarks[0], "c2 is determined by a single experiment: no standard error");
 }
 
 TEST(Calibration, LeavesOutLawsWhoseColumnsAreMissingAndSaysSo) {

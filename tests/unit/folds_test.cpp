@@ -99,5 +99,18 @@ TEST(Folds, ASplitThatCutsAnExperimentFails) {
   EXPECT_THROW(require_whole_experiments(data, one), InputError);
 }
 
+TEST(Folds, EqualRowsInTwoFilesAreToldAndEqualNamesAreNot) {
+  const Dataset training = campaign(6, 10);
+  Dataset validation = campaign(4, 10); // the first four of the six
+  EXPECT_EQ(leak_note(training, validation),
+            "4 of 4 validation experiments have the rows of a training experiment: errors on them "
+            "are not errors of prediction");
+  for (double& x : validation.columns[0].values)
+    x += 1000; // another rig that also counts from E0
+  EXPECT_EQ(leak_note(training, validation), "");
+  validation.columns[0].values[25] = 205; // one row alone is chance
+  EXPECT_EQ(leak_note(training, validation), "");
+}
+
 } // namespace
 } // namespace frictab
