@@ -79,7 +79,7 @@ struct TableOptions {
   std::vector<std::string> model{"best"}; // best | names | all
   std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
-  std::string interpolation = "linear";
+  std::optional<std::string> interpolation; // linear | cubic; absent: linear where that is small
   std::map<std::string, AxisOptions> axes; // by canonical name
   Place place;
 };

@@ -128,10 +128,11 @@ std::vector<KeyRule> table_keys() {
           "largest drift of the table from its law, anywhere in the range; the grid is made to "
           "fit it") |
           above(0),
-      key<std::string>(
+      key<std::optional<std::string>>(
           "table.interpolation", [](Job & job) -> auto& { return job.table.interpolation; },
-          "between nodes: linear (a query is 5 to 10 times as fast) or cubic (C2 spline: far fewer "
-          "nodes for laws of many states, as neural_network)") |
+          "between nodes: linear, or cubic (a C2 spline: far fewer nodes where the law is smooth, "
+          "more work per query)",
+          "linear, or cubic where linear would need more than 20,000 nodes", "\"cubic\"") |
           Allowed{"", interpolations},
       named<std::optional<std::pair<double, double>>>(
           "table.axes.*.range",

@@ -127,10 +127,10 @@ void add_tables(std::string& out, const Pipeline& p) {
     for (const TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out +=
-        fmt::format("  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
-                    table.nodes() == 1 ? "" : "s", human_bytes(static_cast<double>(table.bytes())),
-                    grid, table.interpolation == "linear" ? "" : ", " + table.interpolation);
+    out += fmt::format(
+        "  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
+        table.nodes() == 1 ? "" : "s", human_bytes(static_cast<double>(table.bytes())), grid,
+        table.axes.empty() || table.interpolation == "linear" ? "" : ", " + table.interpolation);
     if (table.interpolation == "linear" && table.nodes() > many_nodes)
       out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",

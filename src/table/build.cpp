@@ -104,12 +104,12 @@ std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& 
 }
 
 Table assemble(const Model& model, const Pieces& pieces, const std::vector<StateRange>& ranges,
-               std::vector<TableAxis> axes, const TableOptions& options, bool log_value) {
+               std::vector<TableAxis> axes, const std::string& interpolation, bool log_value) {
   Table table;
   table.model = model.name();
   table.quantity = model.law->quantity;
   table.log_value = log_value;
-  table.interpolation = options.interpolation;
+  table.interpolation = interpolation;
   table.value = sample(pieces, ranges, axes);
   table.axes = std::move(axes);
   if (log_value)
@@ -158,11 +158,9 @@ public:
   }
 
   Table build() {
-    AxisErrors errors(pieces_, ranges_, log_value_, options_.interpolation == "cubic");
-    std::size_t active = 0;
-    for (const AxisPlan& plan : plans_)
-      active += errors.largest(plan, plan.cells) > 1e-3 * options_.tolerance_MPa;
-    const double target = limit_ / static_cast<double>(std::max<std::size_t>(active, 1));
+    interpolation_ = options_.interpolation.value_or(linear_is_small() ? "linear" : "cubic");
+    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == "cubic");
+    const double target = first_target(errors);
     for (AxisPlan& plan : plans_)
       errors.place_nodes(plan, target);
     refine(errors, target);
@@ -175,12 +173,33 @@ public:
 private:
   static constexpr std::size_t box_samples = 20000;
   static constexpr std::size_t most_trim_nodes = 4'000'000; // sampled while trimming
+  static constexpr double most_linear_nodes = 20'000;       // where the job leaves the choice
 
   struct Trial {
     Counts cells;
     Table table;
     double drift = HUGE_VAL;
   };
+
+  // The error that each axis may have at first.
+  double first_target(AxisErrors& errors) const {
+    std::size_t active = 0;
+    for (const AxisPlan& plan : plans_)
+      active += errors.largest(plan, plan.cells) > 1e-3 * options_.tolerance_MPa;
+    return limit_ / static_cast<double>(std::max<std::size_t>(active, 1));
+  }
+
+  bool linear_is_small() const {
+    AxisErrors errors(pieces_, ranges_, log_value_, false);
+    const double target = first_target(errors);
+    double nodes = 1;
+    for (AxisPlan plan : plans_) {
+      errors.place_nodes(plan, target);
+      nodes *=
+          1.0 + static_cast<double>(plan.by_user ? plan.cells : errors.cells_for(plan, target));
+    }
+    return nodes <= most_linear_nodes;
+  }
 
   std::vector<TableAxis> axes_with(const Counts& cells) const {
     std::vector<TableAxis> axes;
@@ -196,7 +215,7 @@ private:
     trial.cells = cells;
     std::vector<TableAxis> axes = axes_with(cells);
     check_memory(axes, options_);
-    trial.table = assemble(model_, pieces_, ranges_, std::move(axes), options_, log_value_);
+    trial.table = assemble(model_, pieces_, ranges_, std::move(axes), interpolation_, log_value_);
     const TableFunction function(trial.table);
     trial.drift = compare(peaks_, function);
     if (trial.drift > enough) return trial;
@@ -275,6 +294,7 @@ private:
   LawFunction law_;
   std::vector<AxisPlan> plans_;
   bool log_value_ = false;
+  std::string interpolation_;
   Probe box_;   // the same for every trial
   Probe peaks_; // worst states of all trials
   Trial best_;
