@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -156,7 +157,8 @@ private:
     largest_ = largest_.cwiseMax(here_.hessian.diagonal());
     const Step best =
         bounded_step(problem_, model_, free, x_, undamped * model_.hessian.diagonal());
-    if (best.predicted <= options_.tolerance * here_.cost)
+    // (Negative: the bounds have bent the step uphill, and damping will straighten it.)
+    if (std::abs(best.predicted) <= options_.tolerance * here_.cost)
       return "converged: no step promises a gain";
     const double before = here_.cost;
     close_ = best.predicted < 1e-3 * before;
@@ -207,18 +209,16 @@ private:
     double growth = 4;
     for (int attempt = 0; attempt < 25; ++attempt) {
       const Step step = bounded_step(problem_, model_, free, x_, damping_ * largest_);
-      Normal there;
-      if (attempt == 0) // likely to be accepted: value and derivatives in one sweep
+      Normal there{std::numeric_limits<double>::infinity(), {}, {}};
+      const bool downhill = step.predicted > 0;
+      if (downhill && attempt == 0) // likely to be accepted: value and derivatives in one sweep
         there = evaluate(step.to);
-      else
+      else if (downhill)
         there.cost = cost(step.to);
       if (there.cost < here_.cost) {
         const double ratio = (here_.cost - there.cost) / step.predicted;
-        damping_ = std::max(damping_ * (ratio > 0.9   ? 0.01
-                                        : ratio > 0.5 ? 0.2
-                                        : ratio > 0.1 ? 1
-                                                      : 3),
-                            1e-12);
+        const double change = ratio > 0.9 ? 0.01 : ratio > 0.5 ? 0.2 : ratio > 0.1 ? 1 : 3;
+        damping_ = std::max(damping_ * change, 1e-12);
         if (attempt > 0) there = evaluate(step.to);
         if (close_) learn(step.to, there);
         x_ = step.to;

@@ -124,7 +124,7 @@ LossFunction rounded(double scale, double share) {
 
 // On all rows, to the end. The fewer the rows, the more each corner of L1 matters.
 void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
-  const FitOptions options{.tolerance = 1e-9, .damping = 1e-9};
+  const FitOptions options{.tolerance = 1e-8, .damping = 1e-9};
   if (loss.kind != Loss::l1) return refine(fit, all, loss, options);
   if (all.parameters.size() == 1) return exact_median(all, fit);
   const double rows = static_cast<double>(all.measured.size());
@@ -184,7 +184,8 @@ std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss
   std::vector<FitResult> fits;
   std::size_t evaluations = 0;
   const auto try_start = [&](std::vector<double> start) {
-    fits.push_back(fit_from(rows, squares, std::move(start), {.tolerance = 1e-8}));
+    fits.push_back(
+        fit_from(rows, squares, std::move(start), {.tolerance = 1e-8, .iterations = 25}));
     evaluations += fits.back().evaluations;
   };
   try_start(default_start(rows));

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "calibrate/folds.h"
 #include "calibrate/network_fit.h"
 #include "core/parallel.h"
@@ -262,6 +264,10 @@ std::vector<std::string> network_inputs(const Law& law, const Dataset& data) {
     if (*low < *high) names.push_back(name);
   }
   return names;
+}
+
+std::string network_size(const NetworkRecord& record) {
+  return fmt::format("{} nets of {} weights", record.members, record.weights);
 }
 
 TrainedNetwork train_network(const Law& law, const Dataset& training,

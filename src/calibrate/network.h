@@ -31,6 +31,9 @@ struct NetworkRecord {
   std::size_t nets = 0;            // trained, cross-validation included
 };
 
+// "20 nets of 57 weights".
+std::string network_size(const NetworkRecord& record);
+
 struct TrainedNetwork {
   Law law; // its own formula; parameter mu0
   double mu0 = 0;

@@ -52,7 +52,8 @@ struct Terms {
 
 // With the kind of loss as a constant, the loop vectorises.
 template <Loss kind>
-void fill_as(Terms& t, const LossFunction& given, std::size_t n, bool slopes, bool for_step) {
+FRICTAB_INLINE void fill_as(Terms& t, const LossFunction& given, std::size_t n, bool slopes,
+                            bool for_step) {
   LossFunction loss = given;
   loss.kind = kind;
   if (!slopes)

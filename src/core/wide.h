@@ -10,3 +10,10 @@
 #else
 #define FRICTAB_WIDE
 #endif
+
+// For what such a loop is made of: only what is inlined into it is compiled twice.
+#if defined(__GNUC__)
+#define FRICTAB_INLINE __attribute__((always_inline)) inline
+#else
+#define FRICTAB_INLINE inline
+#endif

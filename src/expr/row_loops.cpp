@@ -50,12 +50,13 @@ double partial(Op op, std::size_t which, const double* v, double result) {
 
 namespace {
 
-template <class F> void unary(std::size_t n, Register a, double* out, F f) {
+template <class F> FRICTAB_INLINE void unary(std::size_t n, Register a, double* out, F f) {
   for (std::size_t i = 0; i < n; ++i)
     out[i] = f(a[i]);
 }
 
-template <class F> void binary(std::size_t n, Register a, Register b, double* out, F f) {
+template <class F>
+FRICTAB_INLINE void binary(std::size_t n, Register a, Register b, double* out, F f) {
   if (a.stride == 1 && b.stride == 1)
     for (std::size_t i = 0; i < n; ++i)
       out[i] = f(a.data[i], b.data[i]);
@@ -68,7 +69,7 @@ template <class F> void binary(std::size_t n, Register a, Register b, double* ou
 }
 
 // to = f(i), or to + f(i): the first contribution needs no zeros to add to.
-template <class F> void put(std::size_t n, double* to, bool add, F f) {
+template <class F> FRICTAB_INLINE void put(std::size_t n, double* to, bool add, F f) {
   if (add)
     for (std::size_t i = 0; i < n; ++i)
       to[i] += f(i);
@@ -77,7 +78,8 @@ template <class F> void put(std::size_t n, double* to, bool add, F f) {
       to[i] = f(i);
 }
 
-template <class F> void put_times(std::size_t n, double* to, bool add, Register factor, F f) {
+template <class F>
+FRICTAB_INLINE void put_times(std::size_t n, double* to, bool add, Register factor, F f) {
   if (factor.stride == 0)
     put(n, to, add, [f, x = *factor.data](std::size_t i) { return f(i, x); });
   else
@@ -86,8 +88,8 @@ template <class F> void put_times(std::size_t n, double* to, bool add, Register 
 
 // The adjoint goes to this operand in the rows where it was chosen.
 template <class F>
-void put_chosen(std::size_t n, double* to, bool add, Register a, Register b, const double* adjoint,
-                F chosen) {
+FRICTAB_INLINE void put_chosen(std::size_t n, double* to, bool add, Register a, Register b,
+                               const double* adjoint, F chosen) {
   if (a.stride == 1 && b.stride == 1)
     put(n, to, add, [=](std::size_t i) { return chosen(a.data[i], b.data[i]) ? adjoint[i] : 0.0; });
   else if (a.stride == 1)

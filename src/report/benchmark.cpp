@@ -15,6 +15,7 @@ namespace {
 
 std::string parameters(const ModelFit& fit) {
   const std::vector<Parameter>& list = fit.model.law->parameters;
+  if (fit.network) return network_size(*fit.network);
   if (list.size() > 8) return fmt::format("{} parameters", list.size());
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < fit.model.parameters.size(); ++i) {
@@ -79,8 +80,8 @@ std::string benchmark_md(const Calibration& calibration) {
   const int decimals = error_decimals(calibration);
   add_comparison(out, calibration, decimals);
   add_all_errors(out, calibration, decimals);
-  add_published(out, calibration);
   add_band(out, calibration);
+  add_published(out, calibration);
   add_conditional_use(out, calibration, decimals);
   return out;
 }

@@ -81,6 +81,7 @@ std::string parameter_text(const Parameter& parameter, double value, double std_
 
 std::string parameters(const ModelFit& fit) {
   const Law& law = *fit.model.law;
+  if (fit.network) return network_size(*fit.network);
   const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
   if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
   std::string text;

@@ -32,6 +32,7 @@ void add_data(std::string& out, const Pipeline& p) {
 }
 
 std::string parameters(const ModelFit& fit) {
+  if (fit.network) return network_size(*fit.network);
   std::string text;
   for (std::size_t i = 0; i < fit.model.parameters.size(); ++i)
     text += fmt::format("{}{} {:.4g}", i ? ", " : "", fit.model.law->parameters[i].name,
