@@ -24,7 +24,7 @@ const char* loss_name(Loss loss) {
 }
 
 int whole_seconds_above(double seconds) {
-  for (const int bound : {1, 2, 5, 10, 30, 60, 300, 3600})
+  for (const int bound : {10, 60, 600, 3600})
     if (seconds < bound) return bound;
   return static_cast<int>(std::ceil(seconds));
 }

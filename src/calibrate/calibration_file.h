@@ -9,7 +9,7 @@
 namespace frictab {
 
 // calibration.json: every law with parameters, errors, termination. The wall time is given as the
-// next of 1, 2, 5, 10, ... seconds above it, so that the same job gives the same bytes.
+// next of 10, 60, 600, 3600 seconds above it, so that the same job gives the same bytes.
 std::string calibration_json(const Calibration& calibration);
 Calibration parse_calibration(std::string_view text, const std::string& file);
 

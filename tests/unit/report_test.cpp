@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <pugixml.hpp>
 
+#include "report/numbers.h"
 #include "report_sample.h"
 
 namespace frictab {
