@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "io/hdf5.h"
+#include "models/neural_network.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
 #include "table/drift.h"
@@ -180,6 +181,59 @@ TEST(Table, MultilinearInterpolationConvergesWithTheSquareOfTheSpacing) {
   EXPECT_GT(std::log2(error[1] / error[2]), 1.9);
 }
 
+// An ensemble that bends in all five states, as trained ones do, with random weights.
+Model network_model() {
+  Network network;
+  network.inputs = {{"sigma_n_MPa", false, 0, 0, 1600, 600},
+                    {"psi", true, 1, 0, 1.5, 0.9},
+                    {"v_rel_mm_s", true, 0.1, 1, 4, 1.2},
+                    {"T_contact_C", false, 0, 0, 110, 50},
+                    {"s_mm", true, 0, 0.5, 1.5, 1.3}};
+  network.hidden = 4;
+  Random random(12);
+  for (int m = 0; m < 3; ++m) {
+    network.members.emplace_back();
+    for (std::size_t w = 0; w < Network::weights(5, network.hidden); ++w)
+      network.members.back().push_back(0.2 * random.normal());
+  }
+  return {made(neural_network(network)), {}, {0.08}};
+}
+
+TEST(Table, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
+  const Model model = network_model();
+  std::vector<StateRange> ranges = {
+      {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
+      {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
+  std::size_t nodes[2];
+  for (const bool cubic : {false, true}) {
+    const Table table = build_table(model, ranges, options_of(cubic ? "cubic" : "linear", 1.0));
+    const TableFunction function(table);
+    EXPECT_LE(worst_case(LawFunction(model, function.inputs()), function, ranges,
+                         probe_points(ranges, table.axes, 50000))
+                  .drift_MPa,
+              1.0);
+    nodes[cubic] = table.nodes();
+  }
+  EXPECT_LT(nodes[1], 10000U);
+  EXPECT_LT(5 * nodes[1], nodes[0]);
+}
+
+TEST(Table, NodesLieWhereTheLawBends) {
+  TableOptions options; // ln(s + 0.5): bends near zero, on an axis that cannot be logarithmic
+  const Model model = network_model();
+  const std::vector<StateRange> ranges = {
+      {"sigma_n_MPa", 1000, 1001, ""}, {"psi", 2, 2.01, ""}, {"v_rel_mm_s", 50, 51, ""},
+      {"T_contact_C", 99, 100, ""},    {"s_mm", 0, 40, ""},  {"sigma_f_MPa", 500, 501, ""}};
+  options.tolerance_MPa = 0.02;
+  const Table graded = build_table(model, ranges, options);
+  options.axes["s_mm"].spacing = "linear";
+  const Table even = build_table(model, ranges, options);
+  EXPECT_LT(2 * graded.axes[4].nodes.size(), even.axes[4].nodes.size());
+  EXPECT_GT(even.axes[4].per_step(), 0);
+  EXPECT_LT(4 * (graded.axes[4].nodes[1] - graded.axes[4].nodes[0]),
+            graded.axes[4].nodes.back() - *(graded.axes[4].nodes.end() - 2));
+}
+
 TEST(Table, JobSetsRangeNodesAndSpacing) {
   TableOptions options;
   options.axes["sigma_n_MPa"].range = {100, 3000};
@@ -270,6 +324,36 @@ TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
   }
 }
 
+TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.path("foreign.h5");
+  {
+    Hdf5Writer out(file);
+    const std::size_t shape[] = {3};
+    const std::vector<double> nodes{1, 2, 3}, value{0.1, 0.2, 0.3};
+    out.dataset("psi", shape, nodes);
+    out.attribute("psi", "units", std::string("1"));
+    out.attribute("psi", "transform", std::string("linear"));
+    out.attribute("psi", "kinks", std::string("2 2.5 x"));
+    out.dataset("value", shape, value);
+    out.dimension_scale("value", 0, "psi");
+    out.attribute("value", "quantity", std::string("mu"));
+    out.attribute("value", "transform", std::string("linear"));
+    out.attribute("value", "interpolation", std::string("cubic"));
+    out.attribute("value", "spline", std::string("natural"));
+    out.close();
+  }
+  try {
+    read_table(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 3U) << error.what();
+    for (const char* part : {"attribute 'spline' of 'value' is 'natural'",
+                             "axis 'psi' has a kink at '2.5'", "axis 'psi' has a kink at 'x'"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part;
+  }
+}
+
 TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
   Table table = table_of("orowan");
   const test::TemporaryDirectory directory;
@@ -280,7 +364,9 @@ TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
 
 TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
   const test::TemporaryDirectory directory;
-  write_table(table_of("levanov"), directory.path("t.h5"));
+  Table table = table_of("levanov", options_of("cubic"));
+  table.axes[0].kinks = {table.axes[0].nodes[1]};
+  write_table(table, directory.path("t.h5"));
   const std::string bytes = directory.read("t.h5");
   Random random(3);
   for (int i = 0; i < 300; ++i) {
