@@ -180,6 +180,9 @@ void Pipeline::tabulate() {
     tables_.push_back(std::move(table));
     progress.tick();
   }
+  // As a later stage reads them: by name.
+  std::sort(tables_.begin(), tables_.end(),
+            [](const Table& a, const Table& b) { return a.model < b.model; });
   have_tables_ = true;
 }
 

@@ -270,6 +270,36 @@ TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
   }
 }
 
+TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.path("foreign.h5");
+  {
+    Hdf5Writer out(file);
+    const std::size_t shape[] = {3};
+    const std::vector<double> nodes{1, 2, 3}, value{0.1, 0.2, 0.3};
+    out.dataset("psi", shape, nodes);
+    out.attribute("psi", "units", std::string("1"));
+    out.attribute("psi", "transform", std::string("linear"));
+    out.attribute("psi", "kinks", std::string("2 2.5 x"));
+    out.dataset("value", shape, value);
+    out.dimension_scale("value", 0, "psi");
+    out.attribute("value", "quantity", std::string("mu"));
+    out.attribute("value", "transform", std::string("linear"));
+    out.attribute("value", "interpolation", std::string("cubic"));
+    out.attribute("value", "spline", std::string("natural"));
+    out.close();
+  }
+  try {
+    read_table(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 3U) << error.what();
+    for (const char* part : {"attribute 'spline' of 'value' is 'natural'",
+                             "axis 'psi' has a kink at '2.5'", "axis 'psi' has a kink at 'x'"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part;
+  }
+}
+
 TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
   Table table = table_of("orowan");
   const test::TemporaryDirectory directory;
@@ -280,7 +310,9 @@ TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
 
 TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
   const test::TemporaryDirectory directory;
-  write_table(table_of("levanov"), directory.path("t.h5"));
+  Table table = table_of("levanov", options_of("cubic"));
+  table.axes[0].kinks = {table.axes[0].nodes[1]};
+  write_table(table, directory.path("t.h5"));
   const std::string bytes = directory.read("t.h5");
   Random random(3);
   for (int i = 0; i < 300; ++i) {
