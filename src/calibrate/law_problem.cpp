@@ -137,7 +137,7 @@ void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
 } // namespace
 
 LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dataset& data)
-    : law_(law), names_(inputs(law, conventions)),
+    : law_(law), conventions_(conventions), data_(data), names_(inputs(law, conventions)),
       program_(tau_formula(law, conventions), names_, parameter_names(law)) {
   if (data.rows() >= 4 * few_rows) add_thinned(data, few_rows);
   if (data.rows() >= 4 * coarse_rows) add_thinned(data, coarse_rows);
@@ -147,11 +147,14 @@ LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dat
   all.measured = data.values("tau_R_MPa");
   all.formula.emplace(program_, data.rows(), all.columns);
   levels_.push_back(std::move(all));
-  if (!law.starts) return;
-  TrainingRows rows{{"tau_R_MPa", data.values("tau_R_MPa")}};
+}
+
+LawProblem::Starts LawProblem::offered() const {
+  if (!law_.starts) return {};
+  TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
   for (const std::string& name : names_)
-    rows[name] = data.values(name);
-  offered_ = law.starts(conventions, rows);
+    rows[name] = data_.values(name);
+  return law_.starts(conventions_, rows);
 }
 
 // Evenly spaced rows, so that every experiment is seen in proportion.
@@ -178,7 +181,8 @@ FitProblem LawProblem::problem(const Level& level) const {
 
 // Distinct minima on one level, best first. Least squares find them, `loss` ranks them; for L1
 // sets its rounding by the residuals that are left.
-std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss) const {
+std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offered,
+                                          LossFunction& loss) const {
   const FitProblem rows = problem(level);
   const LossFunction squares{Loss::l2, 0};
   std::vector<FitResult> fits;
@@ -189,12 +193,12 @@ std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss
     evaluations += fits.back().evaluations;
   };
   try_start(default_start(rows));
-  for (const auto& start : best_starts(rows, offered_))
+  for (const auto& start : best_starts(rows, offered))
     try_start(start);
   // Until two starts, of a few, have come to the same lowest minimum.
   const std::size_t few = rows.parameters.size() > 1 ? rows.parameters.size() + 2 : 2;
   const std::size_t most = few + 6;
-  for (std::size_t i = 0; offered_.empty() && (fits.size() < few || !agree(fits)); ++i) {
+  for (std::size_t i = 0; offered.empty() && (fits.size() < few || !agree(fits)); ++i) {
     if (i == most) {
       try_start(direct_start(rows, squares));
       evaluations += 120 * rows.parameters.size();
@@ -220,14 +224,12 @@ std::vector<FitResult> LawProblem::search(const Level& level, LossFunction& loss
 
 LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
   LossFunction loss{kind, huber_delta_MPa};
-  if (kind == Loss::l2 && !offered_.empty())
-    return {{offered_.front(),
-             mean_cost(problem(levels_.back()), loss, offered_.front()),
-             1,
-             "converged: closed form",
-             {}},
-            {}};
-  std::vector<FitResult> fits = search(levels_.front(), loss);
+  const Starts starts = offered();
+  if (kind == Loss::l2 && !starts.empty()) {
+    const double cost = mean_cost(problem(levels_.back()), loss, starts.front());
+    return {{starts.front(), cost, 1, "converged: closed form", {}}, {}};
+  }
+  std::vector<FitResult> fits = search(levels_.front(), starts, loss);
   std::size_t evaluations = 0;
   for (std::size_t i = 1; i + 1 < levels_.size(); ++i) {
     const LossFunction rough = kind == Loss::l1 ? rounded(loss.width_MPa, 0.05) : loss;

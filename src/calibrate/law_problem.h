@@ -32,6 +32,7 @@ public:
                        std::span<const std::size_t> first_row) const;
 
 private:
+  using Starts = std::vector<std::vector<double>>;
   struct Level {
     std::vector<std::vector<double>> kept; // of a thinned copy: columns, then tau_R
     std::vector<const double*> columns;
@@ -40,13 +41,17 @@ private:
   };
   FitProblem problem(const Level& level) const;
   void add_thinned(const Dataset& data, std::size_t rows);
-  std::vector<FitResult> search(const Level& level, LossFunction& loss) const;
+  std::vector<FitResult> search(const Level& level, const Starts& offered,
+                                LossFunction& loss) const;
+
+  Starts offered() const; // the law's own
 
   const Law& law_;
+  Conventions conventions_;
+  const Dataset& data_;
   std::vector<std::string> names_;
   Program program_;
-  std::deque<Level> levels_;                 // coarse to fine; the last has all rows
-  std::vector<std::vector<double>> offered_; // the law's own starts
+  std::deque<Level> levels_; // coarse to fine; the last has all rows
 };
 
 } // namespace frictab

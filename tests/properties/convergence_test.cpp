@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, Convergence, testing::ValuesIn([] {
                              if (law.calibrated == Calibrated::fit) names.push_back(law.name);
                            return names;
                          }()),
-                         [](const auto& claim) { return claim.param; });
+                         [](const auto& test) { return test.param; });
 
 } // namespace
 } // namespace frictab

@@ -66,9 +66,9 @@ TEST_P(Coverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
 INSTANTIATE_TEST_SUITE_P(Sandwich, Coverage,
                          testing::Combine(testing::Values("coulomb", "orowan", "log_coulomb"),
                                           testing::Values(Loss::l2, Loss::l1)),
-                         [](const auto& claim) {
-                           return std::string(std::get<0>(claim.param)) +
-                                  (std::get<1>(claim.param) == Loss::l2 ? "_L2" : "_L1");
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param)) +
+                                  (std::get<1>(test.param) == Loss::l2 ? "_L2" : "_L1");
                          });
 
 } // namespace

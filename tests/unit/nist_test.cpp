@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Strd, Nist,
                                          "Lanczos3", "DanWood", "Kirby2", "Hahn1", "MGH09", "MGH10",
                                          "MGH17", "Thurber", "Rat42", "Rat43", "Eckerle4",
                                          "BoxBOD"),
-                         [](const auto& claim) { return claim.param; });
+                         [](const auto& test) { return test.param; });
 
 } // namespace
 } // namespace frictab
