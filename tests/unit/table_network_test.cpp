@@ -23,7 +23,10 @@ Model network_model() {
     for (std::size_t w = 0; w < Network::weights(5, network.hidden); ++w)
       network.members.back().push_back(0.2 * random.normal());
   }
-  return {made(neural_network(network)), {}, {0.08}};
+  Model model;
+  model.law = made(neural_network(network));
+  model.parameters = {0.08};
+  return model;
 }
 
 TEST(Table, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
