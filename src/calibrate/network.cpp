@@ -235,13 +235,21 @@ private:
   std::size_t folds_;
 };
 
-// A net that failed stands out on its held-out experiments, against the nets that left out the
-// same share of others.
-bool failed(double square, std::vector<double> squares) {
-  std::nth_element(squares.begin(),
-                   squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2),
-                   squares.end());
-  return square > 9 * squares[squares.size() / 2];
+// A net that failed stands out on the experiments as a whole. Those it left out alone would not do:
+// one unusual experiment would cost every net that did not see it.
+std::vector<VectorXd> without_failed(const TrainingSet& set, std::vector<VectorXd> members) {
+  std::vector<double> squares;
+  for (const VectorXd& w : members)
+    squares.push_back(
+        network_residual(set.bins, network_tau(set.bins, set.shape, set.mu0, w)).squaredNorm());
+  std::vector<double> sorted = squares;
+  std::sort(sorted.begin(), sorted.end());
+  const double most = 4 * sorted[sorted.size() / 2];
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (squares[m] <= most) members[kept++] = members[m];
+  members.resize(kept);
+  return members;
 }
 
 double ensemble_spread(const TrainingSet& set, const std::vector<VectorXd>& members) {
@@ -251,6 +259,30 @@ double ensemble_spread(const TrainingSet& set, const std::vector<VectorXd>& memb
   const VectorXd mean = tau.rowwise().mean();
   const double freedom = std::max(1.0, static_cast<double>(members.size()) - 1);
   return ((tau.colwise() - mean).rowwise().squaredNorm() / freedom).cwiseSqrt().mean();
+}
+
+// Root mean square error on the bins of held-out experiments, per decay.
+std::vector<double> held_out_rmse(const std::vector<std::vector<NetworkFit>>& paths) {
+  std::vector<double> rmse;
+  for (std::size_t d = 0; d < decays.size(); ++d) {
+    double sum = 0;
+    for (const auto& path : paths)
+      sum += path[d].held_out_square;
+    rmse.push_back(std::sqrt(sum / static_cast<double>(paths.size())));
+  }
+  return rmse;
+}
+
+NetworkRecord describe(const TrainingSet& set, const std::vector<VectorXd>& members) {
+  NetworkRecord record;
+  for (const NetworkInput& input : set.inputs)
+    record.inputs.push_back(input.name);
+  record.hidden = hidden_units;
+  record.members = members.size();
+  record.weights = static_cast<std::size_t>(set.shape.weights());
+  record.bins = static_cast<std::size_t>(set.bins.stress.size());
+  record.spread_MPa = ensemble_spread(set, members);
+  return record;
 }
 
 } // namespace
@@ -277,43 +309,30 @@ TrainedNetwork train_network(const Law& law, const Dataset& training,
   const NetworkScatter scatter = nets.scatter();
   const auto paths = nets.all_paths(repeats, scatter, decays);
 
-  NetworkRecord record;
-  record.decays = decays;
-  std::size_t best = 0;
-  for (std::size_t d = 0; d < decays.size(); ++d) {
-    double sum = 0;
-    for (const auto& path : paths)
-      sum += path[d].held_out_square;
-    record.cv_rmse_MPa.push_back(std::sqrt(sum / static_cast<double>(paths.size())));
-    if (record.cv_rmse_MPa[d] < record.cv_rmse_MPa[best]) best = d;
-  }
-  std::vector<double> squares;
-  for (const auto& path : paths)
-    squares.push_back(path[best].held_out_square);
+  const std::vector<double> cv_rmse = held_out_rmse(paths);
+  const auto best =
+      static_cast<std::size_t>(std::min_element(cv_rmse.begin(), cv_rmse.end()) - cv_rmse.begin());
   std::vector<VectorXd> members;
+  for (const auto& path : paths)
+    members.push_back(path[best].weights);
+  members = without_failed(set, std::move(members));
   Network network{set.inputs, hidden_units, {}};
-  for (const auto& path : paths) {
-    for (const NetworkFit& fit : path)
-      record.iterations += fit.iterations;
-    if (failed(path[best].held_out_square, squares)) continue;
-    const VectorXd& w = path[best].weights;
-    members.push_back(w);
+  for (const VectorXd& w : members)
     network.members.emplace_back(w.begin(), w.end());
-  }
-  for (const NetworkInput& input : set.inputs)
-    record.inputs.push_back(input.name);
-  record.hidden = hidden_units;
-  record.members = members.size();
+
+  NetworkRecord record = describe(set, members);
   record.dropped = paths.size() - members.size();
-  record.weights = static_cast<std::size_t>(set.shape.weights());
-  record.bins = static_cast<std::size_t>(set.bins.stress.size());
   record.folds = nets.folds();
   record.repeats = repeats;
+  record.decays = decays;
+  record.cv_rmse_MPa = cv_rmse;
   record.decay = decays[best];
   record.noise_MPa = scatter.noise_MPa;
   record.gain = scatter.gain;
-  record.spread_MPa = ensemble_spread(set, members);
   record.nets = paths.size() * decays.size() + nets.folds();
+  for (const auto& path : paths)
+    for (const NetworkFit& fit : path)
+      record.iterations += fit.iterations;
   return {neural_network(network), set.mu0, nets.held_out_gains(paths, best), std::move(record)};
 }
 

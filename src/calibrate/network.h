@@ -14,14 +14,14 @@ namespace frictab {
 // What was tried and what came out; goes to calibration.json.
 struct NetworkRecord {
   std::vector<std::string> inputs;
-  std::size_t hidden = 0;     // tanh units of the one hidden layer
-  std::size_t members = 0;    // nets in the ensemble
-  std::size_t dropped = 0;    // nets left out: far worse than the others on held-out experiments
-  std::size_t weights = 0;    // of one net
-  std::size_t bins = 0;       // bins of rows trained on
-  std::size_t folds = 0;      // groups of experiments, each held out once ...
-  std::size_t repeats = 0;    // ... in each repeat
-  std::vector<double> decays; // tried, strongest first
+  std::size_t hidden = 0;          // tanh units of the one hidden layer
+  std::size_t members = 0;         // nets in the ensemble
+  std::size_t dropped = 0;         // nets left out: far worse than the others on the experiments
+  std::size_t weights = 0;         // of one net
+  std::size_t bins = 0;            // bins of rows trained on
+  std::size_t folds = 0;           // groups of experiments, each held out once ...
+  std::size_t repeats = 0;         // ... in each repeat
+  std::vector<double> decays;      // tried, strongest first
   std::vector<double> cv_rmse_MPa; // of the bins of held-out experiments, per decay
   double decay = 0;                // chosen
   double noise_MPa = 0;            // scatter of a bin within its experiment
