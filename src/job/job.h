@@ -80,7 +80,7 @@ struct TableOptions {
   std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
   std::optional<std::string> interpolation; // linear | cubic; absent: linear where that is small
-  std::map<std::string, AxisOptions> axes; // by canonical name
+  std::map<std::string, AxisOptions> axes;  // by canonical name
   Place place;
 };
 

@@ -55,8 +55,7 @@ std::vector<const double*> pointers(const std::vector<std::vector<double>>& colu
 Pieces::Pieces(const Model& model, const std::vector<StateRange>& ranges)
     : names(names_of(ranges)),
       value(model.law->build(model.conventions).value, names, parameter_names(*model.law)),
-      combine(limited_combine(model), with_value(ranges),
-              parameter_names(*model.law)),
+      combine(limited_combine(model), with_value(ranges), parameter_names(*model.law)),
       parameters(model.parameters) {}
 
 // Cells are shared out over the segments between fixed nodes by their measure.
