@@ -76,7 +76,8 @@ NetworkInput scaling(const std::string& name, std::span<const double> rows, cons
   }
   const VectorXd u = bins.unaryExpr([&](double x) { return input.u(x); });
   input.centre = u.mean();
-  input.scale = std::sqrt((u.array() - input.centre).square().mean());
+  const double spread = std::sqrt((u.array() - input.centre).square().mean());
+  input.scale = spread > 1e-9 * std::abs(input.centre) ? spread : 1; // varies inside bins only
   return input;
 }
 
@@ -84,7 +85,7 @@ struct TrainingSet {
   std::vector<NetworkInput> inputs;
   NetworkBins bins;
   NetworkShape shape;
-  double mu0 = 0; // Coulomb's least squares
+  double mu0 = 0; // Coulomb's least squares; 0 without any load
 };
 
 TrainingSet prepare(const Law& law, const Dataset& data, const Conventions& conventions) {
@@ -109,7 +110,8 @@ TrainingSet prepare(const Law& law, const Dataset& data, const Conventions& conv
   }
   set.shape = {names.size(), hidden_units};
   const VectorXd force = bins.weight.cwiseProduct(bins.stress);
-  set.mu0 = force.dot(bins.weight.cwiseProduct(bins.measured)) / force.squaredNorm();
+  if (force.squaredNorm() > 0)
+    set.mu0 = force.dot(bins.weight.cwiseProduct(bins.measured)) / force.squaredNorm();
   return set;
 }
 

@@ -233,5 +233,29 @@ TEST(NeuralNetwork, StaysFiniteOnDataWithoutFriction) {
   EXPECT_EQ(mean_error(trained_on(data), data), 0);
 }
 
+TEST(NeuralNetwork, StaysFiniteOnDataWithoutLoad) {
+  Dataset data = campaign(0, 0, 3, 8);
+  for (Column& column : data.columns)
+    if (column.name == "sigma_n_MPa" || column.name == "tau_R_MPa")
+      column.values.assign(data.rows(), 0.0);
+  EXPECT_EQ(mean_error(trained_on(data), data), 0);
+}
+
+TEST(NeuralNetwork, StaysFiniteWhereAStateVariesInsideBinsOnly) {
+  Dataset data = campaign(0.05, 5, 3, 8);
+  for (Column& column : data.columns) {
+    if (column.name != "psi") continue;
+    column.values.assign(data.rows(), 2.0);
+    for (const std::size_t first : data.first_row) {
+      if (first == data.rows()) break;
+      column.values[first] = 1.5; // the mean of the first bin stays 2
+      column.values[first + 1] = 2.5;
+    }
+  }
+  const TrainedNetwork network = trained_on(data);
+  EXPECT_THAT(network.record.inputs, testing::Contains("psi"));
+  EXPECT_TRUE(std::isfinite(mean_error(network, data)));
+}
+
 } // namespace
 } // namespace frictab
