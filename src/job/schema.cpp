@@ -2,6 +2,7 @@
 #include "job/schema.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -48,8 +49,10 @@ std::string with_bounds(const std::string& noun, const Bounds& bounds) {
   std::string text = noun;
   if (low) text += fmt::format(" {} {}", bounds.open_lower ? ">" : ">=", bounds.lower);
   if (high)
-    text += fmt::format("{} {} {:.0f}", low ? " and" : "",
-                        bounds.open_upper ? "<" : "<=", bounds.upper);
+    text += fmt::format("{} {} {}", low ? " and" : "", bounds.open_upper ? "<" : "<=",
+                        bounds.upper == std::floor(bounds.upper)
+                            ? fmt::format("{:.0f}", bounds.upper) // 1000000, not 1e+06
+                            : fmt::format("{}", bounds.upper));
   return text;
 }
 

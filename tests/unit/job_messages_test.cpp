@@ -179,6 +179,17 @@ TEST(JobMessages, SayTheAllowedWords) {
             "  hint: for example psi = \"constant:1.0\"");
 }
 
+TEST(JobMessages, SayWhatAListOfNumbersHolds) {
+  const std::string text = with("[table]\n"
+                                "quantile = [0.05, 1.5]");
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "job.toml:4:19: error: table.quantile must be a number >= 0.001 and <= 0.999, or a "
+            "list of such numbers, not 1.5");
+  EXPECT_EQ(with("[table]\n"
+                 "quantile = [0.05, 0.05]"),
+            "job.toml:4:19: error: table.quantile holds 0.05 twice\n  hint: name it once");
+}
+
 TEST(JobMessages, NameTheNearestLawTargetAndQuantity) {
   EXPECT_EQ(with("[models]\n"
                  "use = \"coulom\""),
