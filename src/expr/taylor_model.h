@@ -1,0 +1,100 @@
+// Taylor models (Makino and Berz 2003): a formula over a box is a polynomial in the box's own
+// coordinates, each from -1 to 1, and a number that says how far the formula is from it at most.
+// Rounding is counted in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expr/bounds.h"
+
+namespace frictab {
+
+// The monomials of total degree <= `degree`, by ascending total degree; the first is 1, and the
+// next `variables` are the variables themselves.
+class Monomials {
+public:
+  static constexpr std::size_t most_variables = 8;
+  using Exponents = std::array<std::uint8_t, most_variables>;
+
+  Monomials(std::size_t variables, std::size_t degree);
+
+  std::size_t variables() const { return variables_; }
+  std::size_t degree() const { return degree_; }
+  std::size_t size() const { return exponents_.size(); }
+  std::size_t size_to(std::size_t degree) const { return size_to_[degree]; }
+  const Exponents& exponents(std::size_t i) const { return exponents_[i]; }
+  std::size_t degree_of(std::size_t i) const { return degree_of_[i]; }
+  // Of the monomials i and j, where their degrees sum up to `degree` or less.
+  std::size_t product(std::size_t i, std::size_t j) const { return product_[i][j]; }
+  const std::uint16_t* products(std::size_t i) const { return product_[i].data(); }
+  std::size_t find(const Exponents& exponents) const; // size() where it is not among them
+  // The monomial i > 0 is the variable factor(i) times the monomial rest(i).
+  std::size_t factor(std::size_t i) const { return factor_[i]; }
+  std::size_t rest(std::size_t i) const { return rest_[i]; }
+  // Of the monomial in the expansion of (x1 + x2 + ...) to its degree.
+  double multinomial(std::size_t i) const { return multinomial_[i]; }
+  // The monomial with the exponent of v set to 0; v to the power k.
+  std::size_t without(std::size_t i, std::size_t v) const { return without_[i][v]; }
+  std::size_t power(std::size_t v, std::size_t k) const { return power_[v][k]; }
+
+private:
+  void describe();
+  std::size_t variables_, degree_;
+  std::vector<Exponents> exponents_;
+  std::vector<std::uint8_t> degree_of_;
+  std::vector<std::size_t> size_to_;
+  std::vector<std::vector<std::uint16_t>> product_;
+  std::vector<std::size_t> factor_, rest_;
+  std::vector<double> multinomial_;
+  std::vector<std::array<std::uint16_t, most_variables>> without_;
+  std::vector<std::vector<std::size_t>> power_;
+};
+
+// A formula ready to be enclosed over boxes of its symbols.
+class TaylorProgram {
+public:
+  // `columns`: every symbol of the formula, one variable each, in this order.
+  TaylorProgram(const Expr& formula, const std::vector<std::string>& columns,
+                const Monomials& monomials);
+
+  // Where everything is computed; one per thread.
+  class Work;
+
+  // Coefficients by monomial in `polynomial`; returns the largest possible error of it over the
+  // box, infinite where the formula cannot be enclosed there (a logarithm that may reach 0, ...).
+  double operator()(std::span<const Bounds> box, Work& work, std::span<double> polynomial) const;
+
+private:
+  class Run;
+  static constexpr std::size_t no_variable = static_cast<std::size_t>(-1);
+  struct Step {
+    Op op;
+    double value = 0;
+    std::size_t symbol = 0;
+    std::size_t a[4] = {};
+    std::size_t operands = 0;
+    std::size_t changes = no_variable; // the only way by which this variable enters the formula
+  };
+  void find_changes();
+  std::size_t affine_source(std::size_t step) const;
+  const Monomials& monomials_;
+  std::vector<Step> steps_;
+};
+
+class TaylorProgram::Work {
+public:
+  explicit Work(const TaylorProgram& program);
+
+private:
+  friend class TaylorProgram;
+  static std::size_t spares(const TaylorProgram& program);
+  std::vector<double> storage_;
+  std::vector<std::size_t> degree_;
+  std::vector<double> error_;
+};
+
+} // namespace frictab
