@@ -61,7 +61,7 @@ struct WorstCase {
 // `starts` worst. Found, not proven: the true maximum may be larger.
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
                      const std::vector<StateRange>& ranges, const Probe& probed,
-                     std::size_t starts = 24);
+                     std::size_t starts = 64);
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
                      const std::vector<StateRange>& ranges, const States& points);
 

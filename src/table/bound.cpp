@@ -1,0 +1,423 @@
+// Branch and bound over the cells of a table.
+#include "table/bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/parallel.h"
+#include "core/text.h"
+#include "expr/coordinates.h"
+#include "expr/sensitivity.h"
+#include "expr/taylor_model.h"
+#include "table/cell_polynomial.h"
+#include "table/drift.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t degree_linear = 4, degree_cubic = 5;
+
+std::map<std::string, Expr> numbers(const Model& model) {
+  std::map<std::string, Expr> out;
+  for (std::size_t p = 0; p < model.parameters.size(); ++p)
+    out.emplace(model.law->parameters[p].name, model.parameters[p]);
+  return out;
+}
+
+Expr combine_of(const Table& table) {
+  std::map<std::string, Expr> constants;
+  for (const auto& [name, value] : table.constants)
+    constants.emplace(name, value);
+  return substitute(table.combine, constants);
+}
+
+// The law's piece as the table holds it, in the coordinates of its axes.
+Expr piece_of(const Model& model, const Table& table) {
+  std::set<std::string> logarithmic;
+  for (const TableAxis& axis : table.axes)
+    if (axis.log) logarithmic.insert(axis.name);
+  const Expr value = in_coordinates(
+      substitute(model.law->build(model.conventions).value, numbers(model)), logarithmic);
+  return table.log_value ? log_in_coordinates(value) : value;
+}
+
+std::vector<std::string> axis_names(const Table& table) {
+  std::vector<std::string> names;
+  for (const TableAxis& axis : table.axes)
+    names.push_back(axis.name);
+  return names;
+}
+
+std::vector<std::string> with_value(const std::vector<StateRange>& ranges) {
+  std::vector<std::string> names{"value"};
+  for (const StateRange& range : ranges)
+    names.push_back(range.name);
+  return names;
+}
+
+struct Box {
+  std::vector<CellPart> parts; // per axis
+  std::vector<Bounds> state;   // per range; those of axes follow from the parts
+  std::vector<double> law;     // polynomial over the parts
+  double error = HUGE_VAL;     // of it
+  bool fresh = false;          // polynomial and error are of this very box
+};
+
+// What a look at one box finds.
+struct Look {
+  double bound = HUGE_VAL;
+  double drift = 0;          // in the middle
+  std::vector<double> state; // there
+  std::size_t split = 0;     // the range to halve
+};
+
+class Cells {
+public:
+  Cells(const Model& model, const Table& table, const std::vector<StateRange>& ranges)
+      : ranges_(ranges), table_(table), function_(table), law_(model, names_of(ranges)),
+        monomials_(table.axes.size(),
+                   table.interpolation == "cubic" ? degree_cubic : degree_linear),
+        piece_(piece_of(model, table), axis_names(table), monomials_), interpolant_(table),
+        rewriting_(monomials_), deviation_(monomials_, interpolant_.taps()),
+        combine_(
+            substitute(combine_of(table), {{"value", table.log_value ? exp(Expr::symbol("value"))
+                                                                     : Expr::symbol("value")}}),
+            with_value(ranges), "value") {
+    for (const TableAxis& axis : table.axes) {
+      coordinates_.push_back(axis.coordinates());
+      const auto range = std::find_if(ranges.begin(), ranges.end(),
+                                      [&](const StateRange& r) { return r.name == axis.name; });
+      range_of_axis_.push_back(static_cast<std::size_t>(range - ranges.begin()));
+    }
+  }
+
+  struct Result {
+    double bound = 0;
+    double drift = 0;
+    std::vector<double> state;
+    std::size_t boxes = 0;
+  };
+
+  // One thread's memory.
+  struct Work {
+    explicit Work(const Cells& cells) : taylor(cells.piece_) {}
+    TaylorProgram::Work taylor;
+    std::vector<double> tensor;
+  };
+
+  std::size_t count() const {
+    std::size_t cells = 1;
+    for (const TableAxis& axis : table_.axes)
+      cells *= axis.nodes.size() - 1;
+    return cells;
+  }
+
+  struct Open {
+    Box box;
+    Look look;
+  };
+
+  // Splits the cell until no box is above the goal, or above what was found in the cell itself.
+  Result run(std::size_t cell, double goal, std::size_t most, Work& work) const {
+    Result result;
+    std::vector<Open> open; // a heap: the largest bound first
+    const auto smaller = [](const Open& a, const Open& b) { return a.look.bound < b.look.bound; };
+    const auto add = [&](Box box) {
+      ++result.boxes;
+      Look look = at(box, goal, work);
+      if (look.drift > result.drift) {
+        result.drift = look.drift;
+        result.state = look.state;
+      }
+      open.push_back({std::move(box), std::move(look)});
+      std::push_heap(open.begin(), open.end(), smaller);
+    };
+    add(whole(cell));
+    while (true) {
+      const Open& first = open.front();
+      const double enough = std::max(goal, 1.005 * result.drift);
+      if (first.look.bound <= enough || result.boxes >= most || !can_split(first.box, first.look))
+        break;
+      std::pop_heap(open.begin(), open.end(), smaller);
+      const Open one = std::move(open.back());
+      open.pop_back();
+      add(half(one.box, one.look, false));
+      add(half(one.box, one.look, true));
+    }
+    result.bound = open.front().look.bound;
+    return result;
+  }
+
+private:
+  static std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
+    std::vector<std::string> names;
+    for (const StateRange& range : ranges)
+      names.push_back(range.name);
+    return names;
+  }
+
+  std::size_t axis_of(std::size_t range) const {
+    const auto found = std::find(range_of_axis_.begin(), range_of_axis_.end(), range);
+    return static_cast<std::size_t>(found - range_of_axis_.begin());
+  }
+
+  Bounds coordinate(std::size_t axis, const CellPart& part) const {
+    const std::vector<double>& u = coordinates_[axis];
+    const double width = u[part.cell + 1] - u[part.cell];
+    return {u[part.cell] + part.low * width,
+            part.high == 1 ? u[part.cell + 1] : u[part.cell] + part.high * width};
+  }
+
+  void set_part(Box& box, std::size_t axis, const CellPart& part) const {
+    box.parts[axis] = part;
+    const Bounds u = coordinate(axis, part);
+    box.state[range_of_axis_[axis]] =
+        table_.axes[axis].log ? frictab::apply(Op::exp, u, {}, {}, {}) : u;
+  }
+
+  Box whole(std::size_t cell) const {
+    Box box;
+    box.parts.resize(table_.axes.size());
+    for (const StateRange& range : ranges_)
+      box.state.push_back({range.low, range.high});
+    for (std::size_t a = table_.axes.size(); a-- > 0;) {
+      const std::size_t cells = table_.axes[a].nodes.size() - 1;
+      set_part(box, a, {cell % cells, 0, 1});
+      cell /= cells;
+    }
+    box.law.resize(monomials_.size());
+    return box;
+  }
+
+  void enclose(Box& box, Work& work) const {
+    std::vector<Bounds> u;
+    for (std::size_t a = 0; a < box.parts.size(); ++a)
+      u.push_back(coordinate(a, box.parts[a]));
+    box.error = piece_(u, work.taylor, box.law);
+    box.fresh = true;
+  }
+
+  std::vector<double> middle(const Box& box) const {
+    std::vector<double> state;
+    for (const Bounds& x : box.state)
+      state.push_back(0.5 * (x.low + x.high));
+    for (std::size_t a = 0; a < box.parts.size(); ++a) {
+      const Bounds u = coordinate(a, box.parts[a]);
+      const double at = 0.5 * (u.low + u.high);
+      state[range_of_axis_[a]] = table_.axes[a].log ? std::exp(at) : at;
+    }
+    return state;
+  }
+
+  Look at(Box& box, double goal, Work& work) const;
+  double reach(const Box& box, const Bounds& value) const;
+  std::vector<double> shares(const Box& box) const;
+  void choose_split(Look& look, const Box& box, const Bounds& value, double most, double slope,
+                    const Deviation::Result& bounds) const;
+  bool can_split(const Box& box, const Look& look) const;
+  Box half(const Box& box, const Look& look, bool upper) const;
+
+  const std::vector<StateRange>& ranges_;
+  const Table& table_;
+  const TableFunction function_;
+  const LawFunction law_;
+  const Monomials monomials_;
+  const TaylorProgram piece_;
+  const CellPolynomials interpolant_;
+  const Rewriting rewriting_;
+  const Deviation deviation_;
+  const Sensitivity combine_;                    // of tau_R to the tabulated number
+  std::vector<std::vector<double>> coordinates_; // nodes, per axis
+  std::vector<std::size_t> range_of_axis_;
+};
+
+// The largest |d tau_R / d value| over the box.
+double Cells::reach(const Box& box, const Bounds& value) const {
+  std::vector<Bounds> columns{value};
+  columns.insert(columns.end(), box.state.begin(), box.state.end());
+  return combine_(columns).slope.magnitude();
+}
+
+Look Cells::at(Box& box, double goal, Work& work) const {
+  Look look;
+  look.state = middle(box);
+  look.drift = std::abs(law_(look.state) - function_(look.state));
+  for (int pass = 0; pass < 2; ++pass) {
+    if (!std::isfinite(box.error) && !box.fresh) enclose(box, work);
+    std::vector<double> law = box.law;
+    rewriting_.to_chebyshev(law);
+    interpolant_.over(box.parts, work.tensor);
+    const Deviation::Result bounds = deviation_(law, work.tensor);
+    double spread = box.error;
+    for (std::size_t i = 1; i < law.size(); ++i)
+      spread += std::abs(law[i]);
+    const Bounds error = bounds.range + Bounds{-box.error, box.error};
+    const Bounds truth{law[0] - spread, law[0] + spread};
+    const Bounds value = hull(truth, truth - error);
+    const double slope = reach(box, value), most = error.magnitude();
+    const double bound = most == 0 ? 0 : slope * most;
+    if (!box.fresh && box.error * slope > 0.2 * (bound - goal) && bound > goal) {
+      box.error = HUGE_VAL; // the polynomial of a larger box is too rough here
+      continue;
+    }
+    look.bound = std::isnan(bound) ? HUGE_VAL : bound;
+    choose_split(look, box, value, most, slope, bounds);
+    break;
+  }
+  return look;
+}
+
+// Of each axis in the polynomial's error: by its terms and, where a branch hides them, by its
+// width.
+std::vector<double> Cells::shares(const Box& box) const {
+  std::vector<double> terms(box.parts.size(), 0.0), share;
+  double all_terms = 1e-300, width = 1e-300;
+  for (std::size_t a = 0; a < box.parts.size(); ++a) {
+    for (std::size_t i = 1; i < monomials_.size(); ++i)
+      terms[a] += monomials_.exponents(i)[a] * std::abs(box.law[i]);
+    all_terms += terms[a];
+    width += box.parts[a].high - box.parts[a].low;
+  }
+  for (std::size_t a = 0; a < box.parts.size(); ++a)
+    share.push_back(0.5 * terms[a] / all_terms +
+                    1.5 * (box.parts[a].high - box.parts[a].low) / width);
+  return share;
+}
+
+// The range whose halves promise most.
+void Cells::choose_split(Look& look, const Box& box, const Bounds& value, double most, double slope,
+                         const Deviation::Result& bounds) const {
+  double best = -1;
+  const std::vector<double> share = shares(box);
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    const std::size_t a = axis_of(r);
+    double gain = 0;
+    if (std::isfinite(slope) && std::isfinite(most)) {
+      Box part = box;
+      const Bounds x = box.state[r];
+      const double cut = a < box.parts.size() ? look.state[r] : 0.5 * (x.low + x.high);
+      part.state[r] = {x.low, cut};
+      const double lower = reach(part, value);
+      part.state[r] = {cut, x.high};
+      const double upper = reach(part, value);
+      // A half that needs no more work counts too, but less the thinner the box is already: a kink
+      // would be chased for ever.
+      const double rest = a < box.parts.size()
+                              ? box.parts[a].high - box.parts[a].low
+                              : x.width() / (ranges_[r].high - ranges_[r].low + 1e-300);
+      gain = most * (slope - std::max(lower, upper) +
+                     rest * (std::max(lower, upper) - std::min(lower, upper)));
+    }
+    if (a < box.parts.size()) {
+      const double rough = std::isfinite(box.error) ? box.error : 1.0;
+      gain += (std::isfinite(slope) ? slope : 1.0) * (bounds.mixed[a] + rough * share[a]);
+    }
+    if (gain > best) {
+      best = gain;
+      look.split = r;
+    }
+  }
+}
+
+bool Cells::can_split(const Box& box, const Look& look) const {
+  const std::size_t a = axis_of(look.split);
+  if (a < box.parts.size()) return box.parts[a].high - box.parts[a].low > 1e-6;
+  const Bounds x = box.state[look.split];
+  return x.width() > 1e-6 * (1e-9 + x.magnitude());
+}
+
+Box Cells::half(const Box& box, const Look& look, bool upper) const {
+  Box out = box;
+  const std::size_t a = axis_of(look.split);
+  if (a == box.parts.size()) {
+    Bounds& x = out.state[look.split];
+    (upper ? x.low : x.high) = 0.5 * (x.low + x.high);
+    return out;
+  }
+  CellPart part = box.parts[a];
+  (upper ? part.low : part.high) = 0.5 * (part.low + part.high);
+  set_part(out, a, part);
+  rewriting_.halve(a, upper, out.law);
+  out.fresh = false;
+  return out;
+}
+
+// Why there is no bound, or nothing.
+std::string obstacle(const Model& model, const Table& table, const BoundOptions& options) {
+  const Expr of_law = substitute(limited_combine(model), numbers(model));
+  if (to_text(shared(of_law)) != to_text(shared(combine_of(table))))
+    return "the table is combined to tau_R by a formula that is not the law's";
+  const std::vector<std::string> axes = axis_names(table);
+  for (const std::string& name :
+       symbols(substitute(model.law->build(model.conventions).value, numbers(model))))
+    if (std::find(axes.begin(), axes.end(), name) == axes.end())
+      return "the law's piece depends on " + name + ", which is no axis of the table";
+  double cells = 1;
+  for (const TableAxis& axis : table.axes)
+    cells *= static_cast<double>(axis.nodes.size() - 1);
+  if (cells > static_cast<double>(options.most_cells))
+    return fmt::format("the table has more than {} cells", thousands(options.most_cells));
+  return "";
+}
+
+} // namespace
+
+DriftBound bound_drift(const Model& model, const Table& table,
+                       const std::vector<StateRange>& ranges, const BoundOptions& options) {
+  DriftBound out;
+  out.why_not = obstacle(model, table, options);
+  if (!out.why_not.empty()) return out;
+  const Cells cells(model, table, ranges);
+  constexpr std::size_t per_task = 16;
+  std::vector<Cells::Result> results(cells.count());
+  const std::size_t most = std::clamp<std::size_t>(options.most_boxes / results.size(), 20, 4000);
+  parallel_for((results.size() + per_task - 1) / per_task, [&](std::size_t task) {
+    Cells::Work work(cells);
+    for (std::size_t c = task * per_task; c < std::min(results.size(), (task + 1) * per_task); ++c)
+      results[c] = cells.run(c, options.goal_MPa, most, work);
+  });
+  double bound = 0;
+  for (const Cells::Result& one : results) {
+    bound = std::max(bound, one.bound);
+    out.boxes += one.boxes;
+    if (one.drift > out.found_MPa) {
+      out.found_MPa = one.drift;
+      out.state = one.state;
+    }
+  }
+  if (std::isfinite(bound))
+    out.MPa = std::max(bound, out.found_MPa);
+  else
+    out.why_not = "the law's formula has no bounded derivatives somewhere in the range";
+  return out;
+}
+
+ProvenDrift prove_drift(const Model& model, const Table& table,
+                        const std::vector<StateRange>& ranges, WorstCase found,
+                        double allowed_MPa) {
+  // As close as 2 % where that settles whether the table is allowed, else to 10 %.
+  const double goal = std::max(
+      1e-3 * allowed_MPa, std::clamp(allowed_MPa, 1.02 * found.drift_MPa, 1.1 * found.drift_MPa));
+  ProvenDrift out{std::move(found), bound_drift(model, table, ranges, {goal})};
+  if (out.bound.found_MPa > out.worst.drift_MPa) {
+    const TableFunction function(table);
+    States start;
+    for (const double x : out.bound.state)
+      start.push_back({x});
+    const WorstCase more =
+        worst_case(LawFunction(model, function.inputs()), function, ranges, start);
+    if (more.drift_MPa > out.worst.drift_MPa) {
+      out.worst.drift_MPa = more.drift_MPa;
+      out.worst.state = more.state;
+    }
+    out.worst.points += more.points;
+  }
+  if (out.bound.MPa) out.bound.MPa = std::max(*out.bound.MPa, out.worst.drift_MPa);
+  return out;
+}
+
+} // namespace frictab

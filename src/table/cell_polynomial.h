@@ -1,0 +1,80 @@
+// What a table's interpolant and a polynomial over the same box differ by, in Chebyshev form.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "expr/taylor_model.h"
+#include "table/table.h"
+
+namespace frictab {
+
+// Part of one cell along one axis: weights from low to high, within 0 .. 1.
+struct CellPart {
+  std::size_t cell = 0;
+  double low = 0;
+  double high = 1;
+};
+
+// Coefficients of an interpolant, and per axis what they are multiplied with.
+class CellPolynomials {
+public:
+  explicit CellPolynomials(const Table& table);
+
+  std::size_t taps() const { return taps_; } // per axis: 2, or 4 for a cubic spline
+
+  // Chebyshev coefficients of the interpolant over a box, row-major, taps() per axis.
+  void over(std::span<const CellPart> box, std::vector<double>& tensor) const;
+
+private:
+  struct Axis {
+    std::size_t nodes;
+    std::vector<int> first;    // per cell
+    std::vector<double> basis; // per cell: [power of t][tap], taps() powers
+  };
+  std::size_t taps_;
+  std::vector<Axis> axes_;
+  std::vector<std::size_t> stride_;
+  std::vector<double> coefficients_;
+};
+
+// The same polynomial in another basis or over a part of its box; coefficients by monomial.
+class Rewriting {
+public:
+  explicit Rewriting(const Monomials& monomials);
+  void to_chebyshev(std::span<double> c) const;
+  // Over the lower or the upper half of a variable.
+  void halve(std::size_t variable, bool upper, std::span<double> c) const;
+
+private:
+  struct Term {
+    std::uint16_t from, to;
+    double factor;
+  };
+  using Terms = std::vector<Term>;
+  void apply(const Terms& terms, std::span<double> c) const;
+  std::vector<Terms> chebyshev_, lower_, upper_; // per variable
+  std::size_t size_;
+};
+
+// Bounds of a polynomial minus an interpolant over a box.
+class Deviation {
+public:
+  Deviation(const Monomials& monomials, std::size_t taps);
+
+  struct Result {
+    Bounds range;
+    std::vector<double> mixed; // per variable: what terms of several variables with it add
+  };
+  // c: Chebyshev coefficients by monomial; tensor: of the interpolant (overwritten).
+  Result operator()(std::span<const double> c, std::vector<double>& tensor) const;
+
+private:
+  std::size_t variables_, degree_, taps_;
+  std::vector<std::size_t> place_;     // of a monomial in the tensor, or npos
+  std::vector<std::uint32_t> used_;    // per tensor entry: bits of the variables it depends on
+  std::vector<std::uint32_t> used_by_; // the same per monomial
+  std::vector<Monomials::Exponents> exponents_;
+};
+
+} // namespace frictab

@@ -1,0 +1,139 @@
+// The bound of a table's drift: above everything that can be found, and not far above it.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "support/sample_data.h"
+#include "support/sample_network.h"
+#include "table/bound.h"
+
+namespace frictab {
+namespace {
+
+struct Case {
+  Model model;
+  std::vector<StateRange> ranges;
+  Table table;
+  WorstCase worst;
+};
+
+Case with_table(const Model& model, const std::vector<StateRange>& ranges,
+                const std::string& interpolation, double tolerance = 0.5) {
+  TableOptions options;
+  options.interpolation = interpolation;
+  options.tolerance_MPa = tolerance;
+  Case out{model, ranges, build_table(model, ranges, options), {}};
+  const TableFunction function(out.table);
+  out.worst = worst_case(LawFunction(model, function.inputs()), function, ranges,
+                         probe_points(ranges, out.table.axes, 20000));
+  return out;
+}
+
+Case of_law(const std::string& name, const std::string& interpolation, double tolerance = 0.5) {
+  const Model model = test::plausible_model(*find_law(name));
+  return with_table(model, state_ranges(model, test::sample_data(model), {}), interpolation,
+                    tolerance);
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (c == '.') c = '_';
+  return name;
+}
+
+class BoundOfEveryLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(BoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
+  for (const char* interpolation : {"linear", "cubic"}) {
+    const Case one = of_law(GetParam(), interpolation);
+    const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, one.worst, 0.5);
+    ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
+    EXPECT_GE(*proven.bound.MPa, one.worst.drift_MPa);
+    EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8) << interpolation;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, BoundOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+
+// Away from its law by a known amount: what is added to a node must come out again.
+TEST(Bound, IsAboveATableThatIsWrong) {
+  for (const char* interpolation : {"linear", "cubic"}) {
+    Case one = of_law("wanheim_bay", interpolation, 0.1);
+    one.table.value[one.table.value.size() / 2] += 0.05; // of ln tau
+    const TableFunction function(one.table);
+    const WorstCase worst = worst_case(LawFunction(one.model, function.inputs()), function,
+                                       one.ranges, probe_points(one.ranges, one.table.axes, 20000));
+    EXPECT_GT(worst.drift_MPa, 2.0);
+    const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, worst, 0.5);
+    ASSERT_TRUE(proven.bound.MPa);
+    EXPECT_GE(*proven.bound.MPa, worst.drift_MPa);
+    EXPECT_LT(*proven.bound.MPa, 1.5 * worst.drift_MPa);
+  }
+}
+
+TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
+  for (const char* law : {"levanov", "wanheim_bay"})
+    for (const char* interpolation : {"linear", "cubic"}) {
+      const Case one = of_law(law, interpolation);
+      BoundOptions options;
+      options.goal_MPa = 1.004 * one.worst.drift_MPa;
+      options.most_boxes = 4'000'000;
+      const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);
+      ASSERT_TRUE(bound.MPa);
+      EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa) << law << " " << interpolation;
+    }
+}
+
+TEST(Bound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
+  const Model model = test::network_model();
+  const std::vector<StateRange> ranges = {
+      {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
+      {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
+  const Case one = with_table(model, ranges, "cubic", 1);
+  const ProvenDrift proven = prove_drift(model, one.table, ranges, one.worst, 1);
+  ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
+  EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
+  EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
+}
+
+TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
+  const Case one = of_law("wanheim_bay", "cubic");
+  BoundOptions options;
+  options.goal_MPa = 1.05 * one.worst.drift_MPa;
+  const DriftBound all = bound_drift(one.model, one.table, one.ranges, options);
+  set_threads(1);
+  const DriftBound single = bound_drift(one.model, one.table, one.ranges, options);
+  set_threads(0);
+  EXPECT_EQ(*all.MPa, *single.MPa);
+  EXPECT_EQ(all.boxes, single.boxes);
+  EXPECT_EQ(all.state, single.state);
+}
+
+TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
+  Case one = of_law("levanov", "linear");
+  one.table.combine = one.table.combine * Expr(1.0000001);
+  const DriftBound bound = bound_drift(one.model, one.table, one.ranges, {0.5});
+  EXPECT_FALSE(bound.MPa);
+  EXPECT_EQ(bound.why_not, "the table is combined to tau_R by a formula that is not the law's");
+}
+
+TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
+  const Case one = of_law("levanov", "linear");
+  BoundOptions options{.goal_MPa = 0.5};
+  options.most_cells = 10;
+  const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);
+  EXPECT_FALSE(bound.MPa);
+  EXPECT_EQ(bound.why_not, "the table has more than 10 cells");
+}
+
+} // namespace
+} // namespace frictab
