@@ -37,7 +37,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
       for (const std::string& line : pipeline.training()->notes)
         note(common, line);
     fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
-    return pipeline.verification() && !pipeline.verification()->passed() ? 1 : 0;
+    for (const std::string& miss : pipeline.missed())
+      fmt::print(stderr, "error: {}\n", miss);
+    const bool verified = !pipeline.verification() || pipeline.verification()->passed();
+    return verified && pipeline.missed().empty() ? 0 : 1;
   };
 }
 

@@ -215,7 +215,12 @@ std::string drift_text(const Table& table) {
   const auto worst = table.number_attributes.find("worst_case_MPa");
   if (worst == table.number_attributes.end())
     return "not measured here; see verify.json of the run that wrote this file";
-  return fmt::format("{:.3g} MPa, the largest found over the whole range", worst->second);
+  std::string text =
+      fmt::format("{:.3g} MPa, the largest found over the whole range", worst->second);
+  if (const auto proven = table.number_attributes.find("proven_drift_MPa");
+      proven != table.number_attributes.end())
+    text += fmt::format("; proven: nowhere above {:.3g} MPa", proven->second);
+  return text;
 }
 
 std::string origin_text(const Table& table) {

@@ -71,6 +71,8 @@ json recipe_table(const ExportRequest& request) {
                "the formula unchanged"}};
   const auto worst = table.number_attributes.find("worst_case_MPa");
   if (worst != table.number_attributes.end()) out["worst_case_MPa"] = worst->second;
+  const auto proven = table.number_attributes.find("proven_drift_MPa");
+  if (proven != table.number_attributes.end()) out["proven_drift_MPa"] = proven->second;
   return out;
 }
 

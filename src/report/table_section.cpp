@@ -75,6 +75,11 @@ std::string drift_figures(double value) {
   return value > 0 && value < 1e-9 ? "&lt; 1e-9" : figures(value);
 }
 
+std::string proven_text(const DriftRecord& r) {
+  if (r.proven_MPa) return drift_figures(*r.proven_MPa);
+  return r.not_proven.empty() ? "\u2013" : "not available: " + svg::escape(r.not_proven);
+}
+
 std::string outside_text(const DriftRecord& r) {
   if (r.n_rows == 0) return "\u2013";
   const double percent = 100 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
@@ -91,6 +96,7 @@ TemplateValues record_row(const DriftRecord& r) {
   row.text = {{"model", svg::escape(r.model)},
               {"subject", svg::escape(r.subject)},
               {"worst", drift_figures(r.worst_case_MPa)},
+              {"proven", proven_text(r)},
               {"state", state_text(r)},
               {"vs_table", r.subject == "table" ? "\u2013" : drift_figures(r.max_vs_table_MPa)},
               {"max", on_rows(r.rows.max_abs)},

@@ -79,6 +79,10 @@ void Pipeline::need_tables() {
   have_tables_ = true;
 }
 
+double Pipeline::drift_allowed() const {
+  return job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa);
+}
+
 Model Pipeline::model_of(const Table& table) {
   need_calibration();
   for (const ModelFit& fit : calibration_->fits) {
@@ -166,14 +170,17 @@ void Pipeline::tabulate() {
     table.text_attributes["data_hash"] = calibration_->data_hash;
     table.text_attributes["data_origin"] = calibration_->synthetic ? "synthetic" : "measured";
     // The drift a user can rely on is measured before the file is written.
-    const VerifyInput input{model,
-                            table,
-                            "the new table",
-                            &*validation_,
-                            job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa),
-                            job_.verify.samples};
+    const VerifyInput input{model,         table,           "the new table",
+                            &*validation_, drift_allowed(), job_.verify.samples};
     const DriftRecord drift = frictab::verify(input, {}).front();
     table.number_attributes["worst_case_MPa"] = drift.worst_case_MPa;
+    if (!drift.passed)
+      missed_.push_back(fmt::format(
+          "the table of {} drifts by up to {:.3g} MPa, more than the {:g} "
+          "MPa allowed: more nodes in [table.axes], or a larger "
+          "table.tolerance_MPa",
+          table.model, std::max(drift.worst_case_MPa, drift.rows.max_abs), drift_allowed()));
+    if (drift.proven_MPa) table.number_attributes["proven_drift_MPa"] = *drift.proven_MPa;
     for (const auto& [name, value] : drift.worst_state)
       table.number_attributes["worst_case_at_" + name] = value;
     write_table(table, output_.stage("tables/" + table.model + ".h5"));
@@ -245,7 +252,7 @@ void Pipeline::verify() {
   need_data();
   need_calibration();
   need_tables();
-  const double allowed = job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa);
+  const double allowed = drift_allowed();
   verification_ = Verification{allowed, {}};
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {

@@ -36,6 +36,8 @@ public:
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const std::vector<Table>& tables() const { return tables_; }
   const std::optional<Verification>& verification() const { return verification_; }
+  // Tables made in this run that drift further than allowed, in words.
+  const std::vector<std::string>& missed() const { return missed_; }
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
@@ -43,6 +45,7 @@ private:
   void need_calibration();
   void need_tables();
   void remove_old_sources();
+  double drift_allowed() const; // MPa
   Model model_of(const Table& table);
   std::vector<const ModelFit*> chosen_fits();
   // "export/c" where there is one table, "export/c/<model>" where there are several.
@@ -56,6 +59,7 @@ private:
   std::optional<Dataset> validation_;
   std::optional<Calibration> calibration_;
   std::vector<Table> tables_;
+  std::vector<std::string> missed_;
   bool have_tables_ = false;
   std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
   std::optional<Verification> verification_;

@@ -26,6 +26,8 @@ struct DriftRecord {
   std::size_t n_points = 0;                  // points looked at over the range
   double max_vs_table_MPa = 0;               // sources: largest difference from the table itself
   bool passed = false;
+  std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
+  std::string not_proven = {};           // why there is no such bound
 };
 
 struct Verification {

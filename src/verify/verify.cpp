@@ -10,7 +10,7 @@
 #include "codegen/compile.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "table/drift.h"
+#include "table/bound.h"
 
 namespace frictab {
 
@@ -38,6 +38,7 @@ struct Subjects {
   Probe rows;
   Probe range;
   WorstCase worst;
+  DriftBound bound;
 };
 
 Probe probe(const LawFunction& law, const TableFunction& table, States states) {
@@ -61,6 +62,12 @@ Subjects prepare(const VerifyInput& input) {
   const auto ranges = table_ranges(input.table, input.rows, input.table_name);
   s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
   s.worst = worst_case(law, table, ranges, s.range);
+  if (input.prove) {
+    ProvenDrift proven =
+        prove_drift(input.model, input.table, ranges, std::move(s.worst), input.max_drift_MPa);
+    s.worst = std::move(proven.worst);
+    s.bound = std::move(proven.bound);
+  }
   States worst;
   for (const double x : s.worst.state)
     worst.push_back({x});
@@ -168,6 +175,8 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
   records.push_back(
       compare(input, s, "table", [](const Probe& r, std::vector<double>& tau) { tau = r.table; }));
   records.back().n_points = s.worst.points;
+  records.back().proven_MPa = s.bound.MPa;
+  records.back().not_proven = s.bound.why_not;
   for (const GeneratedSource& source : sources)
     for (const BuildVariant& variant : source.exporter->variants(source.request))
       records.push_back(verify_variant(input, s, source, variant));
