@@ -80,6 +80,9 @@ struct TableOptions {
   std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
   std::optional<std::string> interpolation; // linear | cubic; absent: linear where that is small
+  std::string coordinates = "law";          // law: those in which it is straight | plain: none
+  std::optional<std::size_t> nodes;         // the closest table of so many nodes ...
+  std::optional<std::size_t> max_bytes;     // ... or so large, instead of one to a tolerance
   std::map<std::string, AxisOptions> axes;  // by canonical name
   Place place;
 };

@@ -23,6 +23,9 @@ std::vector<std::string> losses() {
 std::vector<std::string> interpolations() {
   return {"linear", "cubic"};
 }
+std::vector<std::string> coordinates() {
+  return {"law", "plain"};
+}
 std::vector<std::string> spacings() {
   return {"linear", "log"};
 }
@@ -134,6 +137,21 @@ std::vector<KeyRule> table_keys() {
           "more work per query)",
           "linear, or cubic where linear would need more than 20,000 nodes", "\"cubic\"") |
           Allowed{"", interpolations},
+      key<std::string>(
+          "table.coordinates", [](Job & job) -> auto& { return job.table.coordinates; },
+          "what is interpolated, over what: law = logarithms where they make the law straight, "
+          "plain = the value over the states themselves (no logarithm per query, more nodes)") |
+          Allowed{"", coordinates},
+      key<std::optional<std::size_t>>(
+          "table.nodes", [](Job & job) -> auto& { return job.table.nodes; },
+          "instead of a table to the tolerance, the closest of at most so many nodes in all",
+          "as many as table.tolerance_MPa needs", "5000") |
+          at_least(1, 1e9),
+      key<std::optional<std::size_t>>(
+          "table.max_bytes", [](Job & job) -> auto& { return job.table.max_bytes; },
+          "the same for the bytes of values and nodes, as double precision",
+          "as many as table.tolerance_MPa needs", "32768") |
+          at_least(8, 1e12),
       named<std::optional<std::pair<double, double>>>(
           "table.axes.*.range",
           [](Job & job, const std::string& name) -> auto& { return axis(job, name).range; },

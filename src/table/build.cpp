@@ -28,10 +28,17 @@ AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& 
   plan.axis.unit = quantity.unit;
   plan.axis.long_name = quantity.meaning;
   const auto own = law.log_axes.find(range.name);
-  plan.axis.log = (own == law.log_axes.end() ? quantity.log_axis : own->second) && range.low > 0;
+  const bool plain = options.coordinates == "plain";
+  plan.axis.log =
+      !plain && (own == law.log_axes.end() ? quantity.log_axis : own->second) && range.low > 0;
   if (asked != options.axes.end() && asked->second.spacing) {
     plan.axis.log = *asked->second.spacing == "log";
     plan.even = true;
+    if (plan.axis.log && plain)
+      throw InputError(asked->second.place,
+                       "table.coordinates is \"plain\", and the axis " + range.name +
+                           " is asked to be logarithmic",
+                       "spacing = \"linear\", or table.coordinates = \"law\"");
     if (plan.axis.log && range.low <= 0)
       throw InputError(asked->second.place,
                        fmt::format("the axis {} cannot be logarithmic: its range starts at {}",
@@ -153,11 +160,13 @@ public:
       least.push_back(plan.cells);
     check_memory(axes_with(least), options);
     const std::vector<double> ends = sample(pieces_, ranges, axes_with(least));
-    log_value_ = model.law->log_value && *std::min_element(ends.begin(), ends.end()) > 0;
+    log_value_ = model.law->log_value && options.coordinates == "law" &&
+                 *std::min_element(ends.begin(), ends.end()) > 0;
     box_ = with_law(law_, box_points(ranges, box_samples));
   }
 
   Table build() {
+    if (options_.nodes || options_.max_bytes) return closest();
     interpolation_ = options_.interpolation.value_or(linear_is_small() ? "linear" : "cubic");
     AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == "cubic");
     const double target = first_target(errors);
@@ -165,15 +174,19 @@ public:
       errors.place_nodes(plan, target);
     refine(errors, target);
     if (best_.drift <= limit_) trim();
-    best_.table.number_attributes["tolerance_MPa"] = options_.tolerance_MPa;
-    best_.table.text_attributes["refinement"] = trail_;
-    return std::move(best_.table);
+    return finished();
   }
 
 private:
   static constexpr std::size_t box_samples = 20000;
   static constexpr std::size_t most_trim_nodes = 4'000'000; // sampled while trimming
   static constexpr double most_linear_nodes = 20'000;       // where the job leaves the choice
+
+  Table finished() {
+    best_.table.number_attributes["tolerance_MPa"] = options_.tolerance_MPa;
+    best_.table.text_attributes["refinement"] = trail_;
+    return std::move(best_.table);
+  }
 
   struct Trial {
     Counts cells;
@@ -237,9 +250,7 @@ private:
     double passed = 0, failed = HUGE_VAL; // targets
     Counts cells;
     for (int round = 0; round < 12; ++round) {
-      Counts next;
-      for (const AxisPlan& plan : plans_)
-        next.push_back(plan.by_user ? plan.cells : errors.cells_for(plan, target));
+      const Counts next = cells_at(errors, target);
       if (round > 0 && next == cells) return;
       cells = next;
       const std::size_t known = peaks_.law.size();
@@ -284,6 +295,114 @@ private:
         step[at] /= 2;
     }
     if (best_.table.nodes() < before) remember(best_);
+  }
+
+  // The closest table of the asked size, of both interpolations where the job leaves the choice.
+  Table closest() {
+    Trial closest;
+    const std::vector<AxisPlan> plans = plans_;
+    for (const char* interpolation : {"linear", "cubic"}) {
+      if (options_.interpolation && *options_.interpolation != interpolation) continue;
+      interpolation_ = interpolation;
+      plans_ = plans;
+      best_ = {};
+      fill_budget();
+      if (closest.cells.empty() || best_.drift < closest.drift) closest = std::move(best_);
+    }
+    best_ = std::move(closest);
+    if (options_.nodes)
+      best_.table.number_attributes["asked_nodes"] = static_cast<double>(*options_.nodes);
+    if (options_.max_bytes)
+      best_.table.number_attributes["asked_bytes"] = static_cast<double>(*options_.max_bytes);
+    return finished();
+  }
+
+  bool within_budget(const Counts& cells) const {
+    double nodes = 1, numbers = static_cast<double>(model_.law->parameters.size());
+    for (const std::size_t count : cells) {
+      nodes *= static_cast<double>(count + 1);
+      numbers += static_cast<double>(count + 1);
+    }
+    return (!options_.nodes || nodes <= static_cast<double>(*options_.nodes)) &&
+           (!options_.max_bytes ||
+            8 * (nodes + numbers) <= static_cast<double>(*options_.max_bytes));
+  }
+
+  // As refine(), but the target is the smallest whose cells are within the budget; then single
+  // cells are added for as long as they help and fit.
+  void fill_budget() {
+    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == "cubic");
+    Counts least;
+    for (const AxisPlan& plan : plans_)
+      least.push_back(plan.cells);
+    if (!within_budget(least))
+      throw InputError(options_.place,
+                       fmt::format("the smallest table of {} has {} nodes, which is more than "
+                                   "table.nodes or table.max_bytes allows",
+                                   model_.name(), thousands(count_nodes(axes_with(least)))),
+                       "a larger budget, or fewer nodes in [table.axes]");
+    double target = budget_target(errors, least);
+    for (AxisPlan& plan : plans_)
+      errors.place_nodes(plan, target);
+    for (int round = 0; round < 5; ++round) {
+      target = budget_target(errors, least);
+      const Counts cells = cells_at(errors, target);
+      if (cells == best_.cells) break;
+      const std::size_t known = peaks_.law.size();
+      consider(attempt(cells, HUGE_VAL));
+      for (std::size_t i = known; i < std::min(known + 8, peaks_.law.size()); ++i)
+        errors.add(state_of(peaks_, i));
+    }
+    while (best_.drift > 1e-9 && add_cell()) {
+    }
+    remember(best_);
+  }
+
+  void consider(Trial trial) {
+    if (best_.cells.empty() || trial.drift < best_.drift) best_ = std::move(trial);
+  }
+
+  Counts cells_at(AxisErrors& errors, double target) const {
+    Counts cells;
+    for (const AxisPlan& plan : plans_)
+      cells.push_back(plan.by_user ? plan.cells : errors.cells_for(plan, target));
+    return cells;
+  }
+
+  double budget_target(AxisErrors& errors, const Counts& least) const {
+    double fits = 1e-9, fails = 0;
+    for (const AxisPlan& plan : plans_)
+      fits = std::max(fits, errors.largest(plan, plan.cells));
+    for (double next = fits; next > 1e-9; next /= 2) {
+      const Counts cells = cells_at(errors, next);
+      if (cells != least && !within_budget(cells)) {
+        fails = next;
+        break;
+      }
+      fits = next;
+    }
+    for (int step = 0; step < 6 && fails > 0; ++step) {
+      const double middle = std::sqrt(fits * fails);
+      (within_budget(cells_at(errors, middle)) ? fits : fails) = middle;
+    }
+    return fits;
+  }
+
+  // One more cell on the axis where that helps most; false where none fits or helps.
+  bool add_cell() {
+    const double before = best_.drift;
+    Trial next;
+    for (std::size_t a = 0; a < plans_.size(); ++a) {
+      Counts cells = best_.cells;
+      ++cells[a];
+      if (plans_[a].by_user || !within_budget(cells)) continue;
+      Trial trial = attempt(cells, before);
+      if (trial.drift < before && (next.cells.empty() || trial.drift < next.drift))
+        next = std::move(trial);
+    }
+    if (next.cells.empty()) return false;
+    best_ = std::move(next);
+    return true;
   }
 
   const Model& model_;
