@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "table/table.h"
+#include "verify/forms.h"
 #include "verify/verification.h"
 
 namespace frictab {
@@ -25,6 +26,7 @@ public:
   void tabulate();
   void generate(); // sources
   void verify();
+  void compare_forms(); // table or the law itself: measured, told by the summary, never written
   void report();
   // Moves all files into place.
   void commit();
@@ -36,6 +38,7 @@ public:
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const std::vector<Table>& tables() const { return tables_; }
   const std::optional<Verification>& verification() const { return verification_; }
+  const std::vector<FormComparison>& forms() const { return forms_; }
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
@@ -59,6 +62,7 @@ private:
   bool have_tables_ = false;
   std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
   std::optional<Verification> verification_;
+  std::vector<FormComparison> forms_;
 };
 
 // The summary of what a pipeline holds, as text that is read in ten seconds, or as JSON.
