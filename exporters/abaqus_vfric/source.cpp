@@ -8,36 +8,13 @@
 
 #include "codegen/template.h"
 #include "core/text.h"
+#include "parts.h"
+#include "table/outside.h"
 #include "table/spline.h"
 
 namespace frictab::abaqus_vfric {
 
 namespace {
-
-using Lines = std::vector<TemplateValues>;
-constexpr std::size_t comment_width = 66; // columns 7..72
-
-TemplateValues item(std::string text) {
-  TemplateValues values;
-  values.text["text"] = std::move(text);
-  return values;
-}
-
-// Comment lines; what does not fit goes on, set in by two blanks.
-Lines comments(const std::vector<std::string>& texts) {
-  Lines lines;
-  for (const std::string& text : texts) {
-    const std::vector<std::string> pieces = wrap_text(comment_text(text), comment_width - 2);
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      lines.push_back(item((i == 0 ? "" : "  ") + pieces[i].substr(0, comment_width - 2)));
-  }
-  return lines;
-}
-
-// The first line of a remark: what follows is in the head of the file.
-std::string clip(const std::string& text) {
-  return wrap_text(comment_text(text), comment_width - 4)[0].substr(0, comment_width - 4);
-}
 
 std::string number_or_nan(const VfricInput& input) {
   return input.fallback ? fortran_number(*input.fallback) : "ftqnan()";
@@ -125,15 +102,9 @@ void add_inputs(TemplateValues& values, const std::vector<VfricInput>& inputs) {
   values.lists["inputs"] = list;
 }
 
-std::map<std::string, std::string> symbol_names(const Table& table) {
-  std::map<std::string, std::string> rename{{"value", "val"}};
-  const std::vector<std::string> inputs = table.inputs();
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    rename[inputs[i]] = fmt::format("x({})", i + 1);
-  std::size_t c = 0;
-  for (const auto& [name, value] : table.constants)
-    rename[name] = fmt::format("c{}", ++c);
-  return rename;
+// The direct form has no nodes.
+std::vector<TableAxis> tabulated(const Table& table) {
+  return table.is_direct() ? std::vector<TableAxis>{} : table.axes;
 }
 
 void add_axes(TemplateValues& values, const Table& table,
@@ -141,7 +112,7 @@ void add_axes(TemplateValues& values, const Table& table,
   std::vector<double> nodes, per_step;
   std::vector<int> counts, first;
   bool logarithm = false;
-  for (const TableAxis& axis : table.axes) {
+  for (const TableAxis& axis : tabulated(table)) {
     const std::vector<double> u = axis.coordinates();
     first.push_back(static_cast<int>(nodes.size()) + 1);
     counts.push_back(static_cast<int>(u.size()));
@@ -166,13 +137,39 @@ void add_axes(TemplateValues& values, const Table& table,
   values.text["data_ps"] = fixed_form_data("ps", per_step);
   values.text["data_un"] = fixed_form_data("un", nodes);
   values.text["data_tv"] = fixed_form_data("tv", baked);
-  values.text["only_value"] = fortran_number(table.value[0]);
+  values.text["only_value"] = table.is_direct() ? "ftpiec(x)" : fortran_number(table.value[0]);
   values.text["value_comment"] =
       clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
                        table.log_value ? "ln " : "", table.quantity));
   values.flags["many_axes"] = table.axes.size() > 1;
   values.flags["has_axes"] = !table.axes.empty();
+  values.flags["interpolates"] = !counts.empty();
   values.flags["uses_log"] = logarithm;
+}
+
+// What lies beyond the ends of the axes.
+void add_outside(TemplateValues& values, const Table& table) {
+  for (const AxisEnds& axis : axis_ends(table)) {
+    TemplateValues one;
+    one.text = {{"index", std::to_string(axis.input + 1)},
+                {"low", fortran_number(axis.low)},
+                {"high", fortran_number(axis.high)}};
+    values.lists["ends"].push_back(one);
+  }
+  values.lists["ends"]; // also where there are none
+  values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
+  values.flags["refuses"] = !sides(table, Outside::error).empty();
+  values.text["stop"] = values.flags["refuses"] ? stop(table) : "";
+  values.flags["uses_unknown"] = values.flags["uses_unknown"] || values.flags["refuses"];
+  values.text["depvar"] = table.axes.empty() ? "3" : "4";
+  std::vector<std::string> lines = outside_lines(table);
+  if (lines.empty())
+    lines = {"Outside the range the " + std::string(table.is_direct() ? "law" : "table") +
+             "'s value at the nearest edge is used; stress and flow stress enter the formula "
+             "unchanged."};
+  else
+    lines.insert(lines.begin(), "Outside the range (error: XPLB_ABQERR ends the analysis):");
+  values.lists["outside"] = comments(lines);
 }
 
 // Cell polynomials of a cubic table; what it has beyond a linear one.
@@ -194,40 +191,25 @@ void add_splines(TemplateValues& values, const Table& table) {
   values.text["data_tb"] = fixed_form_data("tb", basis);
 }
 
-Lines declarations(const std::vector<std::string>& names) {
-  constexpr std::size_t per_line = 8;
-  Lines lines;
-  for (std::size_t i = 0; i < names.size(); i += per_line) {
-    const std::size_t end = std::min(names.size(), i + per_line);
-    lines.push_back(
-        item(fixed_form("double precision " + join(std::span(names).subspan(i, end - i), ", "))));
-  }
-  return lines;
-}
-
 void add_formula(TemplateValues& values, const Table& table,
                  const std::map<std::string, std::string>& rename) {
   const Statements code = to_statements(table.combine, Language::fortran, rename);
-  const std::string text = join(code.lines, "\n");
-  Lines statements, constants, helpers;
+  Lines statements, helpers;
   for (const std::string& line : code.lines)
     statements.push_back(item(fixed_form(line)));
-  const std::set<std::string> used = symbols(table.combine);
-  for (const auto& [name, number] : table.constants) {
-    if (!used.count(name)) continue;
-    TemplateValues constant;
-    constant.text = {{"index", rename.at(name).substr(1)},
-                     {"comment", clip(name)},
-                     {"value", fortran_number(number)}};
-    constants.push_back(constant);
-  }
+  const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
+  const Piece law = has_piece ? piece(table) : Piece{};
+  const std::vector<std::string> own = helpers_of(join(code.lines, "\n"));
+  for (const std::string& helper : own)
+    helpers.push_back(item(helper));
   for (const auto& [helper, flag] :
-       {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}}) {
-    values.flags[flag] = text.find(std::string(helper) + "(") != std::string::npos;
-    if (values.flags[flag]) helpers.push_back(item(helper));
-  }
+       {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}})
+    values.flags[flag] = std::count(own.begin(), own.end(), helper) > 0 ||
+                         std::count(law.helpers.begin(), law.helpers.end(), helper) > 0;
+  values.flags["has_piece"] = has_piece;
+  values.text["piece"] = law.text;
   values.lists["statements"] = statements;
-  values.lists["constants"] = constants;
+  values.lists["constants"] = constant_lines(table, table.combine);
   values.lists["helpers"] = helpers;
   values.lists["temporaries"] = declarations(code.temporaries);
   values.text["result"] = code.result;
@@ -254,6 +236,7 @@ std::string vfric_source(const ExportRequest& request, const std::vector<VfricIn
                  {"n_props", std::to_string(property_count(inputs))},
                  {"length", solver_unit("mm", request.units).name},
                  {"stress", stress.name},
+                 {"from", table.is_direct() ? "by the law itself, no table" : "from a table"},
                  {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
   values.lists["about"] = comments(about(request));
   values.lists["states"] = comments(states(request, inputs));
@@ -262,6 +245,7 @@ std::string vfric_source(const ExportRequest& request, const std::vector<VfricIn
   values.lists["arguments"] = comments(argument_lines(inputs));
   add_inputs(values, inputs);
   add_axes(values, table, rename);
+  add_outside(values, table);
   add_splines(values, table);
   add_formula(values, table, rename);
   return render_template("abaqus_vfric/frictab_vfric.f", values);

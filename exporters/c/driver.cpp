@@ -33,7 +33,41 @@ constexpr std::array<Call, sizeof...(N)> all_calls(std::index_sequence<N...>) {
   return {call_with<N>...};
 }
 
+template <std::size_t> using Array = const double*;
+
+template <std::size_t... I>
+void call_batch(void* function, std::size_t rows, const std::vector<const double*>& x, double* tau,
+                std::index_sequence<I...>) {
+  reinterpret_cast<void (*)(std::size_t, Array<I>..., double*)>(function)(rows, x[I]..., tau);
+}
+
+using CallBatch = void (*)(void*, std::size_t, const std::vector<const double*>&, double*);
+
+template <std::size_t N>
+void call_batch_with(void* function, std::size_t rows, const std::vector<const double*>& x,
+                     double* tau) {
+  call_batch(function, rows, x, tau, std::make_index_sequence<N>{});
+}
+
+template <std::size_t... N>
+constexpr std::array<CallBatch, sizeof...(N)> all_batch_calls(std::index_sequence<N...>) {
+  return {call_batch_with<N>...};
+}
+
 } // namespace
+
+void batch(void* library, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  static constexpr auto calls = all_batch_calls(std::make_index_sequence<most_arguments + 1>{});
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
+  const std::vector<std::string> needed = request.table.inputs();
+  std::vector<const double*> x(inputs.size(), nullptr);
+  for (std::size_t c = 0; c < needed.size(); ++c)
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (inputs[i].name == needed[c]) x[i] = columns[c];
+  calls[inputs.size()](Library::address(library, "frictab_tau_R_batch"), rows, x, tau.data());
+}
 
 void drive(void* library, const BuildVariant&, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {

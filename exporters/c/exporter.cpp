@@ -10,48 +10,12 @@
 #include "core/text.h"
 #include "driver.h"
 #include "io/json.h"
+#include "parts.h"
 #include "table/spline.h"
 
 namespace frictab::c_target {
 
 namespace {
-
-using Lines = std::vector<TemplateValues>;
-
-TemplateValues item(std::string text) {
-  TemplateValues values;
-  values.text["text"] = std::move(text);
-  return values;
-}
-
-Lines items(const std::vector<std::string>& texts) {
-  Lines lines;
-  for (const std::string& text : texts)
-    lines.push_back(item(text));
-  return lines;
-}
-
-// "double a", "double b", ... one piece per argument.
-std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
-                                    std::string_view type) {
-  std::vector<std::string> pieces;
-  for (const InputArgument& input : inputs)
-    pieces.push_back(fmt::format("{} {}", type, input.argument));
-  return pieces;
-}
-
-// Broken into lines; the template sets them in.
-std::string lines(const std::vector<std::string>& pieces) {
-  return number_lines(pieces, 90, "");
-}
-
-std::string canonical(const InputArgument& input) {
-  if (input.solver.times != 1)
-    return fmt::format("{} * {}", input.argument, c_number(input.solver.times));
-  if (input.solver.over != 1)
-    return fmt::format("{} / {}", input.argument, c_number(input.solver.over));
-  return input.argument;
-}
 
 std::vector<std::string> about(const ExportRequest& request) {
   const Table& table = request.table;
@@ -91,6 +55,26 @@ std::vector<std::string> bits(const Table& table) {
   return names;
 }
 
+std::vector<std::string> notes(const Table& table) {
+  std::vector<std::string> text;
+  if (table.is_direct()) text.push_back("This is the law itself, not a table.");
+  const std::vector<std::string> sides = outside_lines(table);
+  if (sides.empty()) {
+    const std::string what = table.is_direct() ? "law's" : "table's";
+    text.push_back("Outside the range the " + what +
+                   " value at the nearest edge is used, while stress and flow");
+    text.push_back("stress enter the formula above unchanged; frictab_outside tells which axes are "
+                   "concerned.");
+  } else {
+    text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
+    for (const std::string& side : sides)
+      text.push_back("  " + comment_text(side));
+    text.push_back("Stress and flow stress enter the formula above unchanged.");
+  }
+  text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
+  return text;
+}
+
 std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
@@ -100,22 +84,8 @@ std::string header(const ExportRequest& request, const std::vector<InputArgument
   values.lists["about"] = items(about(request));
   values.lists["bits"] = items(bits(request.table));
   values.lists["inputs"] = input_lines(request, inputs);
-  values.lists["notes"] = items(
-      {"Outside the range the table's value at the nearest edge is used, while stress and flow",
-       "stress enter the formula above unchanged; frictab_outside tells which axes are concerned.",
-       "NaN in an argument that is used gives NaN. Thread-safe."});
+  values.lists["notes"] = items(notes(request.table));
   return render_template("c/frictab_tau_R.h", values);
-}
-
-std::map<std::string, std::string> symbol_names(const Table& table,
-                                                const std::vector<InputArgument>& inputs) {
-  std::map<std::string, std::string> rename{{"value", "value"}};
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    rename[inputs[i].name] = fmt::format("x{}", i + 1);
-  std::size_t c = 0;
-  for (const auto& [name, value] : table.constants)
-    rename[name] = fmt::format("c{}", ++c);
-  return rename;
 }
 
 TemplateValues axis_values(const TableAxis& axis, std::size_t index, const std::string& variable) {
@@ -149,8 +119,8 @@ std::vector<std::string> unused(const Table& table, const std::vector<InputArgum
   std::vector<std::string> names;
   for (const InputArgument& input : inputs)
     if (!input.used) names.push_back(input.argument);
-  const std::set<std::string> in_formula = symbols(table.combine);
-  const std::string text = join(code.lines, "\n");
+  std::string text = join(code.lines, "\n");
+  if (!extending_sides(table, inputs).empty()) text += piece(table, inputs);
   for (const char* helper : {"ft_min", "ft_max", "ft_where_le"})
     if (text.find(std::string(helper) + "(") == std::string::npos) names.push_back(helper);
   bool logarithm = false;
@@ -158,36 +128,22 @@ std::vector<std::string> unused(const Table& table, const std::vector<InputArgum
     logarithm = logarithm || axis.log;
   if (!logarithm) names.push_back("ft_log");
   if (table.axes.empty() || is_cubic(table)) names.push_back("ft_interpolate");
-  std::size_t c = 0;
-  for (const auto& [name, value] : table.constants)
-    if (++c; !in_formula.count(name)) names.push_back(fmt::format("c{}", c));
   return names;
 }
 
-void add_state(TemplateValues& values, const Table& table,
-               const std::vector<InputArgument>& inputs) {
-  Lines used, constants, axes;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (!inputs[i].used) continue;
-    TemplateValues input;
-    input.text = {{"index", std::to_string(i + 1)},
-                  {"canonical", canonical(inputs[i])},
-                  {"name", comment_text(inputs[i].name)}};
-    used.push_back(input);
-  }
-  for (const auto& [name, number] : table.constants) {
-    TemplateValues constant;
-    constant.text = {{"index", std::to_string(constants.size() + 1)},
-                     {"value", c_number(number)},
-                     {"name", comment_text(name)}};
-    constants.push_back(constant);
-  }
+void add_axes(TemplateValues& values, const Table& table,
+              const std::vector<InputArgument>& inputs) {
   const auto rename = symbol_names(table, inputs);
+  Lines axes;
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     axes.push_back(axis_values(table.axes[a], a, rename.at(table.axes[a].name)));
-  values.lists["used"] = used;
-  values.lists["constants"] = constants;
   values.lists["axes"] = axes;
+  const std::vector<std::string> extending = extending_sides(table, inputs);
+  values.flags["extends"] = !extending.empty();
+  values.text["extending"] = join(extending, " || ");
+  values.text["piece"] = extending.empty() ? "" : piece(table, inputs);
+  values.text["piece_arguments"] = extending.empty() ? "" : piece_arguments(table, inputs);
+  values.lists["refusing"] = items(refusing_sides(table, inputs));
 }
 
 std::string kernel(const Table& table) {
@@ -196,18 +152,13 @@ std::string kernel(const Table& table) {
   return text;
 }
 
-std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
   const SolverUnit stress = solver_unit("MPa", request.units);
-  std::vector<std::string> numbers, names, arrays, unused_arrays;
+  std::vector<std::string> numbers;
   for (const double value : baked_values(table))
     numbers.push_back(c_number(value));
-  for (const InputArgument& input : inputs) {
-    names.push_back(input.argument);
-    arrays.push_back(input.used ? input.argument + "[i]" : "0.0");
-    if (!input.used) unused_arrays.push_back(input.argument);
-  }
   TemplateValues values;
   values.text = {
       {"model", comment_text(table.model)},
@@ -221,28 +172,31 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
       {"n_values", std::to_string(numbers.size())},
       {"values", number_lines(numbers, 98, "    ")},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
-      {"parameters", lines(parameters(inputs, "double"))},
-      {"arrays", lines(parameters(inputs, "const double*"))},
-      {"names", lines(names)},
-      {"items", lines(arrays)}};
+      {"count", count_function(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
                   {"cubic", is_cubic(table)},
                   {"log_value", table.log_value}};
-  add_state(values, table, inputs);
+  add_state(values, table, inputs, table.combine);
+  add_axes(values, table, inputs);
   values.lists["unused"] = items(unused(table, inputs, code));
   if (!symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
-  values.lists["unused_arrays"] = items(unused_arrays);
   values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_tau_R.c", values);
+}
+
+// The direct form is arithmetic in rows, which gcc 12 vectorises fully at -O3 only.
+std::string optimisation(const Table& table) {
+  return table.is_direct() ? "-O3" : "-O2";
 }
 
 std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
                    const SourceBundle& files) {
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
+  const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
   out["prototypes"] = {"double frictab_tau_R(" + one + ")", "unsigned frictab_outside(" + one + ")",
-                       "void frictab_tau_R_batch(size_t n, " +
-                           join(parameters(inputs, "const double*"), ", ") + ", double* tau)"};
+                       "void frictab_tau_R_batch(" + many + ", double* tau)",
+                       "void frictab_count_outside(" + many + ", unsigned long* counts)"};
   out["arguments"] = nlohmann::ordered_json::array();
   for (const InputArgument& input : inputs)
     out["arguments"].push_back({{"name", input.argument},
@@ -254,9 +208,9 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                    {"meaning", "frictional shear stress tau_R"}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = nlohmann::ordered_json::array();
-  out["compile"] = {"gcc -O2 -std=c99 -ffp-contract=off -c frictab_tau_R.c",
-                    "gcc -O2 -std=c99 -ffp-contract=off -fPIC -shared -o libfrictab_tau_R.so "
-                    "frictab_tau_R.c -lm"};
+  const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
+  out["compile"] = {gcc + "-c frictab_tau_R.c",
+                    gcc + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.c -lm"};
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
   return json_text(out);
@@ -267,16 +221,25 @@ SourceBundle generate(const ExportRequest& request) {
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   SourceBundle files;
   files["frictab_tau_R.h"] = header(request, inputs);
-  files["frictab_tau_R.c"] = source(request, inputs);
+  files["frictab_tau_R.c"] =
+      request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
 
-std::vector<BuildVariant> variants(const ExportRequest&) {
+std::vector<BuildVariant> variants(const ExportRequest& request) {
   BuildVariant c99;
   c99.name = "c99";
-  c99.command = {"gcc",     "-O2", "-std=c99", "-ffp-contract=off",      "-fPIC",
-                 "-shared", "-o",  "@{out}",   "@{dir}/frictab_tau_R.c", "-lm"};
+  c99.command = {"gcc",
+                 optimisation(request.table),
+                 "-std=c99",
+                 "-ffp-contract=off",
+                 "-fPIC",
+                 "-shared",
+                 "-o",
+                 "@{out}",
+                 "@{dir}/frictab_tau_R.c",
+                 "-lm"};
   c99.eps = 0x1p-53;
   return {c99};
 }
@@ -294,6 +257,7 @@ Exporter exporter() {
   c.generate = generate;
   c.variants = variants;
   c.drive = drive;
+  c.batch = batch;
   return c;
 }
 

@@ -50,6 +50,7 @@ void all_stages(Pipeline& p) {
   p.generate();
   p.verify();
   p.report();
+  p.compare_forms();
 }
 
 Command stage(int order, const char* name, const char* title,

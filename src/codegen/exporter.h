@@ -47,6 +47,10 @@ struct Exporter {
   // order of request.table.inputs()), and gives tau_R in MPa. `library` is a dlopen handle.
   void (*drive)(void* library, const BuildVariant&, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
+  // Its own entry for many states at once, in the units of the request and without any conversion:
+  // what a benchmark calls. Null where the target has none.
+  void (*batch)(void* library, const ExportRequest&, std::size_t rows,
+                std::span<const double* const> columns, std::span<double> tau) = nullptr;
 };
 
 const std::vector<Exporter>& all_exporters();

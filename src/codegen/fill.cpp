@@ -1,6 +1,8 @@
 // Inputs, units, numbers and texts that the templates of every target are filled with.
 #include "codegen/fill.h"
 
+#include "codegen/layer.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -119,12 +121,19 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
   return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
 }
 
+std::size_t baked_numbers(const Table& table) {
+  std::size_t numbers = table.value.size() + table.constants.size() + count_numbers(table.combine);
+  for (const TableAxis& axis : table.axes)
+    numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
+  if (!table.extension) return numbers;
+  const LayeredFormula law = split_layer(*table.extension);
+  return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);
+}
+
 namespace {
 
 void check_size(const Table& table, FaultList& faults) {
-  std::size_t numbers = table.value.size();
-  for (const TableAxis& axis : table.axes)
-    numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
+  const std::size_t numbers = baked_numbers(table);
   if (numbers <= most_baked_numbers) return;
   const std::string remedy = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
   faults.add({},
@@ -151,15 +160,21 @@ void check_table(const Table& table) {
   if (table.axes.size() > FT_MAX_AXES)
     faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
                                table.axes.size(), FT_MAX_AXES));
-  if (nodes != table.value.size())
+  if (!table.is_direct() && nodes != table.value.size())
     faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
     faults.add({}, "the table holds values that are not finite");
-  if (table.interpolation != "linear" && table.interpolation != "cubic")
+  if (!table.is_direct() && table.interpolation != "linear" && table.interpolation != "cubic")
     faults.add({},
                fmt::format("no source is generated for '{}' interpolation", table.interpolation),
                "set table.interpolation = \"linear\" or \"cubic\"");
+  const bool extends = std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+    return axis.below == Outside::law || axis.above == Outside::law;
+  });
+  if ((extends || table.is_direct()) && !table.extension)
+    faults.add({}, fmt::format("the table of {} does not hold the law's own formula", table.model),
+               "tabulate again with outside = \"law\" in [table.axes]");
   check_size(table, faults);
   faults.throw_if_any();
 }
@@ -211,7 +226,36 @@ std::string range_text(const InputArgument& input, const Table& table) {
   return input.axis ? text : text + " (no axis: any value, verified there)";
 }
 
+namespace {
+
+const char* outside_text(Outside outside) {
+  switch (outside) {
+  case Outside::error:
+    return "error (NaN)";
+  case Outside::law:
+    return "the law's own formula";
+  case Outside::clamp:
+    break;
+  }
+  return "the value at this end";
+}
+
+} // namespace
+
+std::vector<std::string> outside_lines(const Table& table) {
+  std::vector<std::string> lines;
+  bool all_clamp = true;
+  for (const TableAxis& axis : table.axes) {
+    all_clamp = all_clamp && axis.below == Outside::clamp && axis.above == Outside::clamp;
+    lines.push_back(fmt::format("{} below {:.6g}: {}, above {:.6g}: {}", axis.name,
+                                axis.nodes.front(), outside_text(axis.below), axis.nodes.back(),
+                                outside_text(axis.above)));
+  }
+  return all_clamp ? std::vector<std::string>{} : lines;
+}
+
 std::string drift_text(const Table& table) {
+  if (table.is_direct()) return "none but rounding, it is the law itself; measured in verify.json";
   const auto worst = table.number_attributes.find("worst_case_MPa");
   if (worst == table.number_attributes.end())
     return "not measured here; see verify.json of the run that wrote this file";

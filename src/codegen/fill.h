@@ -56,6 +56,9 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
 // 4 to 7 s for 210,000 in DATA statements.
 inline constexpr std::size_t most_baked_numbers = 300000;
 
+// Numbers that the source of a table, or of its direct form, holds.
+std::size_t baked_numbers(const Table& table);
+
 // Throws InputError where a table cannot be made into code: values that are not finite, sizes that
 // do not fit, more axes than the kernel holds, an interpolation the kernel does not have, more
 // numbers than a compiler takes.
@@ -77,6 +80,10 @@ std::string fortran_number(double value);
 
 // "500 .. 2750 MPa" in the solver's unit, with a remark where the state is no axis.
 std::string range_text(const InputArgument& input, const Table& table);
+
+// What the sides of the axes do where one does not clamp: "psi below 1: clamp, above 20: law".
+// Empty where all clamp.
+std::vector<std::string> outside_lines(const Table& table);
 
 // "worst drift ..., measured in verification" or "not known"; from the table's attributes.
 std::string drift_text(const Table& table);

@@ -24,10 +24,14 @@ json unit_names(std::string_view units) {
 }
 
 json axis_json(const TableAxis& axis, std::size_t bit, const InputArgument& input) {
-  return {{"name", axis.name},          {"unit", axis.unit},
-          {"meaning", input.meaning},   {"range", {axis.nodes.front(), axis.nodes.back()}},
-          {"nodes", axis.nodes.size()}, {"transform", axis.log ? "log" : "linear"},
-          {"outside_bit", bit}};
+  return {{"name", axis.name},
+          {"unit", axis.unit},
+          {"meaning", input.meaning},
+          {"range", {axis.nodes.front(), axis.nodes.back()}},
+          {"nodes", axis.nodes.size()},
+          {"transform", axis.log ? "log" : "linear"},
+          {"outside_bit", bit},
+          {"outside", {outside_name(axis.below), outside_name(axis.above)}}};
 }
 
 } // namespace
@@ -43,6 +47,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
           {"title", exporter.title},
           {"tool_version", FRICTAB_VERSION},
           {"model", request.table.model},
+          {"form", request.table.is_direct() ? "direct" : "table"},
           {"data_origin", origin_text(request.table)},
           {"units", unit_names(request.units)},
           {"entry", entry},
@@ -67,13 +72,24 @@ json recipe_table(const ExportRequest& request) {
               {"constants", table.constants},
               {"worst_case_MPa", nullptr},
               {"outside",
-               "the value at the nearest edge of the table; stress and flow stress enter "
-               "the formula unchanged"}};
+               "[below, above] each axis' range: clamp = the value at that end, error = NaN, law = "
+               "the law's own formula; stress and flow stress enter combine unchanged"}};
+  if (table.is_direct())
+    for (const char* of_the_table : {"transform", "interpolation", "worst_case_MPa"})
+      out.erase(of_the_table);
   const auto worst = table.number_attributes.find("worst_case_MPa");
+  if (table.is_direct())
+    for (json& axis : out["axes"])
+      axis.erase("nodes"), axis.erase("transform");
   if (worst != table.number_attributes.end()) out["worst_case_MPa"] = worst->second;
   const auto proven = table.number_attributes.find("proven_drift_MPa");
   if (proven != table.number_attributes.end()) out["proven_drift_MPa"] = proven->second;
   return out;
+}
+
+bool is_direct_recipe(const std::string& text, const std::string& file) {
+  const json recipe = parse_json(text, file);
+  return recipe.is_object() && recipe.value("form", json("table")) == "direct";
 }
 
 std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file) {

@@ -10,12 +10,16 @@
 
 namespace frictab {
 
-// schema, target, model, data_origin, units, entry, files, signature_source.
+// schema, target, model, form (table or direct), data_origin, units, entry, files,
+// signature_source.
 nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest& request,
                                    const std::string& entry, const SourceBundle& files);
 
 // The table's axes with ranges, how the value becomes tau_R, and the drift it is known for.
 nlohmann::ordered_json recipe_table(const ExportRequest& request);
+
+// Whether a recipe's sources hold the law itself.
+bool is_direct_recipe(const std::string& text, const std::string& file);
 
 // The files that a recipe lists, relative to its directory. Throws InputError where the text is no
 // recipe, or a name leads out of the directory.

@@ -200,4 +200,11 @@ Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacem
   return replace(formula, replacements, done);
 }
 
+Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& nodes) {
+  Replaced done;
+  for (const auto& [node, by] : nodes)
+    done.emplace(node.id(), by);
+  return replace(formula, {}, done);
+}
+
 } // namespace frictab

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frictab {
@@ -74,6 +75,9 @@ std::set<std::string> symbols(const Expr& formula);
 
 // The formula with some symbols replaced.
 Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements);
+
+// The formula with some of its nodes (compared by id) replaced.
+Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& nodes);
 
 // The same formula with equal subformulas stored once.
 Expr shared(const Expr& formula);

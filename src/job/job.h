@@ -71,7 +71,8 @@ struct CalibrationOptions {
 struct AxisOptions {
   std::optional<std::pair<double, double>> range;
   std::optional<std::size_t> nodes;
-  std::optional<std::string> spacing; // "log" | "linear"
+  std::optional<std::string> spacing;        // "log" | "linear"
+  std::vector<std::string> outside{"clamp"}; // clamp | error | law: both sides, or low and high
   Place place;
 };
 
@@ -90,6 +91,7 @@ struct TableOptions {
 struct ExportOptions {
   std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
   std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
+  std::string form = "table";                            // table | direct: the law itself
   // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
   // constant) or "field:2" (predefined field variable). By canonical name.
   std::map<std::string, std::string> inputs;

@@ -1,4 +1,6 @@
 // The keys of every section but [data], in the order of the stages.
+#include <fmt/format.h>
+
 #include "codegen/exporter.h"
 #include "job/key_builder.h"
 #include "models/law.h"
@@ -29,6 +31,12 @@ std::vector<std::string> coordinates() {
 std::vector<std::string> spacings() {
   return {"linear", "log"};
 }
+std::vector<std::string> sides() {
+  return {"clamp", "error", "law"};
+}
+std::vector<std::string> forms() {
+  return {"table", "direct"};
+}
 std::vector<std::string> unit_systems() {
   return {"mm-t-s", "m-kg-s"};
 }
@@ -44,6 +52,13 @@ bool is_number(std::string_view text, bool whole) {
   }
   const std::string_view characters = whole ? "0123456789" : "+-.0123456789eE";
   return text.find_first_not_of(characters) == text.npos;
+}
+
+Problem outside_problem(const std::string&, const KeyValue& value) {
+  const std::size_t count = std::get<std::vector<std::string>>(value).size();
+  if (count <= 2) return {};
+  return {fmt::format("must be one word for both ends or [low end, high end], not {} words", count),
+          "for example outside = [\"clamp\", \"law\"]"};
 }
 
 Problem input_problem(const std::string&, const KeyValue& value) {
@@ -167,6 +182,14 @@ std::vector<KeyRule> table_keys() {
           "of the nodes, and the coordinate of interpolation: linear or log",
           "what suits the quantity and the law", "\"log\"") |
           Allowed{"", spacings},
+      named<std::vector<std::string>>(
+          "table.axes.*.outside",
+          [](Job & job, const std::string& name) -> auto& { return axis(job, name).outside; },
+          "what a query beyond the range gets, at both ends or [low, high]: clamp = the value at "
+          "the nearest end, error = NaN, and the solver stops, law = the law's own formula; where "
+          "the state is no axis of a law's table, the formula takes it as it is",
+          "clamp", "[\"clamp\", \"law\"]") |
+          Allowed{"", sides} | outside_problem,
   };
 }
 
@@ -181,6 +204,11 @@ std::vector<KeyRule> export_keys() {
           "export.units", [](Job & job) -> auto& { return job.exports.units; },
           "unit system of the simulation: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)") |
           Allowed{"", unit_systems},
+      key<std::string>(
+          "export.form", [](Job & job) -> auto& { return job.exports.form; },
+          "what the routine holds: table, or direct = the law itself (its formula, or the network "
+          "with its weights) over the table's ranges; the summary of `run` says which is faster") |
+          Allowed{"", forms},
       named<std::string>(
           "export.inputs.*",
           [](Job & job, const std::string& name) -> auto& { return job.exports.inputs[name]; },

@@ -110,12 +110,14 @@ struct ValueReader {
     }
     bool good = true;
     std::set<std::string> seen;
+    // A few fixed words say something by their place, not by being there.
+    const bool may_repeat = rule.allowed.names && rule.allowed.noun.empty();
     for (const TomlNode& item : node.items) {
       const auto one = text(item);
       good = good && one;
       if (!one) continue;
       out.push_back(*one);
-      if (!seen.insert(*one).second) {
+      if (!seen.insert(*one).second && !may_repeat) {
         reader.fault(item.place, fmt::format("{} is named twice in {}", quoted(*one), path),
                      "name it once");
         good = false;

@@ -6,6 +6,7 @@
 
 #include "calibrate/calibration.h"
 #include "table/table.h"
+#include "verify/forms.h"
 #include "verify/verification.h"
 
 namespace frictab {
@@ -18,7 +19,8 @@ struct ReportInput {
   std::vector<std::vector<double>> predicted; // per calibration.fits entry: validation rows, MPa
   const std::vector<Table>& tables;
   const Verification& verification;
-  std::vector<std::string> files; // written, relative to the output directory
+  std::vector<std::string> files;         // written, relative to the output directory
+  std::vector<FormComparison> forms = {}; // per table, sizes only: times differ from run to run
 };
 
 // One self-contained page that opens offline: ranking, measured against predicted and residual

@@ -9,6 +9,7 @@
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
+#include "verify/beyond.h"
 
 namespace frictab {
 
@@ -39,6 +40,18 @@ std::string summary_of(const Table& table) {
     text += (i ? ", " : "") + ("<code>" + svg::escape(inputs[i]) + "</code>");
   if (inputs.empty()) text += "none";
   return text + ".";
+}
+
+// Table or the law itself: what a source holds of each.
+std::string forms_of(const ReportInput& input, const Table& table) {
+  for (const FormComparison& form : input.forms)
+    if (form.model == table.model && !table.axes.empty())
+      return fmt::format(" A source holds {} of numbers as this table, {} as the law itself "
+                         "(<code>export.form = \"direct\"</code>, no drift but rounding); which of "
+                         "the two is faster <code>frictab run</code> measures and prints.",
+                         human_bytes(static_cast<double>(form.table.bytes)),
+                         human_bytes(static_cast<double>(form.direct.bytes)));
+  return "";
 }
 
 TemplateValues axis_row(const Table& table, const TableAxis& axis) {
@@ -84,12 +97,15 @@ std::string outside_text(const DriftRecord& r) {
   if (r.n_rows == 0) return "\u2013";
   const double percent = 100 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
   if (r.n_outside == 0) return "none";
-  return fmt::format("{} ({} %), up to {} MPa off", thousands(r.n_outside), figures(percent, 2),
-                     figures(r.max_abs_outside_MPa));
+  std::string text = fmt::format("{} ({} %), up to {} MPa off", thousands(r.n_outside),
+                                 figures(percent, 2), figures(r.max_abs_outside_MPa));
+  for (const BeyondEnd& end : r.beyond)
+    text += "<br>" + svg::escape(beyond_text(end));
+  return text;
 }
 
 TemplateValues record_row(const DriftRecord& r) {
-  const bool any_rows = r.n_rows > r.n_outside;
+  const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law goes on outside
   const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
   TemplateValues row;
   row.flags["ran"] = r.ran;
@@ -118,7 +134,7 @@ void add_tables(TemplateValues& page, const ReportInput& input) {
     TemplateValues item;
     const std::string refinement = text_of(table, "refinement");
     item.text = {{"model", svg::escape(table.model)},
-                 {"summary", summary_of(table)},
+                 {"summary", summary_of(table) + forms_of(input, table)},
                  {"refinement", svg::escape(refinement)}};
     item.flags = {{"has_axes", !table.axes.empty()},
                   {"has_refinement", !refinement.empty() && !table.axes.empty()}};

@@ -16,6 +16,7 @@
 #include "data/oracle.h"
 #include "report/report.h"
 #include "table/build.h"
+#include "table/direct.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
 
@@ -230,7 +231,9 @@ void Pipeline::generate() {
   for (const Table& table : tables_)
     for (const Exporter* exporter : chosen_exporters(job_.exports)) {
       const std::string directory = export_directory(exporter->name, table);
-      sources_[directory] = exporter->generate({table, job_.exports.units, job_.exports.inputs});
+      const Table form =
+          job_.exports.form == "direct" ? direct_form(model_of(table), table) : table;
+      sources_[directory] = exporter->generate({form, job_.exports.units, job_.exports.inputs});
       for (const auto& [path, text] : sources_[directory])
         output_.write(directory + "/" + path, text);
     }
@@ -257,6 +260,8 @@ void Pipeline::verify() {
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {
     std::vector<GeneratedSource> sources;
+    const Model model = model_of(table);
+    const Table direct = direct_form(model, table);
     for (const Exporter* exporter : chosen_exporters(job_.exports)) {
       const std::string directory = export_directory(exporter->name, table);
       const fs::path written = fs::path(job_.directory) / directory;
@@ -266,17 +271,28 @@ void Pipeline::verify() {
                            "run `frictab export " + job_.file + "` first");
         sources_[directory] = read_bundle(written);
       }
-      sources.push_back(
-          {exporter, {table, job_.exports.units, job_.exports.inputs}, sources_[directory]});
+      const SourceBundle& bundle = sources_[directory];
+      const Table& form =
+          is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json") ? direct : table;
+      sources.push_back({exporter, {form, job_.exports.units, job_.exports.inputs}, bundle});
     }
     const std::string name = job_.directory + "/tables/" + table.model + ".h5";
-    const auto records = frictab::verify(
-        {model_of(table), table, name, &*validation_, allowed, job_.verify.samples}, sources);
+    const auto records =
+        frictab::verify({model, table, name, &*validation_, allowed, job_.verify.samples}, sources);
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     progress.tick();
   }
   output_.write("verify.json", verification_json(*verification_));
   output_.write("verify.xml", verification_junit(*verification_));
+}
+
+void Pipeline::compare_forms() {
+  need_tables();
+  Progress progress("timing", tables_.size());
+  for (const Table& table : tables_) {
+    forms_.push_back(frictab::compare_forms(model_of(table), table));
+    progress.tick();
+  }
 }
 
 void Pipeline::report() {
@@ -291,6 +307,9 @@ void Pipeline::report() {
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
     predicted.push_back(predict(fit.model, *validation_));
+  std::vector<FormComparison> sizes;
+  for (const Table& table : tables_)
+    sizes.push_back(form_sizes(model_of(table), table));
   std::vector<std::string> written = output_.paths();
   written.push_back("report.html");
   const ReportInput input{fs::path(job_.file).filename().string(),
@@ -300,7 +319,8 @@ void Pipeline::report() {
                           std::move(predicted),
                           tables_,
                           *verification_,
-                          std::move(written)};
+                          std::move(written),
+                          std::move(sizes)};
   output_.write("report.html", report_html(input));
 }
 

@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "table/table.h"
+#include "verify/forms.h"
 #include "verify/verification.h"
 
 namespace frictab {
@@ -25,6 +26,7 @@ public:
   void tabulate();
   void generate(); // sources
   void verify();
+  void compare_forms(); // table or the law itself: measured, told by the summary, never written
   void report();
   // Moves all files into place.
   void commit();
@@ -38,6 +40,7 @@ public:
   const std::optional<Verification>& verification() const { return verification_; }
   // Tables made in this run that drift further than allowed, in words.
   const std::vector<std::string>& missed() const { return missed_; }
+  const std::vector<FormComparison>& forms() const { return forms_; }
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
@@ -63,6 +66,7 @@ private:
   bool have_tables_ = false;
   std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
   std::optional<Verification> verification_;
+  std::vector<FormComparison> forms_;
 };
 
 // The summary of what a pipeline holds, as text that is read in ten seconds, or as JSON.

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "io/json.h"
 #include "run/pipeline.h"
+#include "verify/beyond.h"
 #include "verify/verify.h"
 
 namespace frictab {
@@ -178,6 +179,20 @@ void add_drift_line(std::string& out, const Verification& verification, const st
                      passed ? "ok" : "OVER TOLERANCE", not_run);
 }
 
+// One line per axis and side that rows of the data lie beyond; they are the same for every subject.
+void add_outside(std::string& out, const Verification& verification,
+                 const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models)
+    for (const DriftRecord& r : verification.records)
+      if (r.model == model && r.ran) {
+        for (const BeyondEnd& end : r.beyond)
+          lines += fmt::format("  {:<14} {}\n", model, beyond_text(end));
+        break;
+      }
+  if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
+}
+
 void add_drift(std::string& out, const Verification& verification) {
   const auto subjects = subjects_of(verification);
   out += fmt::format(
@@ -193,6 +208,7 @@ void add_drift(std::string& out, const Verification& verification) {
     if (models.empty() || models.back() != r.model) models.push_back(r.model);
   for (const std::string& model : models)
     add_drift_line(out, verification, model, subjects);
+  add_outside(out, verification, models);
 }
 
 // "report.html, models/ (15), ...": a directory is named once.
@@ -222,6 +238,7 @@ std::string summary_text(const Pipeline& p) {
   }
   add_tables(out, p);
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
+  if (!p.forms().empty()) out += "\n" + forms_text(p.forms());
   const auto files = p.files();
   out += fmt::format("\nWrote {} files to {}: {}\n", files.size(), p.job().directory,
                      file_list(files));
@@ -234,6 +251,22 @@ std::string drift_text(const Verification& verification) {
   return out.substr(1); // without the blank line that separates sections
 }
 
+namespace {
+
+nlohmann::ordered_json form_json(const FormComparison& c) {
+  const auto figures = [&](const FormFigures& f) {
+    nlohmann::ordered_json j = {{"bytes", f.bytes}, {"drift_MPa", f.drift_MPa}};
+    if (c.why_not.empty()) j["ns_per_query"] = f.ns_per_query;
+    return j;
+  };
+  return {{"model", c.model},
+          {"table", figures(c.table)},
+          {"direct", figures(c.direct)},
+          {"verdict", form_verdict(c)}};
+}
+
+} // namespace
+
 std::string summary_json(const Pipeline& p) {
   nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
   if (p.training()) j["synthetic_data"] = is_synthetic(*p.training());
@@ -245,6 +278,8 @@ std::string summary_json(const Pipeline& p) {
   if (!tables.empty()) j["tables"] = tables;
   if (p.verification())
     j["verification"] = parse_json(verification_json(*p.verification()), "verify.json");
+  for (const FormComparison& form : p.forms())
+    j["forms"].push_back(form_json(form));
   j["directory"] = p.job().directory;
   j["files"] = p.files();
   return json_text(j);

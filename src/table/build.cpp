@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "data/quantity.h"
+#include "table/direct.h"
 #include "table/drift.h"
 #include "table/grid.h"
 
@@ -44,6 +45,10 @@ AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& 
                        fmt::format("the axis {} cannot be logarithmic: its range starts at {}",
                                    range.name, range.low),
                        "spacing = \"linear\", or a range that starts above 0");
+  }
+  if (asked != options.axes.end()) {
+    plan.axis.below = *find_outside(asked->second.outside.front());
+    plan.axis.above = *find_outside(asked->second.outside.back());
   }
   plan.fixed = {range.low, range.high};
   if (const auto kinks = law.kinks.find(range.name); kinks != law.kinks.end())
@@ -127,6 +132,10 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
   for (std::size_t p = 0; p < model.parameters.size(); ++p)
     if (used.count(model.law->parameters[p].name))
       table.constants[model.law->parameters[p].name] = model.parameters[p];
+  if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+        return axis.below == Outside::law || axis.above == Outside::law;
+      }))
+    add_extension(table, model);
   for (const StateRange& range : ranges) {
     table.number_attributes["range_low_" + range.name] = range.low;
     table.number_attributes["range_high_" + range.name] = range.high;

@@ -11,6 +11,7 @@
 // The two that stand behind it.
 #include "table/frictab_cubic.h"
 #include "table/frictab_gradient.h"
+#include "table/outside.h"
 #include "table/spline.h"
 
 namespace frictab {
@@ -61,7 +62,8 @@ struct TableFunction::Data {
   std::vector<char> log;
   std::vector<double> value; // at the nodes, or coefficients
   bool log_value = false;
-  std::unique_ptr<Program> combine; // row: value, then inputs; scalars: constants
+  std::unique_ptr<OutsideRule> rule; // where clamping is not all there is to it
+  std::unique_ptr<Program> combine;  // row: value, then inputs; scalars: constants
   std::vector<double> constants;
 
   int axes() const { return static_cast<int>(log.size()); }
@@ -95,7 +97,8 @@ void TableFunction::Data::add_axes(const Table& table) {
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.inputs = table.inputs();
-  d.add_axes(table);
+  if (OutsideRule::needed(table)) d.rule = std::make_unique<OutsideRule>(table);
+  if (!table.is_direct()) d.add_axes(table);
   d.log_value = table.log_value;
   std::vector<std::string> row{"value"}, scalars;
   row.insert(row.end(), d.inputs.begin(), d.inputs.end());
@@ -114,6 +117,8 @@ const std::vector<std::string>& TableFunction::inputs() const {
 
 double TableFunction::operator()(std::span<const double> state, unsigned* outside) const {
   const Data& d = *data_;
+  if (d.rule)
+    if (const auto tau = d.rule->tau(state, outside)) return *tau;
   double u[FT_MAX_AXES], row[1 + 16];
   d.coordinates_of(state, u);
   const double raw = d.is_cubic
@@ -127,6 +132,8 @@ double TableFunction::operator()(std::span<const double> state, unsigned* outsid
 double TableFunction::gradient(std::span<const double> state, std::span<double> derivative,
                                unsigned* outside) const {
   const Data& d = *data_;
+  if (d.rule)
+    if (const auto tau = d.rule->gradient(state, derivative, outside)) return *tau;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
   d.coordinates_of(state, u);
   const double raw =

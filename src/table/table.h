@@ -4,13 +4,24 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "expr/expr.h"
 
 namespace frictab {
+
+// What a query beyond one end of an axis gets (table/outside.h).
+enum class Outside {
+  clamp, // the tabulated piece at that end; the formula behind it takes the state as it is
+  error, // NaN; a solver's routine stops the analysis
+  law    // the law's own formula, Table::extension
+};
+const char* outside_name(Outside outside); // "clamp", "error", "law"
+std::optional<Outside> find_outside(std::string_view name);
 
 struct TableAxis {
   std::string name;               // canonical
@@ -19,6 +30,8 @@ struct TableAxis {
   bool log = false;               // interpolate in ln x
   std::vector<double> nodes;      // ascending, canonical unit, >= 2
   std::vector<double> kinks = {}; // inner nodes at which a cubic spline may bend; else it is C2
+  Outside below = Outside::clamp; // queries under the first node
+  Outside above = Outside::clamp; // and over the last
 
   std::vector<double> coordinates() const; // x, or ln x
   double
@@ -36,12 +49,15 @@ struct Drift {
 struct Table {
   std::string model;           // law name
   std::vector<TableAxis> axes; // none: the value is one constant
-  std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value
+  std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value. Empty:
+                               // the direct form, whose axes say only over which range it holds
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
-  std::string interpolation = "linear";    // linear | cubic: the spline of table/spline.h
-  Expr combine;                            // tau_R_MPa of "value", state names and constants
-  std::map<std::string, double> constants; // of combine
+  std::string interpolation = "linear"; // linear | cubic: the spline of table/spline.h
+  Expr combine;                         // tau_R_MPa of "value", state names and constants
+  std::optional<Expr>
+      extension; // the law's own "value" (never its logarithm) of axes and constants
+  std::map<std::string, double> constants; // of combine and extension
   // Root attributes: tool_version, model, data_hash, data_origin, tolerance_MPa, worst_case_MPa,
   // refinement, training range per axis, ...
   std::map<std::string, std::string> text_attributes;
@@ -54,8 +70,9 @@ struct Table {
     const auto found = number_attributes.find("quantile");
     return found == number_attributes.end() ? 0.5 : found->second;
   }
+  bool is_direct() const { return value.empty(); }
   std::size_t nodes() const { return value.size(); }
-  std::size_t bytes() const; // values and nodes as doubles
+  std::size_t bytes() const; // values, nodes and constants as doubles
 };
 
 // Evaluates a table by the kernel that the generated sources contain.
@@ -68,7 +85,8 @@ public:
 
   const std::vector<std::string>& inputs() const;
 
-  // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: axis d was clamped.
+  // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: the state lies beyond
+  // axis d.
   double operator()(std::span<const double> state, unsigned* outside = nullptr) const;
 
   // The same value, and its derivatives by each state (MPa per canonical unit) in one pass. At a

@@ -27,6 +27,27 @@ std::string numbers_text(const std::vector<double>& numbers) {
   return join(texts, " ");
 }
 
+// HDF5 keeps less than 64 KiB in one attribute; a network's formula is longer. It goes on in
+// extension_2, extension_3, ...
+constexpr std::size_t attribute_characters = 60000;
+
+std::string part_name(std::size_t part) {
+  return part == 0 ? "extension" : fmt::format("extension_{}", part + 1);
+}
+
+void write_extension(Hdf5Writer& out, const std::string& formula) {
+  for (std::size_t part = 0; part * attribute_characters < formula.size(); ++part)
+    out.attribute("value", part_name(part),
+                  formula.substr(part * attribute_characters, attribute_characters));
+}
+
+void write_outside(Hdf5Writer& out, const TableAxis& axis) { // absent: clamp
+  if (axis.below != Outside::clamp)
+    out.attribute(axis.name, "outside_low", std::string(outside_name(axis.below)));
+  if (axis.above != Outside::clamp)
+    out.attribute(axis.name, "outside_high", std::string(outside_name(axis.above)));
+}
+
 } // namespace
 
 void write_table(const Table& table, const std::filesystem::path& file, int compress) {
@@ -41,6 +62,7 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
     out.attribute(axis.name, "transform", std::string(axis.log ? "log" : "linear"));
     if (table.interpolation == "cubic" && !axis.kinks.empty())
       out.attribute(axis.name, "kinks", numbers_text(axis.kinks));
+    write_outside(out, axis);
   }
   out.dataset("value", shape, table.value, compress);
   for (std::size_t a = 0; a < table.axes.size(); ++a)
@@ -51,6 +73,7 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
   out.attribute("value", "interpolation", table.interpolation);
   if (table.interpolation == "cubic") out.attribute("value", "spline", std::string(spline_name));
   out.attribute("value", "combine", to_text(table.combine));
+  if (table.extension) write_extension(out, to_text(*table.extension));
   std::vector<std::string> names;
   for (const auto& [name, value] : table.constants) {
     out.attribute("value", name, value);
@@ -82,6 +105,7 @@ public:
     read_axes();
     faults_.throw_if_any();
     read_combine();
+    read_extension();
     faults_.throw_if_any();
     for (const std::string& name : in_.attributes("/")) {
       if (const auto text = in_.text_attribute("/", name))
@@ -163,6 +187,8 @@ private:
       axis.log = text(axis.name, "transform", {"linear", "log"}) == "log";
       check_axis(axis, shape_[a]);
       read_kinks(axis);
+      axis.below = read_outside(axis, "outside_low");
+      axis.above = read_outside(axis, "outside_high");
       table_.axes.push_back(axis);
     }
   }
@@ -203,15 +229,49 @@ private:
     }
   }
 
+  Outside read_outside(const TableAxis& axis, const std::string& side) {
+    if (!in_.text_attribute(axis.name, side)) return Outside::clamp;
+    return find_outside(text(axis.name, side, {"clamp", "error", "law"})).value_or(Outside::clamp);
+  }
+
+  bool is_axis(const std::string& name) const {
+    return std::any_of(table_.axes.begin(), table_.axes.end(),
+                       [&](const TableAxis& axis) { return axis.name == name; });
+  }
+
+  void read_extension() {
+    std::string formula;
+    for (std::size_t part = 0; const auto more = in_.text_attribute("value", part_name(part));
+         ++part)
+      formula += *more;
+    if (formula.empty()) {
+      for (const TableAxis& axis : table_.axes)
+        if (axis.below == Outside::law || axis.above == Outside::law)
+          fault(
+              fmt::format("axis '{}' goes on by the law, and 'value' has no attribute 'extension'",
+                          axis.name),
+              "add the law's own formula of 'value', or outside_low and outside_high = clamp");
+      return;
+    }
+    table_.extension = parse_expr(formula, named_);
+    for (const std::string& name : symbols(*table_.extension)) {
+      if (is_axis(name)) continue;
+      if (const auto number = in_.number_attribute("value", name))
+        table_.constants[name] = *number;
+      else
+        fault(
+            fmt::format("extension uses '{}', which is no axis and no attribute of 'value'", name),
+            "add the constant as a number attribute of 'value'");
+    }
+  }
+
   void read_combine() {
     const std::string formula = text("value", "combine", {});
     faults_.throw_if_any();
     table_.combine = parse_expr(formula, named_);
     for (const std::string& name : symbols(table_.combine)) {
       const Quantity* quantity = find_quantity(name);
-      const bool axis = std::any_of(table_.axes.begin(), table_.axes.end(),
-                                    [&](const TableAxis& one) { return one.name == name; });
-      if (name == "value" || axis || (quantity && quantity->state)) continue;
+      if (name == "value" || is_axis(name) || (quantity && quantity->state)) continue;
       if (const auto number = in_.number_attribute("value", name))
         table_.constants[name] = *number;
       else

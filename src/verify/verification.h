@@ -11,16 +11,29 @@
 
 namespace frictab {
 
+// Rows beyond one end of an axis of the table.
+struct BeyondEnd {
+  std::string axis;
+  std::string side;    // below | above
+  std::string outside; // what the table does there: clamp | error | law
+  double end = 0;
+  std::size_t rows = 0;
+  double largest_excess = 0; // in the unit of the axis
+};
+
 // One thing that was compared with the law.
 struct DriftRecord {
   std::string model;   // law name
   std::string subject; // "table", "c/c99", "abaqus_vfric/double", ...
   bool ran = true;     // false: could not be run here; `why_not` says why
   std::string why_not;
-  Drift rows;                                // on the validation rows inside the table's range
-  std::size_t n_rows = 0;                    // rows compared
-  std::size_t n_outside = 0;                 // of these outside the table's range (not in `rows`)
-  double max_abs_outside_MPa = 0;            // the clamped answer against the law, on those
+  Drift rows; // on the validation rows inside the table's range, and where the law goes on
+  std::size_t n_rows = 0;                    // rows
+  std::size_t n_outside = 0;                 // of these outside the table's range
+  std::vector<BeyondEnd> beyond;             // where they are
+  double max_abs_outside_MPa = 0;            // the clamped answer against the law (not in `rows`)
+  std::size_t n_refused = 0;                 // answered by NaN, as outside = error asks
+  std::size_t n_not_refused = 0;             // answered by a number where it asks for NaN
   double worst_case_MPa = 0;                 // largest drift found over the whole range
   std::map<std::string, double> worst_state; // where; canonical names
   std::size_t n_points = 0;                  // points looked at over the range

@@ -11,20 +11,13 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "table/bound.h"
+#include "verify/beyond.h"
 
 namespace frictab {
 
 namespace {
 
 using Columns = std::vector<const double*>;
-
-// States in the order of the table's inputs, with the law's and the table's answer.
-Columns columns_of(const Probe& reference) {
-  Columns pointers;
-  for (const auto& column : reference.states)
-    pointers.push_back(column.data());
-  return pointers;
-}
 
 double difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
@@ -36,6 +29,7 @@ double difference(double a, double b) {
 struct Subjects {
   std::vector<std::string> names; // the table's inputs
   Probe rows;
+  RowsBeyond beyond;
   Probe range;
   WorstCase worst;
   DriftBound bound;
@@ -81,18 +75,23 @@ Subjects prepare(const VerifyInput& input) {
       const auto values = input.rows->values(name);
       states.emplace_back(values.begin(), values.end());
     }
+    s.beyond = rows_beyond(input.table, states);
     s.rows = probe(law, table, std::move(states));
   }
   return s;
 }
 
-void compare_rows(DriftRecord& record, const Probe& reference, const std::vector<double>& answer) {
+void compare_rows(DriftRecord& record, const Probe& reference, const RowsBeyond& beyond,
+                  const std::vector<double>& answer) {
   std::vector<double> inside;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < reference.law.size(); ++i) {
+    if (beyond.kinds[i] == RowKind::refused) {
+      ++(std::isnan(answer[i]) ? record.n_refused : record.n_not_refused);
+      continue;
+    }
     const double d = difference(answer[i], reference.law[i]);
-    if (reference.outside[i]) {
-      ++record.n_outside;
+    if (beyond.kinds[i] == RowKind::clamped) {
       record.max_abs_outside_MPa = std::max(record.max_abs_outside_MPa, d);
       continue;
     }
@@ -101,6 +100,8 @@ void compare_rows(DriftRecord& record, const Probe& reference, const std::vector
     squares += d * d;
   }
   record.n_rows = reference.law.size();
+  record.n_outside = beyond.outside;
+  record.beyond = beyond.ends;
   if (inside.empty()) return;
   const auto count = static_cast<double>(inside.size());
   record.rows.mean_abs = sum / count;
@@ -138,18 +139,29 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
     if (reference == &s.rows)
-      compare_rows(record, *reference, tau);
+      compare_rows(record, *reference, s.beyond, tau);
     else
       compare_range(record, s, tau);
   }
-  record.passed =
-      record.rows.max_abs <= input.max_drift_MPa && record.worst_case_MPa <= input.max_drift_MPa;
+  record.passed = record.rows.max_abs <= input.max_drift_MPa &&
+                  record.worst_case_MPa <= input.max_drift_MPa && record.n_not_refused == 0;
   return record;
+}
+
+// The columns that a source takes: the direct form may need fewer states than the table.
+Columns columns_for(const Table& source, const Subjects& s, const Probe& reference) {
+  Columns columns;
+  for (const std::string& name : source.inputs()) {
+    const auto at = std::find(s.names.begin(), s.names.end(), name);
+    columns.push_back(reference.states[static_cast<std::size_t>(at - s.names.begin())].data());
+  }
+  return columns;
 }
 
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
                            const GeneratedSource& source, const BuildVariant& variant) {
-  const std::string subject = source.exporter->name + "/" + variant.name;
+  const std::string form = source.request.table.is_direct() ? " direct" : "";
+  const std::string subject = source.exporter->name + "/" + variant.name + form;
   if (!have_program(variant.command.front())) {
     DriftRecord record;
     record.model = input.model.name();
@@ -162,7 +174,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const Library library(compile_library(source.bundle, variant, directory.path()));
   return compare(input, s, subject, [&](const Probe& reference, std::vector<double>& tau) {
     source.exporter->drive(library.handle(), variant, source.request, reference.law.size(),
-                           columns_of(reference), tau);
+                           columns_for(source.request.table, s, reference), tau);
   });
 }
 

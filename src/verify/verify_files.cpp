@@ -18,9 +18,19 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
   std::string state;
   for (const auto& [name, value] : record.worst_state)
     state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", name, value);
+  const std::string answered =
+      record.n_not_refused == 0
+          ? ""
+          : fmt::format("; {} rows answered by a number where outside = error",
+                        record.n_not_refused);
   return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows; allowed "
-                     "{:.6g} MPa",
-                     record.worst_case_MPa, state, record.rows.max_abs, max_drift_MPa);
+                     "{:.6g} MPa{}",
+                     record.worst_case_MPa, state, record.rows.max_abs, max_drift_MPa, answered);
+}
+
+Json beyond_json(const BeyondEnd& end) {
+  return {{"axis", end.axis}, {"side", end.side}, {"outside", end.outside},
+          {"end", end.end},   {"rows", end.rows}, {"largest_excess", end.largest_excess}};
 }
 
 Json record_json(const DriftRecord& record) {
@@ -38,7 +48,12 @@ Json record_json(const DriftRecord& record) {
   j["share_outside"] = record.n_rows == 0 ? 0.0
                                           : static_cast<double>(record.n_outside) /
                                                 static_cast<double>(record.n_rows);
+  j["outside"] = Json::array();
+  for (const BeyondEnd& end : record.beyond)
+    j["outside"].push_back(beyond_json(end));
   j["max_abs_outside_MPa"] = record.max_abs_outside_MPa;
+  j["n_refused"] = record.n_refused;
+  if (record.n_not_refused > 0) j["n_not_refused"] = record.n_not_refused;
   j["worst_case_MPa"] = record.worst_case_MPa;
   j["worst_case_at"] = record.worst_state;
   j["n_points"] = record.n_points;
@@ -78,7 +93,12 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.n_rows = one.at("n_rows");
         r.n_outside = static_cast<std::size_t>(
             one.at("share_outside").get<double>() * static_cast<double>(r.n_rows) + 0.5);
+        for (const Json& end : one.at("outside"))
+          r.beyond.push_back({end.at("axis"), end.at("side"), end.at("outside"), end.at("end"),
+                              end.at("rows"), end.at("largest_excess")});
         r.max_abs_outside_MPa = one.at("max_abs_outside_MPa");
+        r.n_refused = one.at("n_refused");
+        r.n_not_refused = one.value("n_not_refused", std::size_t{0});
         r.worst_case_MPa = one.at("worst_case_MPa");
         r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();
         r.n_points = one.at("n_points");

@@ -41,6 +41,10 @@ static const double ft_value[@{n_values}] = {
 @{values}
 };
 
+@if extends
+@{piece}
+
+@end
 static double ft_tau(
     @{parameters},
     unsigned* outside) {
@@ -71,6 +75,12 @@ static double ft_tau(
 @end
 @if log_value
   value = exp(value);
+@end
+@for side in refusing
+  if (@{side.text}) return (double)NAN; /* outside = error */
+@end
+@if extends
+  if (@{extending}) value = ft_piece(@{piece_arguments}); /* outside = law */
 @end
   /* the formula of the header, in MPa */
   {
@@ -113,3 +123,5 @@ void frictab_tau_R_batch(
         &outside);
   }
 }
+
+@{count}

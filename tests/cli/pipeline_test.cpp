@@ -162,6 +162,67 @@ TEST_F(MainJob, ResultsOfAnEarlierRunDoNotLinger) {
   EXPECT_TRUE(fs::exists(directory.path("out/export/c/recipe.json")));
 }
 
+TEST_F(MainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
+  const std::vector<std::string> set = {"--set", "export.form=direct"};
+  ASSERT_EQ(run_frictab({"run", job, set[0], set[1]}).exit_code, 0);
+  for (const char* target : {"c", "abaqus_vfric"}) {
+    const auto recipe = nlohmann::json::parse(
+        directory.read(std::string("out/export/") + target + "/levanov/recipe.json"));
+    EXPECT_EQ(recipe.at("form"), "direct");
+  }
+  // The job file still says table: what counts is what was exported.
+  ASSERT_EQ(run_frictab({"verify", job}).exit_code, 0);
+  const auto verified = nlohmann::json::parse(directory.read("out/verify.json"));
+  std::size_t direct = 0;
+  for (const auto& record : verified.at("records"))
+    if (std::string(record.at("subject")).ends_with("/double direct") ||
+        record.at("subject") == "c/c99 direct") {
+      ++direct;
+      EXPECT_LT(record.at("worst_case_MPa"), 1e-9);
+    }
+  EXPECT_EQ(direct, 4U);
+  ASSERT_EQ(run_frictab({"export", job}).exit_code, 0);
+  EXPECT_NE(directory.read("out/export/c/levanov/recipe.json").find("\"form\": \"table\""),
+            std::string::npos);
+}
+
+TEST_F(MainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
+  const auto result = run_frictab({"run", job});
+  for (const char* part : {"Table or the law itself, as generated C", "law itself", "levanov"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  const bool verdict = result.out.find("export.form = \"direct\"") != std::string::npos ||
+                       result.out.find("times faster than the law") != std::string::npos;
+  EXPECT_TRUE(verdict) << result.out;
+  const auto json = nlohmann::json::parse(run_frictab({"run", job, "--json"}).out);
+  for (const auto& form : json.at("forms")) {
+    EXPECT_GT(form.at("table").at("bytes"), 0);
+    EXPECT_GT(form.at("direct").at("bytes"), 0);
+    EXPECT_GT(form.at("table").at("ns_per_query"), 0);
+    EXPECT_GT(form.at("direct").at("ns_per_query"), 0);
+    EXPECT_LT(form.at("direct").at("drift_MPa"), 1e-9);
+    EXPECT_LE(form.at("table").at("drift_MPa"), 0.5);
+  }
+  EXPECT_EQ(json.at("forms").size(), 2U);
+  EXPECT_EQ(directory.read("out/verify.json").find("ns_per_query"), std::string::npos);
+}
+
+TEST_F(MainJob, RowsOutsideTheRangeAreToldByAxisAndSide) {
+  const auto run = [&](const std::string& outside) {
+    return run_frictab({"run", job, "--set", "table.model=levanov", "--set",
+                        "table.axes.sigma_n_MPa={range = [800, 1800], outside = " + outside + "}"});
+  };
+  const auto clamp = run("\"clamp\"");
+  EXPECT_EQ(clamp.exit_code, 0) << clamp.out << clamp.err;
+  EXPECT_NE(clamp.out.find("  levanov        sigma_n_MPa above 1800: "), std::string::npos)
+      << clamp.out;
+  EXPECT_NE(clamp.out.find(" beyond, clamp\n"), std::string::npos) << clamp.out;
+  const auto law = run("[\"clamp\", \"law\"]");
+  EXPECT_EQ(law.exit_code, 0) << law.out << law.err;
+  EXPECT_NE(law.out.find(" beyond, law\n"), std::string::npos) << law.out;
+  EXPECT_NE(directory.read("out/verify.json").find("\"side\": \"above\""), std::string::npos);
+  EXPECT_NE(directory.read("out/report.html").find("sigma_n_MPa above 1800"), std::string::npos);
+}
+
 TEST_F(MainJob, FilesOfTheUserInTheOutputDirectoryStay) {
   directory.write("out/models/mine.json", "{}");
   directory.write("out/export/c/driver.c", "int x;");

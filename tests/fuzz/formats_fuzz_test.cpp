@@ -62,8 +62,22 @@ TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {
   fuzz(model_json(calibration.fits.front(), calibration), 4000,
        [](const std::string& text) { parse_model(text, "model.json"); });
   Verification verification{0.5, {}};
-  verification.records.push_back(
-      {"orowan", "table", true, "", {}, 5, 1, 0.1, 0.2, {{"psi", 2.0}}, 10, 0, true});
+  verification.records.push_back({"orowan",
+                                  "table",
+                                  true,
+                                  "",
+                                  {},
+                                  5,
+                                  1,
+                                  {{"psi", "above", "clamp", 20, 1, 3.5}},
+                                  0.1,
+                                  0,
+                                  0,
+                                  0.2,
+                                  {{"psi", 2.0}},
+                                  10,
+                                  0,
+                                  true});
   fuzz(verification_json(verification), 4000,
        [](const std::string& text) { parse_verification(text, "verify.json"); });
   fuzz(R"({"schema": "frictab/recipe/1", "files": ["a.c", "b.h", "recipe.json"]})", 4000,

@@ -113,9 +113,9 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   const nlohmann::json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
   EXPECT_EQ(out["entry"], "vfric");
   EXPECT_THAT(std::string(out["input_deck"]),
-              HasSubstr("*Friction, user, depvar=3, properties=3\n 4.47214, 110, 4.8e+08\n"));
+              HasSubstr("*Friction, user, depvar=4, properties=3\n 4.47214, 110, 4.8e+08\n"));
   EXPECT_EQ(out["properties"][2]["unit"], "Pa");
-  EXPECT_EQ(out["state_variables"].size(), 3u);
+  EXPECT_EQ(out["state_variables"].size(), 4u);
   EXPECT_THAT(std::string(out["signature_source"]),
               testing::AllOf(HasSubstr("verified:"), HasSubstr("Recalled")));
   EXPECT_THAT(std::string(out["data_origin"]), HasSubstr("synthetic"));

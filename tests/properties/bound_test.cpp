@@ -5,7 +5,6 @@
 
 #include "core/parallel.h"
 #include "support/sample_data.h"
-#include "support/sample_network.h"
 #include "table/bound.h"
 
 namespace frictab {

@@ -49,12 +49,36 @@ def spline(nodes, kinks, values, points):
     return total if total is not None else values
 
 
+def text(attribute):
+    return attribute.decode() if isinstance(attribute, bytes) else attribute
+
+
+def extension(attributes):
+    """The law's own formula of "value"; long ones go on in extension_2, ..."""
+    formula, part = "", 1
+    while (name := "extension" if part == 1 else f"extension_{part}") in attributes:
+        formula += text(attributes[name])
+        part += 1
+    return formula
+
+
+def beyond(scale, x):
+    """States beyond a side by what holds there, and where the law's formula takes the axis."""
+    low, high = scale[0], scale[-1]
+    below, above = (text(scale.attrs.get(f"outside_{side}", "clamp")) for side in ("low", "high"))
+    under, over = x < low, x > high
+    law = (under & (below == "law")) | (over & (above == "law"))
+    refused = ((x < low - 1e-6 * abs(low)) & (below == "error")
+               | (x > high + 1e-6 * abs(high)) & (above == "error"))
+    return law, refused, np.where(law, x, np.clip(x, low, high))
+
+
 def rebuild(path, states):
     with h5py.File(path) as f:
         value = f["value"]
         attributes = value.attrs
-        text = lambda a: a.decode() if isinstance(a, bytes) else a
-        nodes, points, kinks = [], [], []
+        nodes, points, kinks, held = [], [], [], {}
+        law, refused = np.zeros(len(states), bool), np.zeros(len(states), bool)
         for d in range(value.ndim):
             scale = value.dims[d][0]
             name = scale.name.lstrip("/")
@@ -62,6 +86,8 @@ def rebuild(path, states):
             nodes.append(np.log(scale[:]) if log else scale[:])
             x = states[name].to_numpy()
             points.append(np.log(x) if log else x)
+            goes_on, ends, held[name] = beyond(scale, x)
+            law, refused = law | goes_on, refused | ends
             bends = np.array(text(scale.attrs.get("kinks", "")).split(), float)
             kinks.append(np.flatnonzero(np.isin(scale[:], bends)))
         if text(attributes["interpolation"]) == "cubic":
@@ -77,14 +103,21 @@ def rebuild(path, states):
         names["value"] = tabulated
         functions = {n: getattr(np, n) for n in ("minimum", "maximum", "exp", "log", "sqrt", "sin",
                                                  "tanh", "arccos", "where")}
-        return eval(text(attributes["combine"]), {"__builtins__": {}}, {**functions, **names})
+        scope = {"__builtins__": {}}
+        if law.any():
+            formula = eval(extension(attributes), scope, {**functions, **names, **held})
+            names["value"] = np.where(law, formula, tabulated)
+        tau = eval(text(attributes["combine"]), scope, {**functions, **names})
+        return np.where(refused, np.nan, tau)
 
 
 def main():
     states = pd.read_csv(sys.argv[2], float_precision="round_trip")
     wanted = states.pop("tau_R_MPa").to_numpy()
     tau = np.broadcast_to(rebuild(sys.argv[1], states), wanted.shape)
-    difference = np.max(np.abs(tau - wanted) / np.maximum(np.abs(wanted), 1e-300))
+    both = np.isnan(tau) & np.isnan(wanted)
+    relative = np.abs(tau - wanted) / np.maximum(np.abs(wanted), 1e-300)
+    difference = np.max(np.where(both, 0, relative))
     data = xr.open_dataset(sys.argv[1])
     axes = [f"{d}[{data.sizes[d]}] {data[d].attrs['units']}" for d in data["value"].dims]
     assert all(d in data.coords for d in data["value"].dims)

@@ -7,6 +7,7 @@
 #include "calibrate/calibration.h"
 #include "core/random.h"
 #include "data/quantity.h"
+#include "models/neural_network.h"
 
 namespace frictab::test {
 
@@ -81,6 +82,26 @@ Model plausible_model(const Law& law) {
   else
     for (const Parameter& parameter : law.parameters)
       model.parameters.push_back(parameter.start);
+  return model;
+}
+
+Model network_model(std::size_t members, std::size_t hidden) {
+  Network network;
+  network.inputs = {{"sigma_n_MPa", false, 0, 0, 1600, 600},
+                    {"psi", true, 1, 0, 1.5, 0.9},
+                    {"v_rel_mm_s", true, 0.1, 1, 4, 1.2},
+                    {"T_contact_C", false, 0, 0, 110, 50},
+                    {"s_mm", true, 0, 0.5, 1.5, 1.3}};
+  network.hidden = hidden;
+  Random random(12);
+  for (std::size_t m = 0; m < members; ++m) {
+    network.members.emplace_back();
+    for (std::size_t w = 0; w < Network::weights(5, network.hidden); ++w)
+      network.members.back().push_back(0.2 * random.normal());
+  }
+  Model model;
+  model.law = made(neural_network(network));
+  model.parameters = {0.08};
   return model;
 }
 

@@ -6,6 +6,8 @@
 
 #include "core/random.h"
 #include "data/quantity.h"
+#include "support/sample_data.h"
+#include "table/direct.h"
 
 namespace frictab::test {
 
@@ -142,12 +144,68 @@ Table spline_axis_table() {
   return table;
 }
 
+namespace {
+
+// A power law of pressure and speed that bends with temperature.
+Expr power_law() {
+  const Expr T = Expr::symbol("T_contact_C");
+  return Expr::symbol("mu0") * pow(Expr::symbol("sigma_n_MPa") / 1000, -0.2) *
+         exp(0.03 * log(maximum(Expr::symbol("v_rel_mm_s"), 1))) *
+         where_le(T, 120, 1 - 0.001 * T, 0.88 - 0.002 * (minimum(T, 400) - 120));
+}
+
+} // namespace
+
+Table sides_table() {
+  Table table;
+  table.model = "sides";
+  table.log_value = true;
+  table.axes = {axis("sigma_n_MPa", true, {500, 1100, 2750}),
+                axis("v_rel_mm_s", true, even(5, 500, 4, true)),
+                axis("T_contact_C", false, {20, 90, 200})};
+  table.axes[0].below = Outside::law;
+  table.axes[0].above = Outside::clamp;
+  table.axes[1].below = Outside::clamp;
+  table.axes[1].above = Outside::error;
+  table.axes[2].below = Outside::error;
+  table.axes[2].above = Outside::law;
+  fill(table, 0.03, 0.3);
+  table.extension = power_law();
+  table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
+  table.constants = {{"m", 0.8}, {"mu0", 0.12}};
+  return table;
+}
+
+Table direct_table() {
+  Table table = sides_table();
+  table.model = "direct";
+  table.value.clear();
+  for (TableAxis& a : table.axes)
+    a.nodes = {a.nodes.front(), a.nodes.back()};
+  table.log_value = false;
+  return table;
+}
+
+Table direct_network() {
+  const Model model = test::network_model(3, 4);
+  Table table;
+  table.model = "network";
+  table.axes = {axis("sigma_n_MPa", false, {500, 2750}), axis("psi", true, {1, 20}),
+                axis("v_rel_mm_s", true, {5, 500}), axis("T_contact_C", false, {20, 200}),
+                axis("s_mm", false, {0, 40})};
+  table.axes[3].above = Outside::law;
+  add_extension(table, model);
+  table.combine = limited_combine(model);
+  return table;
+}
+
 const std::vector<NamedTable>& sample_tables() {
   static const std::vector<NamedTable> tables = {
-      {"constant", constant_table()},      {"one_axis", one_axis_table()},
-      {"four_axes", four_axis_table()},    {"branching", branching_table()},
-      {"traced", traced_table()},          {"spline", spline_table()},
-      {"spline_axis", spline_axis_table()}};
+      {"constant", constant_table()},       {"one_axis", one_axis_table()},
+      {"four_axes", four_axis_table()},     {"branching", branching_table()},
+      {"traced", traced_table()},           {"spline", spline_table()},
+      {"spline_axis", spline_axis_table()}, {"sides", sides_table()},
+      {"direct", direct_table()},           {"direct_network", direct_network()}};
   return tables;
 }
 

@@ -17,6 +17,10 @@ Table traced_table();    // six axes, one of them a column that is not canonical
 Table spline_table();    // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
 Table spline_axis_table(); // cubic, one axis
 
+Table sides_table();    // each way to go on beyond an end; uneven nodes; ln value
+Table direct_table();   // no values: a closed form, on some sides held at its range
+Table direct_network(); // no values: three nets of four units
+
 struct NamedTable {
   std::string name;
   Table table;

@@ -167,6 +167,21 @@ TEST(JobMessages, SayTheAllowedWords) {
             "job.toml:4:11: error: table.axes.psi.spacing must be \"linear\" or \"log\", not the "
             "text \"logg\"\n"
             "  hint: did you mean \"log\"?");
+  EXPECT_EQ(with("[table.axes.psi]\n"
+                 "outside = \"clmp\""),
+            "job.toml:4:11: error: table.axes.psi.outside must be \"clamp\", \"error\" or \"law\", "
+            "not the text \"clmp\"\n"
+            "  hint: did you mean \"clamp\"?");
+  EXPECT_EQ(with("[table.axes.psi]\n"
+                 "outside = [\"law\", \"law\", \"clamp\"]"),
+            "job.toml:4:11: error: table.axes.psi.outside must be one word for both ends or [low "
+            "end, high end], not 3 words\n"
+            "  hint: for example outside = [\"clamp\", \"law\"]");
+  EXPECT_EQ(with("[export]\n"
+                 "form = \"drect\""),
+            "job.toml:4:8: error: export.form must be \"table\" or \"direct\", not the text "
+            "\"drect\"\n"
+            "  hint: did you mean \"direct\"?");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"const:1\""),
             "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\" or "

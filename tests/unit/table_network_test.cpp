@@ -1,7 +1,7 @@
 // Tables of a law that bends in all its states: where nodes lie, and how few a spline needs.
 #include <gtest/gtest.h>
 
-#include "support/sample_network.h"
+#include "support/sample_data.h"
 #include "table/drift.h"
 
 namespace frictab {

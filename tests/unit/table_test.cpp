@@ -2,13 +2,13 @@
 #include <cmath>
 #include <fstream>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "io/hdf5.h"
+#include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
 #include "table/drift.h"
@@ -84,31 +84,8 @@ TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
   }
 }
 
-// Python rebuilds tau_R of the file.
 void expect_rebuilt(const Table& table) {
-  const std::string python = FRICTAB_PYTHON;
-  const test::TemporaryDirectory directory;
-  write_table(table, directory.path("table.h5"));
-  const TableFunction function(table);
-  const auto states = test::random_states(function.inputs(), 500, 17);
-  std::string csv;
-  for (const std::string& name : function.inputs())
-    csv += name + ",";
-  csv += "tau_R_MPa\n";
-  for (std::size_t i = 0; i < 500; ++i) {
-    std::vector<double> state;
-    for (const auto& column : states) {
-      state.push_back(column[i]);
-      csv += fmt::format("{},", column[i]);
-    }
-    csv += fmt::format("{}\n", function(state));
-  }
-  const std::string file = directory.write("states.csv", csv);
-  const auto result =
-      test::run_command({python, std::string(FRICTAB_SOURCE_DIR) + "/tests/support/rebuild_tau.py",
-                         directory.path("table.h5"), file});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.substr(0, 3), "ok ") << result.out;
+  EXPECT_EQ(test::rebuilt_by_python(table).substr(0, 3), "ok ");
 }
 
 TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {

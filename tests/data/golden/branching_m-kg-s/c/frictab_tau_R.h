@@ -52,6 +52,16 @@ void frictab_tau_R_batch(
     const double* T_contact_C, const double* s_m, const double* sigma_f_Pa,
     double* tau);
 
+/* Adds how many of n states lie outside, to counts of your own (two per axis, by the bits above:
+ * first those below its range, then those above). Nothing is counted inside the library, so that
+ * threads stay free: each has its own counts, added up at the end.
+ */
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_Pa, const double* psi, const double* v_rel_m_s,
+    const double* T_contact_C, const double* s_m, const double* sigma_f_Pa,
+    unsigned long* counts);
+
 #ifdef __cplusplus
 }
 #endif

@@ -24,17 +24,18 @@ C     v_rel_mm_s: |dSlipFric|/dTimCur (0 where dTimCur = 0); 0 .. 50
 C       mm/s
 C     s_mm: STATEV(1), accumulated slip under pressure; 0 .. 40 mm
 C     sigma_f_MPa: property 1; no axis, any value
-C     Outside the range the table's value at the nearest edge is
-C     used; stress and flow stress enter the formula unchanged.
+C     Outside the range the table's value at the nearest edge is used;
+C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=1; a property the deck does not give
 C     takes the value in brackets):
 C     1 flow stress of the workpiece, MPa (not known: NaN until it is
 C       given)
-C     STATEV (DEPVAR=3), by surface node:
+C     STATEV (DEPVAR=4), by surface node:
 C     1 accumulated slip (mm), 2 friction work per area
-C     (MPa*mm), 3 peak pressure (MPa).
+C     (MPa*mm), 3 peak pressure (MPa), 4 increments in
+C     which the state was outside the range.
 C     The law needs STATEV(1): with DEPVAR=0 the sliding distance
 C     is taken as 0.
 C
@@ -47,7 +48,8 @@ C       manual page, names as in the v2024 reference; order and count
 C       the same in older releases. Recalled, check against your
 C       release: nTemp = 1 where temperatures exist, numDefTfv = 1 for
 C       an analytical rigid surface, negative fStickForce, area 1 of
-C       node-based surfaces
+C       node-based surfaces. XPLB_ABQERR (only where outside = error) is
+C       called as public routines do
 C
       subroutine vfric(
 C Write only -
@@ -88,6 +90,8 @@ C     precision.
       logical ftnan
       external fttau, ftnan
       external ftqnan
+      logical ftout
+      external ftout
 C
 C     sigma_f_MPa: property 1
       x(4) = ftqnan()
@@ -158,6 +162,9 @@ C           the force then and the force now, times its slip.
               if (press .gt. comp)
      &          statev(3,node) = real(press, kind(statev))
             end if
+            if (nStateVar .ge. 4) then
+              if (ftout(x)) statev(4,node) = statev(4,node) + 1
+            end if
           end if
         end if
         if (nFricDir .ge. 1)
@@ -221,6 +228,18 @@ C     shape number
       t20 = ftwhle(t4, 0.40000000000000002D0, t10, t19)
       t21 = ftmin(t20, t2)
       fttau = t21
+      return
+      end
+C
+C     True where x lies outside the range of an axis.
+      logical function ftout(x)
+      implicit none
+      double precision x(4)
+      ftout = .false.
+      if (x(2) .lt. 0.0D0 .or.
+     &  x(2) .gt. 50.0D0) ftout = .true.
+      if (x(3) .lt. 0.0D0 .or.
+     &  x(3) .gt. 40.0D0) ftout = .true.
       return
       end
 C

@@ -233,3 +233,27 @@ void frictab_tau_R_batch(
         &outside);
   }
 }
+
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    unsigned long* counts) {
+  size_t i;
+  (void)sigma_n_MPa;
+  (void)psi;
+  (void)T_contact_C;
+  (void)sigma_f_MPa;
+  for (i = 0; i < n; ++i) {
+    {
+      const double x = v_rel_mm_s[i]; /* v_rel_mm_s */
+      counts[0] += x < 0.0 ? 1ul : 0ul;
+      counts[1] += x > 50.0 ? 1ul : 0ul;
+    }
+    {
+      const double x = s_mm[i]; /* s_mm */
+      counts[2] += x < 0.0 ? 1ul : 0ul;
+      counts[3] += x > 40.0 ? 1ul : 0ul;
+    }
+  }
+}

@@ -52,6 +52,16 @@ void frictab_tau_R_batch(
     const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
     double* tau);
 
+/* Adds how many of n states lie outside, to counts of your own (two per axis, by the bits above:
+ * first those below its range, then those above). Nothing is counted inside the library, so that
+ * threads stay free: each has its own counts, added up at the end.
+ */
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    unsigned long* counts);
+
 #ifdef __cplusplus
 }
 #endif

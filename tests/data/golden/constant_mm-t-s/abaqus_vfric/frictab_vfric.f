@@ -12,8 +12,8 @@ C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: fNormal/areaSec of the surface node; no axis, any
 C       value
-C     Outside the range the table's value at the nearest edge is
-C     used; stress and flow stress enter the formula unchanged.
+C     Outside the range the table's value at the nearest edge is used;
+C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=0; a property the deck does not give
@@ -32,7 +32,8 @@ C       manual page, names as in the v2024 reference; order and count
 C       the same in older releases. Recalled, check against your
 C       release: nTemp = 1 where temperatures exist, numDefTfv = 1 for
 C       an analytical rigid surface, negative fStickForce, area 1 of
-C       node-based surfaces
+C       node-based surfaces. XPLB_ABQERR (only where outside = error) is
+C       called as public routines do
 C
       subroutine vfric(
 C Write only -

@@ -189,3 +189,20 @@ void frictab_tau_R_batch(
         &outside);
   }
 }
+
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    unsigned long* counts) {
+  size_t i;
+  (void)sigma_n_MPa;
+  (void)psi;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  (void)n;
+  (void)counts;
+  (void)i;
+}

@@ -198,3 +198,23 @@ void frictab_tau_R_batch(
         &outside);
   }
 }
+
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    unsigned long* counts) {
+  size_t i;
+  (void)sigma_n_MPa;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < n; ++i) {
+    {
+      const double x = psi[i]; /* psi */
+      counts[0] += x < 1.0 ? 1ul : 0ul;
+      counts[1] += x > 20.0 ? 1ul : 0ul;
+    }
+  }
+}

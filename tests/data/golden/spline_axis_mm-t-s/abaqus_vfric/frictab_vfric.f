@@ -11,16 +11,17 @@ C     tau_R_MPa = value
 C
 C     States, where they come from and the table's range:
 C     psi: property 1; 1 .. 20
-C     Outside the range the table's value at the nearest edge is
-C     used; stress and flow stress enter the formula unchanged.
+C     Outside the range the table's value at the nearest edge is used;
+C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=1; a property the deck does not give
 C     takes the value in brackets):
 C     1 surface expansion ratio A1/A0, 1 (10.5)
-C     STATEV (DEPVAR=3), by surface node:
+C     STATEV (DEPVAR=4), by surface node:
 C     1 accumulated slip (mm), 2 friction work per area
-C     (MPa*mm), 3 peak pressure (MPa).
+C     (MPa*mm), 3 peak pressure (MPa), 4 increments in
+C     which the state was outside the range.
 C
 C     Where a node has no area (areaSec <= 0) there is no pressure
 C     to look up, and its friction force is 0.
@@ -31,7 +32,8 @@ C       manual page, names as in the v2024 reference; order and count
 C       the same in older releases. Recalled, check against your
 C       release: nTemp = 1 where temperatures exist, numDefTfv = 1 for
 C       an analytical rigid surface, negative fStickForce, area 1 of
-C       node-based surfaces
+C       node-based surfaces. XPLB_ABQERR (only where outside = error) is
+C       called as public routines do
 C
       subroutine vfric(
 C Write only -
@@ -70,6 +72,8 @@ C     precision.
       double precision fttau
       logical ftnan
       external fttau, ftnan
+      logical ftout
+      external ftout
 C
 C     psi: property 1
       x(1) = 10.5D0
@@ -137,6 +141,9 @@ C           the force then and the force now, times its slip.
               if (press .gt. comp)
      &          statev(3,node) = real(press, kind(statev))
             end if
+            if (nStateVar .ge. 4) then
+              if (ftout(x)) statev(4,node) = statev(4,node) + 1
+            end if
           end if
         end if
         if (nFricDir .ge. 1)
@@ -163,6 +170,16 @@ C     x(1) psi, surface expansion ratio A1/A0
       u(1) = x(1)
       val = ftintp(u)
       fttau = val
+      return
+      end
+C
+C     True where x lies outside the range of an axis.
+      logical function ftout(x)
+      implicit none
+      double precision x(1)
+      ftout = .false.
+      if (x(1) .lt. 1.0D0 .or.
+     &  x(1) .gt. 20.0D0) ftout = .true.
       return
       end
 C

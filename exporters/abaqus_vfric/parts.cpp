@@ -1,0 +1,221 @@
+// Parts of VFRIC's source: names, comments, the law's own formula, the sides of the axes.
+#include "parts.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "codegen/layer.h"
+#include "core/text.h"
+#include "table/outside.h"
+
+namespace frictab::abaqus_vfric {
+
+namespace {
+
+constexpr std::size_t comment_width = 66; // columns 7..72
+
+} // namespace
+
+TemplateValues item(std::string text) {
+  TemplateValues values;
+  values.text["text"] = std::move(text);
+  return values;
+}
+
+Lines comments(const std::vector<std::string>& texts) {
+  Lines lines;
+  for (const std::string& text : texts) {
+    const std::vector<std::string> pieces = wrap_text(comment_text(text), comment_width - 2);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      lines.push_back(item((i == 0 ? "" : "  ") + pieces[i].substr(0, comment_width - 2)));
+  }
+  return lines;
+}
+
+std::string clip(const std::string& text) {
+  return wrap_text(comment_text(text), comment_width - 4)[0].substr(0, comment_width - 4);
+}
+
+std::map<std::string, std::string> symbol_names(const Table& table) {
+  std::map<std::string, std::string> rename{{"value", "val"}};
+  const std::vector<std::string> inputs = table.inputs();
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    rename[inputs[i]] = fmt::format("x({})", i + 1);
+  std::size_t c = 0;
+  for (const auto& [name, value] : table.constants)
+    rename[name] = fmt::format("c{}", ++c);
+  return rename;
+}
+
+Lines declarations(const std::vector<std::string>& names) {
+  constexpr std::size_t per_line = 8;
+  Lines lines;
+  for (std::size_t i = 0; i < names.size(); i += per_line) {
+    const std::size_t end = std::min(names.size(), i + per_line);
+    lines.push_back(
+        item(fixed_form("double precision " + join(std::span(names).subspan(i, end - i), ", "))));
+  }
+  return lines;
+}
+
+Lines constant_lines(const Table& table, const Expr& formula) {
+  const std::set<std::string> used = symbols(formula);
+  const auto rename = symbol_names(table);
+  Lines constants;
+  for (const auto& [name, number] : table.constants) {
+    if (!used.count(name)) continue;
+    TemplateValues constant;
+    constant.text = {{"index", rename.at(name).substr(1)},
+                     {"comment", clip(name)},
+                     {"value", fortran_number(number)}};
+    constants.push_back(constant);
+  }
+  return constants;
+}
+
+std::vector<std::string> helpers_of(const std::string& statements) {
+  std::vector<std::string> helpers;
+  for (const char* helper : {"ftmin", "ftmax", "ftwhle"})
+    if (statements.find(std::string(helper) + "(") != std::string::npos) helpers.push_back(helper);
+  return helpers;
+}
+
+namespace {
+
+Lines items(const std::vector<std::string>& texts) {
+  Lines lines;
+  for (const std::string& text : texts)
+    lines.push_back(item(text));
+  return lines;
+}
+
+// What ftpiec declares and does, gathered while its formula is written.
+struct Body {
+  std::map<std::string, std::string> rename;
+  std::vector<std::string> names; // of double precision variables
+  std::vector<std::string> held, before;
+  std::string all; // every statement, to see which helpers they call
+
+  std::string add(const Statements& code, std::vector<std::string>& lines) {
+    names.insert(names.end(), code.temporaries.begin(), code.temporaries.end());
+    for (const std::string& line : code.lines) {
+      all += line + "\n";
+      lines.push_back(fixed_form(line));
+    }
+    return code.result;
+  }
+};
+
+// h1 stands for x(1) where an axis is held at an end.
+void hold(Body& body, const Table& table) {
+  for (const AxisEnds& axis : axis_ends(table)) {
+    if (!symbols(*table.extension).count(axis.name)) continue;
+    if (axis.below == Outside::law && axis.above == Outside::law) continue;
+    const std::string h = fmt::format("h{}", axis.input + 1);
+    body.names.push_back(h);
+    body.held.push_back(fixed_form(h + " = " + body.rename.at(axis.name)));
+    const auto end = [&](const char* relation, double x) {
+      const std::string number = fortran_number(x);
+      body.held.push_back(
+          fixed_form(fmt::format("if ({0} {1} {2}) {0} = {2}", h, relation, number)));
+    };
+    if (axis.below != Outside::law) end(".lt.", axis.low);
+    if (axis.above != Outside::law) end(".gt.", axis.high);
+    body.rename[axis.name] = h;
+  }
+}
+
+void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Body& body) {
+  const UnitLayer none;
+  const UnitLayer& l = layer ? *layer : none;
+  Lines features;
+  for (std::size_t f = 0; f < l.features.size(); ++f) {
+    const Statements code =
+        to_statements(l.features[f], Language::fortran, body.rename, fmt::format("f{}t", f));
+    TemplateValues feature;
+    feature.text = {{"index", std::to_string(f)},
+                    {"name", body.add(code, body.before)},
+                    {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}};
+    features.push_back(feature);
+  }
+  for (std::size_t m = 0; m < l.outputs; ++m)
+    body.rename[layer_output(m)] = fmt::format("net({})", m + 1);
+  values.flags["has_layer"] = layer.has_value();
+  values.lists["features"] = features;
+  values.text["units"] = std::to_string(l.units());
+  values.text["outputs"] = std::to_string(l.outputs);
+  values.text["data_bias"] = fixed_form_data("bias", l.bias);
+  values.text["data_gain"] = fixed_form_data("gain", l.gain);
+  values.text["data_offs"] = fixed_form_data("offs", l.offset);
+}
+
+// Template texts end with a line break of their own.
+std::string without_last_break(std::string text) {
+  if (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+} // namespace
+
+Piece piece(const Table& table) {
+  TemplateValues values;
+  Body body;
+  body.rename = symbol_names(table);
+  hold(body, table);
+  const LayeredFormula formula = split_layer(*table.extension);
+  add_layer(values, formula.layer, body);
+  std::vector<std::string> statements;
+  values.text["result"] =
+      body.add(to_statements(formula.rest, Language::fortran, body.rename), statements);
+  values.text["quantity"] = comment_text(table.quantity);
+  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.lists["declarations"] = declarations(body.names);
+  values.lists["constants"] = constant_lines(table, *table.extension);
+  values.lists["held"] = items(body.held);
+  values.lists["before"] = items(body.before);
+  values.lists["statements"] = items(statements);
+  Piece out;
+  out.helpers = helpers_of(body.all);
+  values.lists["helpers"] = items(out.helpers);
+  out.text = without_last_break(render_template("abaqus_vfric/frictab_piece.f", values));
+  return out;
+}
+
+Lines sides(const Table& table, Outside kind) {
+  Lines lines;
+  for (const AxisEnds& axis : axis_ends(table)) {
+    const bool refuses = kind == Outside::error;
+    const auto add = [&](const char* relation, double limit) {
+      TemplateValues side;
+      side.text = {{"index", std::to_string(axis.input + 1)},
+                   {"relation", relation},
+                   {"limit", fortran_number(limit)}};
+      lines.push_back(side);
+    };
+    if (axis.below == kind) add(".lt.", refuses ? axis.refused_below : axis.low);
+    if (axis.above == kind) add(".gt.", refuses ? axis.refused_above : axis.high);
+  }
+  return lines;
+}
+
+std::string stop(const Table& table) {
+  TemplateValues values;
+  Lines refusing = sides(table, Outside::error);
+  std::size_t side = 0;
+  const auto say = [&](const AxisEnds& axis, const char* where, double end) {
+    std::string name = comment_text(axis.name).substr(0, 30);
+    for (char& c : name)
+      if (c == '\'' || c == '%') c = ' '; // the solver's messages have their own use for %
+    refusing[side++].text["name"] = fmt::format("{} {} {:.6g}", name, where, end);
+  };
+  for (const AxisEnds& axis : axis_ends(table)) {
+    if (axis.below == Outside::error) say(axis, "below", axis.low);
+    if (axis.above == Outside::error) say(axis, "above", axis.high);
+  }
+  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.lists["refusing"] = refusing;
+  return without_last_break(render_template("abaqus_vfric/frictab_stop.f", values));
+}
+
+} // namespace frictab::abaqus_vfric

@@ -1,0 +1,48 @@
+// What the parts of VFRIC's source are filled with.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "codegen/fill.h"
+#include "codegen/template.h"
+
+namespace frictab::abaqus_vfric {
+
+using Lines = std::vector<TemplateValues>;
+
+TemplateValues item(std::string text);
+
+// Comment lines; what does not fit goes on, set in by two blanks.
+Lines comments(const std::vector<std::string>& texts);
+
+// The first line of a remark: what follows is in the head of the file.
+std::string clip(const std::string& text);
+
+// "double precision t1, t2, ..." in lines of eight.
+Lines declarations(const std::vector<std::string>& names);
+
+// States as x(1), ..., constants as c1, ..., "value" as val.
+std::map<std::string, std::string> symbol_names(const Table& table);
+
+// The constants that a formula uses, as named constants.
+Lines constant_lines(const Table& table, const Expr& formula);
+
+// ftmin, ftmax, ftwhle, where these statements call them.
+std::vector<std::string> helpers_of(const std::string& statements);
+
+// The law's own formula, ftpiec, and the helpers that it calls.
+struct Piece {
+  std::string text;
+  std::vector<std::string> helpers;
+};
+Piece piece(const Table& table);
+
+// "x(index) relation limit" for each side of that kind.
+Lines sides(const Table& table, Outside kind);
+
+// ftstop: the end of an analysis that leaves the range where that is an error.
+std::string stop(const Table& table);
+
+} // namespace frictab::abaqus_vfric

@@ -1,0 +1,298 @@
+// Pieces of the C sources that table and direct form share.
+#include "parts.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "codegen/layer.h"
+#include "core/text.h"
+#include "table/outside.h"
+
+namespace frictab::c_target {
+
+TemplateValues item(std::string text) {
+  TemplateValues values;
+  values.text["text"] = std::move(text);
+  return values;
+}
+
+Lines items(const std::vector<std::string>& texts) {
+  Lines lines;
+  for (const std::string& text : texts)
+    lines.push_back(item(text));
+  return lines;
+}
+
+std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
+                                    std::string_view type) {
+  std::vector<std::string> pieces;
+  for (const InputArgument& input : inputs)
+    pieces.push_back(fmt::format("{} {}", type, input.argument));
+  return pieces;
+}
+
+std::string lines(const std::vector<std::string>& pieces) {
+  return number_lines(pieces, 90, "");
+}
+
+std::string canonical(const InputArgument& input, const std::string& element) {
+  const std::string argument = input.argument + element;
+  if (input.solver.times != 1)
+    return fmt::format("{} * {}", argument, c_number(input.solver.times));
+  if (input.solver.over != 1) return fmt::format("{} / {}", argument, c_number(input.solver.over));
+  return argument;
+}
+
+std::map<std::string, std::string> symbol_names(const Table& table,
+                                                const std::vector<InputArgument>& inputs) {
+  std::map<std::string, std::string> rename{{"value", "value"}};
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    rename[inputs[i].name] = fmt::format("x{}", i + 1);
+  std::size_t c = 0;
+  for (const auto& [name, value] : table.constants)
+    rename[name] = fmt::format("c{}", ++c);
+  return rename;
+}
+
+namespace {
+
+std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string& name) {
+  std::size_t i = 0;
+  while (inputs[i].name != name)
+    ++i;
+  return i;
+}
+
+// The states of the law's own formula, as arguments of ft_piece.
+std::vector<std::string> piece_states(const Table& table,
+                                      const std::vector<InputArgument>& inputs) {
+  const std::set<std::string> used = symbols(*table.extension);
+  const auto rename = symbol_names(table, inputs);
+  std::vector<std::string> states;
+  for (const InputArgument& input : inputs)
+    if (used.count(input.name)) states.push_back(rename.at(input.name));
+  return states;
+}
+
+std::string numbers(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values)
+    texts.push_back(c_number(value));
+  return number_lines(texts, 98, "    ");
+}
+
+Lines constants_of(const Table& table, const Expr& formula) {
+  const std::set<std::string> used = symbols(formula);
+  Lines constants;
+  std::size_t index = 0;
+  for (const auto& [name, number] : table.constants) {
+    ++index;
+    if (!used.count(name)) continue;
+    TemplateValues constant;
+    constant.text = {{"index", std::to_string(index)},
+                     {"value", c_number(number)},
+                     {"name", comment_text(name)}};
+    constants.push_back(constant);
+  }
+  return constants;
+}
+
+// Axes where the formula is held at an end: h1 stands for x1 there.
+Lines held_axes(const Table& table, std::map<std::string, std::string>& rename) {
+  Lines held;
+  for (const AxisEnds& axis : axis_ends(table)) {
+    if (!symbols(*table.extension).count(axis.name)) continue;
+    const std::string x = rename.at(axis.name), h = "h" + x.substr(1);
+    std::string value = x;
+    if (axis.above != Outside::law)
+      value = fmt::format("{0} > {1} ? {1} : {2}", x, c_number(axis.high), value);
+    if (axis.below != Outside::law)
+      value = fmt::format("{0} < {1} ? {1} : {2}", x, c_number(axis.low), value);
+    if (value == x) continue;
+    TemplateValues one;
+    one.text = {{"name", h}, {"value", value}};
+    held.push_back(one);
+    rename[axis.name] = h;
+  }
+  return held;
+}
+
+void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
+               std::map<std::string, std::string>& rename) {
+  const UnitLayer none;
+  const UnitLayer& l = layer ? *layer : none;
+  Lines before, features;
+  for (std::size_t f = 0; f < l.features.size(); ++f) {
+    const Statements code =
+        to_statements(l.features[f], Language::c, rename, fmt::format("f{}_", f));
+    for (const std::string& line : code.lines)
+      before.push_back(item(line));
+    TemplateValues feature;
+    feature.text = {
+        {"index", std::to_string(f)}, {"name", code.result}, {"weights", numbers(l.weight[f])}};
+    features.push_back(feature);
+  }
+  for (std::size_t m = 0; m < l.outputs; ++m)
+    rename[layer_output(m)] = fmt::format("net[{}]", m);
+  values.flags["has_layer"] = layer.has_value();
+  values.lists["before"] = before;
+  values.lists["features"] = features;
+  values.text["units"] = std::to_string(l.units());
+  values.text["outputs"] = std::to_string(l.outputs);
+  values.text["per_output"] = std::to_string(l.outputs ? l.units() / l.outputs : 0);
+  values.text["bias"] = numbers(l.bias);
+  values.text["gain"] = numbers(l.gain);
+  values.text["offset"] = numbers(l.offset);
+}
+
+// Template texts end with a line break of their own.
+std::string without_last_break(std::string text) {
+  if (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+std::vector<std::string> sides(const Table& table, const std::vector<InputArgument>& inputs,
+                               Outside kind) {
+  const auto rename = symbol_names(table, inputs);
+  std::vector<std::string> tests;
+  for (const AxisEnds& axis : axis_ends(table)) {
+    const bool refuses = kind == Outside::error;
+    const std::string& x = rename.at(axis.name);
+    if (axis.below == kind)
+      tests.push_back(x + " < " + c_number(refuses ? axis.refused_below : axis.low));
+    if (axis.above == kind)
+      tests.push_back(x + " > " + c_number(refuses ? axis.refused_above : axis.high));
+  }
+  return tests;
+}
+
+} // namespace
+
+void add_state(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
+               const Expr& formula) {
+  Lines used;
+  std::vector<std::string> names, arrays, unused_arrays;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    names.push_back(inputs[i].argument);
+    arrays.push_back(inputs[i].used ? inputs[i].argument + "[i]" : "0.0");
+    if (!inputs[i].used) unused_arrays.push_back(inputs[i].argument);
+    if (!inputs[i].used) continue;
+    TemplateValues input;
+    input.text = {{"index", std::to_string(i + 1)},
+                  {"canonical", canonical(inputs[i])},
+                  {"name", comment_text(inputs[i].name)}};
+    used.push_back(input);
+  }
+  values.lists["used"] = used;
+  values.lists["constants"] = constants_of(table, formula);
+  values.lists["unused_arrays"] = items(unused_arrays);
+  values.text["parameters"] = lines(parameters(inputs, "double"));
+  values.text["arrays"] = lines(parameters(inputs, "const double*"));
+  values.text["names"] = lines(names);
+  values.text["items"] = lines(arrays);
+}
+
+std::string piece_arguments(const Table& table, const std::vector<InputArgument>& inputs) {
+  return join(piece_states(table, inputs), ", ");
+}
+
+std::string piece(const Table& table, const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> states;
+  for (const std::string& state : piece_states(table, inputs))
+    states.push_back("double " + state);
+  auto rename = symbol_names(table, inputs);
+  TemplateValues values;
+  values.lists["held"] = held_axes(table, rename);
+  values.lists["constants"] = constants_of(table, *table.extension);
+  const LayeredFormula formula = split_layer(*table.extension);
+  add_layer(values, formula.layer, rename);
+  const Statements code = to_statements(formula.rest, Language::c, rename);
+  values.lists["statements"] = items(code.lines);
+  values.text["result"] = code.result;
+  values.text["quantity"] = comment_text(table.quantity);
+  values.text["parameters"] = states.empty() ? "void" : lines(states);
+  return without_last_break(render_template("c/frictab_piece.c", values));
+}
+
+std::vector<std::string> refusing_sides(const Table& table,
+                                        const std::vector<InputArgument>& inputs) {
+  return sides(table, inputs, Outside::error);
+}
+
+std::vector<std::string> extending_sides(const Table& table,
+                                         const std::vector<InputArgument>& inputs) {
+  return sides(table, inputs, Outside::law);
+}
+
+namespace {
+
+Lines counted_axes(const Table& table, const std::vector<InputArgument>& inputs,
+                   const std::string& element) {
+  Lines axes;
+  for (const AxisEnds& axis : axis_ends(table)) {
+    const InputArgument& input = inputs[index_of(inputs, axis.name)];
+    TemplateValues one;
+    one.text = {{"canonical", canonical(input, element)},
+                {"name", comment_text(axis.name)},
+                {"low", c_number(axis.low)},
+                {"high", c_number(axis.high)}};
+    axes.push_back(one);
+  }
+  return axes;
+}
+
+std::vector<std::string> not_axes(const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> names;
+  for (const InputArgument& input : inputs)
+    if (!input.axis) names.push_back(input.argument);
+  return names;
+}
+
+} // namespace
+
+std::string count_function(const Table& table, const std::vector<InputArgument>& inputs) {
+  TemplateValues values;
+  values.text["arrays"] = lines(parameters(inputs, "const double*"));
+  values.lists["not_axes"] = items(not_axes(inputs));
+  values.lists["axes"] = counted_axes(table, inputs, "[i]");
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    values.lists["axes"][a].text["first"] = std::to_string(2 * a);
+    values.lists["axes"][a].text["second"] = std::to_string(2 * a + 1);
+  }
+  values.flags["has_axes"] = !table.axes.empty();
+  return without_last_break(render_template("c/frictab_count.c", values));
+}
+
+std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+  const Table& table = request.table;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
+  TemplateValues values;
+  add_state(values, table, inputs, table.combine);
+  const std::string law = piece(table, inputs), all = law + join(code.lines, "\n");
+  const auto calls = [&](const char* helper) { return all.find(helper) != std::string::npos; };
+  values.flags = {{"uses_min", calls("ft_min(")},
+                  {"uses_max", calls("ft_max(")},
+                  {"uses_where", calls("ft_where_le(")}};
+  values.text["model"] = comment_text(table.model);
+  values.text["version"] = FRICTAB_VERSION;
+  values.text["piece"] = law;
+  values.text["piece_arguments"] = piece_arguments(table, inputs);
+  values.text["result"] = stress.same() ? code.result : code.result + " * " + c_number(stress.over);
+  values.text["count"] = count_function(table, inputs);
+  std::vector<std::string> unused;
+  for (const InputArgument& input : inputs)
+    if (!input.used) unused.push_back(input.argument);
+  if (!symbols(table.combine).count("value")) unused.push_back("value");
+  values.lists["unused"] = items(unused);
+  values.lists["refusing"] = items(refusing_sides(table, inputs));
+  values.lists["statements"] = items(code.lines);
+  values.lists["not_axes"] = items(not_axes(inputs));
+  values.lists["axes"] = counted_axes(table, inputs, "");
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    values.lists["axes"][a].text["bit"] = std::to_string(1u << a);
+  return render_template("c/frictab_direct.c", values);
+}
+
+} // namespace frictab::c_target

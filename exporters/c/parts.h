@@ -1,0 +1,53 @@
+// What the C templates of the table and of the direct form have in common.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "codegen/exporter.h"
+#include "codegen/fill.h"
+#include "codegen/template.h"
+
+namespace frictab::c_target {
+
+using Lines = std::vector<TemplateValues>;
+
+TemplateValues item(std::string text);
+Lines items(const std::vector<std::string>& texts);
+
+// "double a", "double b", ... one piece per argument.
+std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
+                                    std::string_view type);
+
+// Broken into lines; the template sets them in.
+std::string lines(const std::vector<std::string>& pieces);
+
+// The argument in its canonical unit; of an array's element: canonical(input, "[i]").
+std::string canonical(const InputArgument& input, const std::string& element = "");
+
+// How states (x1, ...), constants (c1, ...) and "value" are called inside the functions.
+std::map<std::string, std::string> symbol_names(const Table& table,
+                                                const std::vector<InputArgument>& inputs);
+
+// What is the same in both forms: arguments, used states, constants of `formula`, its statements.
+void add_state(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
+               const Expr& formula);
+
+// The law's own formula as a function of the states, ft_piece, and its arguments.
+std::string piece(const Table& table, const std::vector<InputArgument>& inputs);
+std::string piece_arguments(const Table& table, const std::vector<InputArgument>& inputs);
+
+// "x1 < 4.5" for every side that refuses; "x3 > 200.0" for every side where the law goes on.
+std::vector<std::string> refusing_sides(const Table& table,
+                                        const std::vector<InputArgument>& inputs);
+std::vector<std::string> extending_sides(const Table& table,
+                                         const std::vector<InputArgument>& inputs);
+
+// frictab_count_outside.
+std::string count_function(const Table& table, const std::vector<InputArgument>& inputs);
+
+// The source of the direct form.
+std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs);
+
+} // namespace frictab::c_target

@@ -1,0 +1,175 @@
+// Recognises sums of tanh of sums, as every network with one hidden layer has them.
+#include "codegen/layer.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace frictab {
+
+namespace {
+
+// constant + sum of factor * node, where no node is itself such a sum.
+struct Sum {
+  double constant = 0;
+  std::vector<std::pair<Expr, double>> terms; // in the order of the formula
+};
+
+void add_term(Sum& sum, const Expr& node, double factor) {
+  for (auto& [known, total] : sum.terms)
+    if (known.id() == node.id()) {
+      total += factor;
+      return;
+    }
+  sum.terms.emplace_back(node, factor);
+}
+
+void collect(Sum& sum, const Expr& e, double factor) {
+  const auto& a = e.operands();
+  const auto is_number = [](const Expr& x) { return x.op() == Op::constant; };
+  switch (e.op()) {
+  case Op::constant:
+    sum.constant += factor * e.value();
+    return;
+  case Op::add:
+    collect(sum, a[0], factor);
+    collect(sum, a[1], factor);
+    return;
+  case Op::subtract:
+    collect(sum, a[0], factor);
+    collect(sum, a[1], -factor);
+    return;
+  case Op::negate:
+    collect(sum, a[0], -factor);
+    return;
+  case Op::multiply:
+    if (is_number(a[0])) return collect(sum, a[1], factor * a[0].value());
+    if (is_number(a[1])) return collect(sum, a[0], factor * a[1].value());
+    break;
+  case Op::divide:
+    if (is_number(a[1])) return collect(sum, a[0], factor / a[1].value());
+    break;
+  default:
+    break;
+  }
+  add_term(sum, e, factor);
+}
+
+Sum sum_of(const Expr& e) {
+  Sum sum;
+  collect(sum, e, 1);
+  return sum;
+}
+
+// The nodes of a formula that are sums of tanh and of nothing else.
+class Outputs {
+public:
+  explicit Outputs(const Expr& formula) { visit(formula); }
+
+  std::vector<std::pair<Expr, Sum>> found;
+  bool regular = true; // every tanh is a term of one of them
+
+private:
+  void visit(const Expr& e) {
+    if (!seen_.insert(e.id()).second) return;
+    const Sum sum = sum_of(e);
+    const auto is_tanh = [](const auto& term) { return term.first.op() == Op::tanh; };
+    const auto units = std::count_if(sum.terms.begin(), sum.terms.end(), is_tanh);
+    if (units > 0) {
+      regular = regular && static_cast<std::size_t>(units) == sum.terms.size();
+      found.emplace_back(e, sum);
+      return;
+    }
+    for (const auto& [term, factor] : sum.terms)
+      for (const Expr& operand : term.operands())
+        visit(operand);
+  }
+
+  std::set<const Expr::Node*> seen_;
+};
+
+bool holds_tanh(const Expr& e, std::set<const Expr::Node*>& seen) {
+  if (!seen.insert(e.id()).second) return false;
+  return e.op() == Op::tanh ||
+         std::any_of(e.operands().begin(), e.operands().end(),
+                     [&](const Expr& operand) { return holds_tanh(operand, seen); });
+}
+
+// Adds one unit; false where its sum holds another unit: that would be a second layer.
+bool add_unit(UnitLayer& layer, const Expr& unit, double gain) {
+  const Sum sum = sum_of(unit.operands()[0]);
+  const std::size_t u = layer.units();
+  for (const auto& [feature, factor] : sum.terms) {
+    std::set<const Expr::Node*> seen;
+    if (holds_tanh(feature, seen)) return false;
+    const auto known = std::find_if(layer.features.begin(), layer.features.end(),
+                                    [&](const Expr& f) { return f.id() == feature.id(); });
+    const auto f = static_cast<std::size_t>(known - layer.features.begin());
+    if (known == layer.features.end()) {
+      layer.features.push_back(feature);
+      layer.weight.emplace_back(u, 0.0);
+    }
+    layer.weight[f].resize(u, 0.0);
+    layer.weight[f].push_back(factor);
+  }
+  for (auto& weight : layer.weight)
+    weight.resize(u + 1, 0.0);
+  layer.bias.push_back(sum.constant);
+  layer.gain.push_back(gain);
+  return true;
+}
+
+std::optional<UnitLayer> layer_of(const Outputs& outputs) {
+  if (!outputs.regular || outputs.found.empty()) return std::nullopt;
+  const std::size_t per_output = outputs.found[0].second.terms.size();
+  std::set<const Expr::Node*> used;
+  UnitLayer layer;
+  layer.outputs = outputs.found.size();
+  for (std::size_t h = 0; h < per_output; ++h)
+    for (const auto& [node, sum] : outputs.found) {
+      if (sum.terms.size() != per_output) return std::nullopt;
+      const auto& [unit, gain] = sum.terms[h];
+      if (!used.insert(unit.id()).second || !add_unit(layer, unit, gain)) return std::nullopt;
+    }
+  for (const auto& [node, sum] : outputs.found)
+    layer.offset.push_back(sum.constant);
+  return layer;
+}
+
+void collect_numbers(const Expr& e, std::set<double>& numbers, std::set<const Expr::Node*>& seen) {
+  if (!seen.insert(e.id()).second) return;
+  if (e.op() == Op::constant) numbers.insert(e.value());
+  for (const Expr& operand : e.operands())
+    collect_numbers(operand, numbers, seen);
+}
+
+} // namespace
+
+std::size_t UnitLayer::numbers() const {
+  return features.size() * units() + 2 * units() + outputs;
+}
+
+std::string layer_output(std::size_t m) {
+  return fmt::format("layer output {}", m);
+}
+
+LayeredFormula split_layer(const Expr& formula) {
+  const Expr whole = shared(formula);
+  const Outputs outputs(whole);
+  std::optional<UnitLayer> layer = layer_of(outputs);
+  if (!layer || layer->units() < least_units) return {std::nullopt, whole};
+  std::vector<std::pair<Expr, Expr>> nodes;
+  for (const auto& [node, sum] : outputs.found)
+    nodes.emplace_back(node, Expr::symbol(layer_output(nodes.size())));
+  return {std::move(layer), substitute(whole, nodes)};
+}
+
+std::size_t count_numbers(const Expr& formula) {
+  std::set<double> numbers;
+  std::set<const Expr::Node*> seen;
+  collect_numbers(formula, numbers, seen);
+  return numbers.size();
+}
+
+} // namespace frictab

@@ -1,0 +1,119 @@
+// Evaluates the law's own formula beyond the ends of a table's axes.
+#include "table/outside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frictab {
+
+namespace {
+
+constexpr double rounding = 1e-6; // of an end's value
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+const std::pair<Outside, const char*> names[] = {
+    {Outside::clamp, "clamp"}, {Outside::error, "error"}, {Outside::law, "law"}};
+
+// The axis as the extension sees it: a second symbol beside the true state.
+std::string held_name(const std::string& axis) {
+  return "held " + axis;
+}
+
+} // namespace
+
+const char* outside_name(Outside outside) {
+  return names[static_cast<std::size_t>(outside)].second;
+}
+
+std::optional<Outside> find_outside(std::string_view name) {
+  for (const auto& [outside, known] : names)
+    if (name == known) return outside;
+  return std::nullopt;
+}
+
+AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
+    : name(axis.name), input(number_of_input), low(axis.nodes.front()), high(axis.nodes.back()),
+      below(axis.below), above(axis.above),
+      refused_below(below == Outside::error ? low - rounding * std::abs(low) : -infinite),
+      refused_above(above == Outside::error ? high + rounding * std::abs(high) : infinite) {}
+
+std::vector<AxisEnds> axis_ends(const Table& table) {
+  const std::vector<std::string> inputs = table.inputs();
+  std::vector<AxisEnds> ends;
+  for (const TableAxis& axis : table.axes) {
+    const auto at = std::find(inputs.begin(), inputs.end(), axis.name);
+    ends.emplace_back(axis, static_cast<std::size_t>(at - inputs.begin()));
+  }
+  return ends;
+}
+
+bool OutsideRule::needed(const Table& table) {
+  return table.is_direct() ||
+         std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+           return axis.below != Outside::clamp || axis.above != Outside::clamp;
+         });
+}
+
+OutsideRule::OutsideRule(const Table& table) : direct_(table.is_direct()), ends_(axis_ends(table)) {
+  if (!table.extension) return; // refuses at most
+  std::vector<std::string> row = table.inputs(), scalars;
+  std::map<std::string, Expr> held;
+  for (const AxisEnds& axis : ends_) {
+    row.push_back(held_name(axis.name));
+    held.emplace(axis.name, Expr::symbol(held_name(axis.name)));
+  }
+  for (const auto& [name, value] : table.constants) {
+    scalars.push_back(name);
+    constants_.push_back(value);
+  }
+  const Expr value = substitute(*table.extension, held);
+  law_ = std::make_unique<Program>(substitute(table.combine, {{"value", value}}), row, scalars);
+}
+
+OutsideRule::Answer OutsideRule::prepare(std::span<const double> state, double* row,
+                                         unsigned* outside) const {
+  unsigned bits = 0;
+  bool law = direct_, refused = false;
+  std::copy(state.begin(), state.end(), row);
+  for (std::size_t a = 0; a < ends_.size(); ++a) {
+    const double x = state[ends_[a].input];
+    if (ends_[a].leaves(x)) bits |= 1u << a;
+    law = law || ends_[a].extends(x);
+    refused = refused || ends_[a].refuses(x);
+    row[state.size() + a] = ends_[a].held(x);
+  }
+  if (outside) *outside = bits;
+  return refused ? Answer::none : law ? Answer::law : Answer::table;
+}
+
+std::optional<double> OutsideRule::tau(std::span<const double> state, unsigned* outside) const {
+  double row[2 * 16];
+  const Answer answer = prepare(state, row, outside);
+  if (answer == Answer::table) return std::nullopt;
+  const bool missing =
+      std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
+  if (answer == Answer::none || missing) return std::nan("");
+  return (*law_)({row, state.size() + ends_.size()}, constants_);
+}
+
+std::optional<double> OutsideRule::gradient(std::span<const double> state,
+                                            std::span<double> derivative, unsigned* outside) const {
+  double row[2 * 16], by_row[2 * 16];
+  const Answer answer = prepare(state, row, outside);
+  if (answer == Answer::table) return std::nullopt;
+  if (answer == Answer::none) {
+    std::fill(derivative.begin(), derivative.end(), std::nan(""));
+    return std::nan("");
+  }
+  const std::size_t inputs = state.size(), size = inputs + ends_.size();
+  const double tau = law_->gradient({row, size}, constants_, std::span<double>(by_row, size));
+  std::copy(by_row, by_row + inputs, derivative.begin());
+  for (std::size_t a = 0; a < ends_.size(); ++a) {
+    const double x = state[ends_[a].input];
+    if (ends_[a].held(x) == x) derivative[ends_[a].input] += by_row[inputs + a];
+  }
+  return tau;
+}
+
+} // namespace frictab

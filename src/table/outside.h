@@ -1,0 +1,65 @@
+// What lies beyond the ends of a table's axes: who is asked there, and what a run counts.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expr/program.h"
+#include "table/table.h"
+
+namespace frictab {
+
+// The range of one axis with what holds on either side of it.
+struct AxisEnds {
+  explicit AxisEnds(const TableAxis& axis, std::size_t number_of_input = 0);
+
+  std::string name;
+  std::size_t input; // of Table::inputs()
+  double low, high;
+  Outside below, above;
+  // Beyond these a query is refused: by more than a millionth of the end's own value, since a
+  // solver in single precision misses an end by rounding. Infinite where the side does not refuse.
+  double refused_below, refused_above;
+
+  bool leaves(double x) const { return x < low || x > high; }
+  bool refuses(double x) const { return x < refused_below || x > refused_above; }
+  // Beyond a side on which the law's own formula is asked.
+  bool extends(double x) const {
+    return (x < low && below == Outside::law) || (x > high && above == Outside::law);
+  }
+  // Where the formula is asked: at the end instead of beyond it on every other side.
+  double held(double x) const {
+    if (x < low && below != Outside::law) return low;
+    return x > high && above != Outside::law ? high : x;
+  }
+};
+
+std::vector<AxisEnds> axis_ends(const Table& table);
+
+// Answers where interpolation does not: beyond a side with `error` (NaN) or `law`, and everywhere
+// for the direct form. Axes that are not beyond a side with `law` are held at their ends, so that
+// all forms of a table agree.
+class OutsideRule {
+public:
+  static bool needed(const Table& table); // a side that does not clamp, or no values at all
+  explicit OutsideRule(const Table& table);
+
+  // As TableFunction's; nothing where the table itself is to be asked.
+  std::optional<double> tau(std::span<const double> state, unsigned* outside) const;
+  std::optional<double> gradient(std::span<const double> state, std::span<double> derivative,
+                                 unsigned* outside) const;
+
+private:
+  enum class Answer { table, law, none };
+  Answer prepare(std::span<const double> state, double* row, unsigned* outside) const;
+
+  bool direct_;
+  std::vector<AxisEnds> ends_;
+  std::unique_ptr<Program> law_; // row: inputs, then the axes as held
+  std::vector<double> constants_;
+};
+
+} // namespace frictab

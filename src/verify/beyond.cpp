@@ -1,0 +1,60 @@
+// Counts rows outside a table's range by axis and side.
+#include "verify/beyond.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "table/outside.h"
+
+namespace frictab {
+
+namespace {
+
+void count(BeyondEnd& end, double excess) {
+  ++end.rows;
+  end.largest_excess = std::max(end.largest_excess, excess);
+}
+
+} // namespace
+
+RowsBeyond rows_beyond(const Table& table, const States& states) {
+  const std::vector<AxisEnds> axes = axis_ends(table);
+  const std::size_t rows = states.empty() ? 0 : states.front().size();
+  RowsBeyond out;
+  out.kinds.assign(rows, RowKind::compared);
+  std::vector<BeyondEnd> ends;
+  for (const AxisEnds& axis : axes) {
+    ends.push_back({axis.name, "below", outside_name(axis.below), axis.low, 0, 0});
+    ends.push_back({axis.name, "above", outside_name(axis.above), axis.high, 0, 0});
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    bool outside = false;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const double x = states[axes[a].input][i];
+      if (!axes[a].leaves(x)) continue;
+      outside = true;
+      if (x < axes[a].low)
+        count(ends[2 * a], axes[a].low - x);
+      else
+        count(ends[2 * a + 1], x - axes[a].high);
+      if (axes[a].refuses(x))
+        out.kinds[i] = RowKind::refused;
+      else if (!axes[a].extends(x) && out.kinds[i] != RowKind::refused)
+        out.kinds[i] = RowKind::clamped;
+    }
+    out.outside += outside;
+  }
+  std::copy_if(ends.begin(), ends.end(), std::back_inserter(out.ends),
+               [](const BeyondEnd& end) { return end.rows > 0; });
+  return out;
+}
+
+std::string beyond_text(const BeyondEnd& end) {
+  return fmt::format("{} {} {:.6g}: {} row{}, up to {:.3g} beyond, {}", end.axis, end.side, end.end,
+                     thousands(end.rows), end.rows == 1 ? "" : "s", end.largest_excess,
+                     end.outside);
+}
+
+} // namespace frictab

@@ -1,0 +1,30 @@
+// Which rows lie outside a table's range, by axis and side, and what is asked of the answer there.
+#pragma once
+
+#include <vector>
+
+#include "table/drift.h"
+#include "table/table.h"
+#include "verify/verification.h"
+
+namespace frictab {
+
+enum class RowKind : char {
+  compared, // inside, or outside only where the law's own formula goes on
+  clamped,  // beyond a side that clamps: the answer is no error of the table
+  refused   // beyond a side with outside = error: the answer is NaN
+};
+
+struct RowsBeyond {
+  std::vector<RowKind> kinds;  // per row
+  std::size_t outside = 0;     // rows
+  std::vector<BeyondEnd> ends; // only where rows are
+};
+
+// States: one column per input of the table, in its order.
+RowsBeyond rows_beyond(const Table& table, const States& states);
+
+// "T_contact_C above 200: 110 rows, up to 13.2 beyond, clamp"
+std::string beyond_text(const BeyondEnd& end);
+
+} // namespace frictab

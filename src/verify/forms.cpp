@@ -1,0 +1,166 @@
+// Times the two forms of a law against each other.
+#include "verify/forms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "codegen/compile.h"
+#include "codegen/exporter.h"
+#include "codegen/fill.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "table/direct.h"
+#include "table/drift.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t states_timed = 4096;
+constexpr std::size_t repeats = 11;
+constexpr double least_seconds = 5e-4; // of one repeat
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// One form, compiled and ready to be asked.
+class Subject {
+public:
+  Subject(const Exporter& exporter, const Table& table, const std::vector<std::string>& names,
+          const States& states)
+      : exporter_(exporter), request_{table, "mm-t-s", {}},
+        library_(compile_library(exporter.generate(request_), exporter.variants(request_)[0],
+                                 directory_.path())),
+        tau_(states.front().size()) {
+    for (const std::string& name : table.inputs()) {
+      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+      columns_.push_back(states[static_cast<std::size_t>(at)].data());
+    }
+  }
+
+  const std::vector<double>& answer() {
+    exporter_.batch(library_.handle(), request_, tau_.size(), columns_, tau_);
+    return tau_;
+  }
+
+  // Also finds how many calls fill a repeat.
+  double ns_per_query() {
+    for (;;) {
+      const double before = thread_seconds();
+      for (std::size_t i = 0; i < calls_; ++i)
+        answer();
+      const double seconds = thread_seconds() - before;
+      if (seconds >= least_seconds)
+        return 1e9 * seconds / static_cast<double>(calls_ * tau_.size());
+      calls_ *= 2;
+    }
+  }
+
+private:
+  const Exporter& exporter_;
+  ExportRequest request_;
+  TemporaryDirectory directory_;
+  Library library_;
+  std::vector<const double*> columns_;
+  std::vector<double> tau_;
+  std::size_t calls_ = 1;
+};
+
+double median(std::array<double, repeats> values) {
+  std::nth_element(values.begin(), values.begin() + repeats / 2, values.end());
+  return values[repeats / 2];
+}
+
+void measure(FormComparison& out, const Exporter& exporter, const Model& model, const Table& table,
+             const Table& direct) {
+  const std::vector<std::string> names = table.inputs();
+  const LawFunction law(model, names);
+  const Probe probe =
+      with_law(law, box_points(table_ranges(table, nullptr, table.model), states_timed));
+  Subject of_table(exporter, table, names, probe.states);
+  Subject of_law(exporter, direct, names, probe.states);
+  const std::vector<double>& answer = of_law.answer();
+  for (std::size_t i = 0; i < answer.size(); ++i)
+    out.direct.drift_MPa = std::max(out.direct.drift_MPa, std::abs(answer[i] - probe.law[i]));
+  std::array<double, repeats> table_ns{}, law_ns{};
+  of_table.ns_per_query(), of_law.ns_per_query(); // the first calls warm up
+  for (std::size_t r = 0; r < repeats; ++r) {
+    table_ns[r] = of_table.ns_per_query();
+    law_ns[r] = of_law.ns_per_query();
+  }
+  out.table.ns_per_query = median(table_ns);
+  out.direct.ns_per_query = median(law_ns);
+}
+
+} // namespace
+
+FormComparison form_sizes(const Model& model, const Table& table) {
+  FormComparison out;
+  out.model = table.model;
+  out.nodes = table.nodes();
+  out.table.bytes = sizeof(double) * baked_numbers(table);
+  out.direct.bytes = sizeof(double) * baked_numbers(direct_form(model, table));
+  const auto worst = table.number_attributes.find("worst_case_MPa");
+  if (worst != table.number_attributes.end()) out.table.drift_MPa = worst->second;
+  return out;
+}
+
+FormComparison compare_forms(const Model& model, const Table& table) {
+  const Exporter& exporter = *find_exporter("c");
+  FormComparison out = form_sizes(model, table);
+  const std::string compiler = exporter.variants({table, "mm-t-s", {}})[0].command.front();
+  if (table.axes.empty())
+    out.why_not = "nothing is tabulated, both are the same";
+  else if (!have_program(compiler))
+    out.why_not = "there is no " + compiler + " on this machine";
+  else
+    try {
+      measure(out, exporter, model, table, direct_form(model, table));
+    } catch (const InputError& error) { // too large for a source
+      out.why_not = error.what();
+    }
+  return out;
+}
+
+std::string form_verdict(const FormComparison& c) {
+  if (!c.why_not.empty()) return c.why_not;
+  const double faster = c.direct.ns_per_query / c.table.ns_per_query; // the table than the law
+  if (faster >= 2) return fmt::format("the table is {:.1f} times faster than the law", faster);
+  if (faster > 1.05)
+    return fmt::format("the table is only {:.1f} times faster: export.form = \"direct\" has no "
+                       "drift",
+                       faster);
+  return fmt::format("the law itself is {:.1f} times faster: export.form = \"direct\"", 1 / faster);
+}
+
+namespace {
+
+std::string figures(const FormFigures& f, bool measured) {
+  return fmt::format("{:>10}{:>10}{:>9}", human_bytes(static_cast<double>(f.bytes)),
+                     measured || f.drift_MPa > 0 ? fmt::format("{:.2g}", f.drift_MPa) : "-",
+                     measured ? fmt::format("{:.1f}", f.ns_per_query) : "-");
+}
+
+} // namespace
+
+std::string forms_text(const std::vector<FormComparison>& comparisons) {
+  std::string out = fmt::format(
+      "Table or the law itself, as generated C on this machine (no file holds these times):\n"
+      "  {:<14}{:>10}{:>10}{:>9}{:>13}{:>10}{:>9}\n",
+      "", "table", "MPa off", "ns", "law itself", "MPa off", "ns");
+  for (const FormComparison& c : comparisons) {
+    const bool measured = c.why_not.empty();
+    out += fmt::format("  {:<14}{}   {}   {}\n", c.model, figures(c.table, measured),
+                       figures(c.direct, measured), form_verdict(c));
+  }
+  return out;
+}
+
+} // namespace frictab

@@ -1,0 +1,87 @@
+C     The law's own @{quantity} of the state x, by its formula; held at
+C     the ends of the range on sides that clamp.
+      double precision function ftpiec(x)
+      implicit none
+      double precision x(@{n_x})
+@for line in declarations
+@{line.text}
+@end
+@for name in helpers
+      double precision @{name.text}
+@end
+@for constant in constants
+      double precision c@{constant.index}
+C     @{constant.comment}
+      parameter (c@{constant.index} = @{constant.value})
+@end
+@if has_layer
+C     @{units} units of tanh, @{outputs} outputs: unit i belongs to output
+C     1 + mod(i-1, @{outputs}).
+      integer i, j, nunit, nout
+      parameter (nunit = @{units}, nout = @{outputs})
+      double precision a, b, c, z, y, p, q
+      double precision unit(nunit), net(nout)
+@for feature in features
+      double precision wt@{feature.index}(nunit)
+@end
+      double precision bias(nunit), gain(nunit), offs(nout)
+@for feature in features
+      save wt@{feature.index}
+@end
+      save bias, gain, offs
+@for feature in features
+@{feature.data}
+@end
+@{data_bias}
+@{data_gain}
+@{data_offs}
+@end
+@for line in held
+@{line.text}
+@end
+@if has_layer
+@for line in before
+@{line.text}
+@end
+      do i = 1, nunit
+        a = 0.0D0
+@for feature in features
+        a = a + wt@{feature.index}(i)*@{feature.name}
+@end
+        a = a + bias(i)
+        b = a
+        if (a .lt. -19.1D0) b = -19.1D0
+        c = b
+        if (b .gt. 19.1D0) c = 19.1D0
+        unit(i) = c
+      end do
+C     tanh to 5e-15 of its value, without a branch: Lambert's
+C     continued fraction of tanh(x/4), 8 terms, and the double-angle
+C     formula twice. Beyond 19.1 tanh is 1 to 5e-17.
+      do i = 1, nunit
+        z = 0.25D0*unit(i)
+        y = z*z
+        p = z*(2027025.0D0 + y*(270270.0D0 + y*(6930.0D0
+     &    + y*36.0D0)))
+        q = 2027025.0D0 + y*(945945.0D0 + y*(51975.0D0
+     &    + y*(630.0D0 + y)))
+        a = (p + p)*q
+        b = p*p + q*q
+        unit(i) = (a + a)*b/(a*a + b*b)
+      end do
+      do j = 1, nout
+        net(j) = offs(j)
+      end do
+      do i = 0, nunit - 1, nout
+        do j = 1, nout
+          net(j) = net(j) + gain(i+j)*unit(i+j)
+        end do
+      end do
+@end
+@for line in statements
+@{line.text}
+@end
+      ftpiec = @{result}
+      return
+      end
+C

@@ -1,0 +1,173 @@
+// The direct form: every law, compiled in C and Fortran, is the law.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "codegen/compile.h"
+#include "codegen/exporter.h"
+#include "codegen/layer.h"
+#include "core/random.h"
+#include "support/sample_data.h"
+#include "support/sample_tables.h"
+#include "table/direct.h"
+#include "table/drift.h"
+
+namespace frictab {
+namespace {
+
+// Table 1 and what an FE run adds.
+const std::vector<StateRange> all_ranges = {
+    {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
+    {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
+
+std::vector<StateRange> ranges_of(const Model& model) {
+  std::vector<StateRange> ranges;
+  for (const std::string& name : inputs(*model.law, model.conventions))
+    for (const StateRange& range : all_ranges)
+      if (range.name == name) ranges.push_back(range);
+  return ranges;
+}
+
+// A direct form needs no values: only the axes of a table and their ranges.
+Table direct_of(const Model& model) {
+  Table table;
+  table.model = model.name();
+  table.quantity = model.law->quantity;
+  table.combine = limited_combine(model);
+  for (const StateRange& range : ranges_of(model)) {
+    if (!symbols(model.law->build(model.conventions).value).count(range.name)) continue;
+    TableAxis axis;
+    axis.name = range.name;
+    axis.unit = "1";
+    axis.nodes = {range.low, range.high};
+    table.axes.push_back(axis);
+  }
+  for (std::size_t p = 0; p < model.parameters.size(); ++p)
+    table.constants[model.law->parameters[p].name] = model.parameters[p];
+  return direct_form(model, table);
+}
+
+void expect_law(const Model& model) {
+  const Table table = direct_of(model);
+  const LawFunction law(model, table.inputs());
+  const Probe probe = with_law(law, box_points(ranges_of(model), 20000)); // and all corners
+  std::vector<const double*> columns;
+  for (const auto& column : probe.states)
+    columns.push_back(column.data());
+  for (const Exporter& exporter : all_exporters()) {
+    const ExportRequest request{table, "mm-t-s", {}};
+    const BuildVariant variant = exporter.variants(request)[0]; // double precision
+    if (!have_program(variant.command[0])) GTEST_SKIP() << variant.command[0] << " is missing";
+    const TemporaryDirectory work;
+    const Library library(compile_library(exporter.generate(request), variant, work.path()));
+    std::vector<double> tau(probe.law.size(), -1);
+    exporter.drive(library.handle(), variant, request, tau.size(), columns, tau);
+    EXPECT_LE(test::worst_relative(tau, probe.law, 1e-300), 1e-12) << exporter.name;
+  }
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+class DirectFormOfEveryLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(DirectFormOfEveryLaw, IsTheLawTo1e12InEveryTarget) {
+  expect_law(test::plausible_model(*find_law(GetParam())));
+}
+
+TEST_P(DirectFormOfEveryLaw, HasTheLawsOwnGradient) {
+  const Model model = test::plausible_model(*find_law(GetParam()));
+  const Table table = direct_of(model);
+  const TableFunction direct(table);
+  const Program law(tau_formula(model), table.inputs(), parameter_names(*model.law));
+  const States states = box_points(ranges_of(model), 200);
+  for (std::size_t i = 0; i < 200; ++i) {
+    std::vector<double> state, by_law(states.size()), by_direct(states.size());
+    for (const auto& column : states)
+      state.push_back(column[i]);
+    const double tau = law.gradient(state, model.parameters, by_law);
+    EXPECT_NEAR(direct.gradient(state, by_direct), tau, 1e-12 * tau);
+    for (std::size_t d = 0; d < by_law.size(); ++d)
+      EXPECT_NEAR(by_direct[d], by_law[d], 1e-10 * std::abs(by_law[d]) + 1e-14);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, DirectFormOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+
+TEST(DirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
+  expect_law(test::network_model(20, 8));
+}
+
+TEST(DirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
+  Model model = test::network_model(4, 3);
+  // 40 times the slope: tanh is 1 on most of the box.
+  Expr steep = model.law->build(model.conventions).value;
+  for (const char* name : {"sigma_n_MPa", "T_contact_C"})
+    steep = substitute(steep, {{name, 40.0 * Expr::symbol(name)}});
+  Law law = *model.law;
+  law.build = [steep](const Conventions&) {
+    return Formula{steep, Expr::symbol("value") * Expr::symbol("sigma_n_MPa")};
+  };
+  model.law = made(law);
+  expect_law(model);
+}
+
+// The layer, written out again as a formula.
+Expr written_out(const LayeredFormula& split) {
+  const UnitLayer& layer = *split.layer;
+  std::vector<Expr> outputs(layer.offset.begin(), layer.offset.end());
+  for (std::size_t u = 0; u < layer.units(); ++u) {
+    Expr sum = layer.bias[u];
+    for (std::size_t f = 0; f < layer.features.size(); ++f)
+      sum = sum + layer.weight[f][u] * layer.features[f];
+    outputs[u % layer.outputs] = outputs[u % layer.outputs] + layer.gain[u] * tanh(sum);
+  }
+  std::map<std::string, Expr> with;
+  for (std::size_t m = 0; m < outputs.size(); ++m)
+    with.emplace(layer_output(m), outputs[m]);
+  return substitute(split.rest, with);
+}
+
+TEST(Layer, IsFoundInTheFormulaOfANetworkAndKeepsItsValue) {
+  const Model model = test::network_model(20, 8);
+  const Expr formula = model.law->build(model.conventions).value;
+  const LayeredFormula split = split_layer(formula);
+  ASSERT_TRUE(split.layer);
+  EXPECT_EQ(split.layer->units(), 160U);
+  EXPECT_EQ(split.layer->outputs, 20U);
+  EXPECT_EQ(split.layer->features.size(), 5U);
+  const std::vector<std::string> names = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C",
+                                          "s_mm"};
+  const Program law(formula, names, {"mu0"}), again(written_out(split), names, {"mu0"});
+  const auto states = test::random_states(names, 100, 9);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double state[] = {states[0][i], states[1][i], states[2][i], states[3][i], states[4][i]};
+    EXPECT_NEAR(again(state, std::vector{0.08}), law(state, std::vector{0.08}), 1e-14);
+  }
+}
+
+TEST(Layer, IsNotMadeOfFormulasThatAreNone) {
+  const Expr x = Expr::symbol("x");
+  Expr few = 0.0, deep = 0.0, uneven = exp(tanh(x)), mixed = 0.0;
+  for (int i = 1; i < 10; ++i) {
+    if (i < 4) few = few + tanh(i * x);
+    deep = deep + tanh(i * tanh(x + i));
+    uneven = uneven + exp(tanh(i * x) + tanh(x + i));
+    mixed = mixed + tanh(i * x) + x;
+  }
+  for (const Expr& formula : {few, deep, uneven, mixed, x, Expr(1.0)})
+    EXPECT_FALSE(split_layer(formula).layer) << to_text(formula);
+}
+
+} // namespace
+} // namespace frictab

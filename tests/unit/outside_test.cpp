@@ -1,0 +1,198 @@
+// The sides of a table's axes: as the job asks, in the file, and as rows outside are counted.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "codegen/exporter.h"
+#include "io/hdf5.h"
+#include "support/rebuilt.h"
+#include "support/run_command.h"
+#include "support/sample_data.h"
+#include "support/sample_tables.h"
+#include "table/direct.h"
+#include "table/table_file.h"
+#include "verify/beyond.h"
+#include "verify/verify.h"
+
+namespace frictab {
+namespace {
+
+Table built(const Model& model, const std::map<std::string, std::vector<std::string>>& outside) {
+  TableOptions options;
+  for (const auto& [axis, words] : outside)
+    options.axes[axis].outside = words;
+  return build_table(model, state_ranges(model, test::sample_data(model), options), options);
+}
+
+Model log_coulomb() {
+  return test::plausible_model(*find_law("log_coulomb"));
+}
+
+TEST(JobKeys, SetBothSidesOfAnAxisAtOnceOrEachOfThem) {
+  const auto outside = [](const std::string& words) {
+    return parse_job("[data]\ntraining = \"a.csv\"\n[table.axes.psi]\noutside = " + words,
+                     "job.toml")
+        .table.axes.at("psi")
+        .outside;
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(outside("\"law\""), Words{"law"});
+  EXPECT_EQ(outside("[\"clamp\", \"error\"]"), (Words{"clamp", "error"}));
+  EXPECT_EQ(outside("[\"law\", \"law\"]"), (Words{"law", "law"}));
+}
+
+TEST(OutsideTheRange, IsWhatTheJobAsksForAndOnlyThenHoldsTheLawsFormula) {
+  const Table table = built(log_coulomb(), {{"psi", {"law"}}, {"v_rel_mm_s", {"clamp", "error"}}});
+  EXPECT_EQ(table.axes[1].below, Outside::law);
+  EXPECT_EQ(table.axes[1].above, Outside::law);
+  EXPECT_EQ(table.axes[2].below, Outside::clamp);
+  EXPECT_EQ(table.axes[2].above, Outside::error);
+  EXPECT_EQ(table.axes[3].above, Outside::clamp);
+  ASSERT_TRUE(table.extension);
+  EXPECT_EQ(table.constants.count("c3"), 1U);
+  EXPECT_FALSE(built(log_coulomb(), {{"psi", {"error"}}}).extension);
+}
+
+TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {
+  const Table table = test::sides_table();
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("t.h5"));
+  const Table again = read_table(directory.path("t.h5"));
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_EQ(again.axes[a].below, table.axes[a].below);
+    EXPECT_EQ(again.axes[a].above, table.axes[a].above);
+  }
+  EXPECT_EQ(to_text(*again.extension), to_text(*table.extension));
+  EXPECT_EQ(again.constants, table.constants);
+  // Random states go to 2750 MPa, 500 mm/s, 200 degC: make the table smaller than that.
+  Table narrow = table;
+  narrow.axes[0].nodes = {800, 1100, 1500};
+  narrow.axes[1].nodes = {20, 60, 100, 200};
+  narrow.axes[2].nodes = {60, 90, 120};
+  EXPECT_EQ(test::rebuilt_by_python(narrow).substr(0, 3), "ok ");
+}
+
+TEST(TableFile, TakesAFormulaThatIsLongerThanAnHdf5Attribute) {
+  const Model model = test::network_model(50, 12);
+  Table table = test::direct_network();
+  add_extension(table, model);
+  table.value.assign(32, 0.1);
+  ASSERT_GT(to_text(*table.extension).size(), 2U * 65536U);
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("t.h5"));
+  const Table again = read_table(directory.path("t.h5"));
+  EXPECT_EQ(to_text(*again.extension), to_text(*table.extension));
+  EXPECT_EQ(test::rebuilt_by_python(table).substr(0, 3), "ok ");
+}
+
+TEST(TableFile, WithoutTheFormulaThatASideNeedsIsAFault) {
+  const test::TemporaryDirectory directory;
+  Table table = test::sides_table();
+  table.extension.reset();
+  write_table(table, directory.path("t.h5"));
+  const auto fault = [&] {
+    try {
+      read_table(directory.path("t.h5"));
+      return std::string("accepted");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_NE(fault().find("axis 'sigma_n_MPa' goes on by the law, and 'value' has no attribute "
+                         "'extension'"),
+            std::string::npos)
+      << fault();
+  table.extension = Expr::symbol("s_mm");
+  write_table(table, directory.path("t.h5"));
+  EXPECT_NE(fault().find("extension uses 's_mm', which is no axis"), std::string::npos) << fault();
+}
+
+TEST(RowsBeyond, AreCountedByAxisAndSideWithTheLargestExcess) {
+  const Table table = test::sides_table();
+  // sigma_n: law, clamp; v: clamp, error; T: error, law
+  const States rows = {{400, 300, 3000, 1000, 1000, 400},
+                       {50, 50, 50, 501, 1, 50},
+                       {100, 100, 100, 100, 100, 250},
+                       {480, 480, 480, 480, 480, 480}};
+  const RowsBeyond beyond = rows_beyond(table, rows);
+  EXPECT_EQ(beyond.outside, 6U);
+  const RowKind c = RowKind::compared, k = RowKind::clamped, r = RowKind::refused;
+  EXPECT_EQ(beyond.kinds, (std::vector<RowKind>{c, c, k, r, k, c}));
+  std::vector<std::string> texts;
+  for (const BeyondEnd& end : beyond.ends)
+    texts.push_back(beyond_text(end));
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{"sigma_n_MPa below 500: 3 rows, up to 200 beyond, law",
+                                      "sigma_n_MPa above 2750: 1 row, up to 250 beyond, clamp",
+                                      "v_rel_mm_s below 5: 1 row, up to 4 beyond, clamp",
+                                      "v_rel_mm_s above 500: 1 row, up to 1 beyond, error",
+                                      "T_contact_C above 200: 1 row, up to 50 beyond, law"}));
+}
+
+// Rows of a campaign over a table that covers less than them.
+DriftRecord verified(const std::string& words, const std::string& target = "") {
+  const Model model = log_coulomb();
+  const Dataset data = test::sample_data(model);
+  TableOptions options;
+  options.axes["T_contact_C"].range = {60, 120};
+  options.axes["T_contact_C"].outside = {words};
+  const Table table = build_table(model, state_ranges(model, data, options), options);
+  std::vector<GeneratedSource> sources;
+  if (!target.empty()) {
+    const Exporter* exporter = find_exporter(target);
+    const ExportRequest request{table, "mm-t-s", {}};
+    sources.push_back({exporter, request, exporter->generate(request)});
+  }
+  return verify({model, table, "table", &data, 0.5, 20000}, sources).back();
+}
+
+TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
+  const DriftRecord clamp = verified("clamp"), law = verified("law");
+  ASSERT_GT(clamp.n_outside, 100U);
+  EXPECT_EQ(clamp.n_outside, law.n_outside);
+  EXPECT_GT(clamp.max_abs_outside_MPa, 5) << "what clamping costs";
+  EXPECT_EQ(law.max_abs_outside_MPa, 0);
+  EXPECT_LE(law.rows.max_abs, 0.5);
+  EXPECT_TRUE(law.passed);
+}
+
+TEST(Verify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
+  for (const char* target : {"c", "abaqus_vfric"})
+    for (const char* words : {"clamp", "error", "law"}) {
+      const DriftRecord r = verified(words, target);
+      if (!r.ran) GTEST_SKIP() << r.why_not;
+      EXPECT_TRUE(r.passed) << target << " " << words;
+      EXPECT_EQ(r.n_refused > 0, std::string(words) == "error");
+      EXPECT_EQ(r.n_not_refused, 0U);
+    }
+}
+
+TEST(Verify, FailsASourceThatAnswersWhereItIsToRefuse) {
+  const Model model = log_coulomb();
+  const Dataset data = test::sample_data(model);
+  TableOptions options;
+  options.axes["T_contact_C"].range = {60, 120};
+  options.axes["T_contact_C"].outside = {"error"};
+  const Table table = build_table(model, state_ranges(model, data, options), options);
+  Table lenient = table;
+  for (TableAxis& axis : lenient.axes)
+    axis.below = axis.above = Outside::clamp;
+  const Exporter* exporter = find_exporter("c");
+  const ExportRequest request{lenient, "mm-t-s", {}};
+  const DriftRecord r = verify({model, table, "table", &data, 0.5, 2000},
+                               {{exporter, request, exporter->generate(request)}})
+                            .back();
+  if (!r.ran) GTEST_SKIP() << r.why_not;
+  EXPECT_GT(r.n_not_refused, 100U);
+  EXPECT_FALSE(r.passed);
+}
+
+TEST(Verify, RecordOfRowsOutsideReadsBack) {
+  const Verification before{0.5, {verified("error")}};
+  const std::string text = verification_json(before);
+  EXPECT_NE(text.find("\"axis\": \"T_contact_C\""), std::string::npos) << text;
+  EXPECT_EQ(verification_json(parse_verification(text, "verify.json")), text);
+}
+
+} // namespace
+} // namespace frictab
