@@ -356,7 +356,11 @@ std::string obstacle(const Model& model, const Table& table, const BoundOptions&
        symbols(substitute(model.law->build(model.conventions).value, numbers(model))))
     if (std::find(axes.begin(), axes.end(), name) == axes.end())
       return "the law's piece depends on " + name + ", which is no axis of the table";
-  double cells = 1;
+  double cells = 1, nodes = 1;
+  for (const TableAxis& axis : table.axes)
+    nodes *= static_cast<double>(axis.nodes.size());
+  if (static_cast<double>(table.value.size()) != nodes)
+    return "the table's values are not in memory";
   for (const TableAxis& axis : table.axes)
     cells *= static_cast<double>(axis.nodes.size() - 1);
   if (cells > static_cast<double>(options.most_cells))

@@ -1,0 +1,145 @@
+// Tables keep what was asked: a tolerance, proven over the whole range, or a budget.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/sample_data.h"
+#include "table/bound.h"
+
+namespace frictab {
+namespace {
+
+struct Made {
+  Model model;
+  std::vector<StateRange> ranges;
+  Table table;
+};
+
+Made make(const std::string& law, const TableOptions& options) {
+  Made made{test::plausible_model(*find_law(law)), {}, {}};
+  made.ranges = state_ranges(made.model, test::sample_data(made.model), options);
+  made.table = build_table(made.model, made.ranges, options);
+  return made;
+}
+
+ProvenDrift drift_of(const Made& made, double allowed) {
+  const TableFunction function(made.table);
+  return prove_drift(made.model, made.table, made.ranges,
+                     worst_case(LawFunction(made.model, function.inputs()), function, made.ranges,
+                                probe_points(made.ranges, made.table.axes, 20000)),
+                     allowed);
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (c == '.') c = '_';
+  return name;
+}
+
+class ToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(ToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
+  for (const char* coordinates : {"law", "plain"})
+    for (const char* interpolation : {"linear", "cubic"})
+      for (const double tolerance : {0.5, 0.1}) {
+        TableOptions options;
+        options.coordinates = coordinates;
+        options.interpolation = interpolation;
+        options.tolerance_MPa = tolerance;
+        const Made made = make(GetParam(), options);
+        const ProvenDrift proven = drift_of(made, tolerance);
+        ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
+        EXPECT_LE(proven.worst.drift_MPa, tolerance);
+        EXPECT_LE(*proven.bound.MPa, 1.025 * tolerance)
+            << coordinates << " " << interpolation << " " << tolerance;
+      }
+}
+
+TEST_P(ToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
+  TableOptions options;
+  options.coordinates = "plain";
+  const Table table = make(GetParam(), options).table;
+  EXPECT_FALSE(table.log_value);
+  for (const TableAxis& axis : table.axes)
+    EXPECT_FALSE(axis.log) << axis.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, ToleranceOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+
+TEST(Budget, IsKeptAndMoreNodesAreCloser) {
+  for (const char* law : {"wanheim_bay", "levanov"}) {
+    double before = HUGE_VAL;
+    for (const std::size_t nodes : {30UL, 120UL, 480UL}) {
+      TableOptions options;
+      options.nodes = nodes;
+      const Made made = make(law, options);
+      EXPECT_LE(made.table.nodes(), nodes);
+      const double drift = drift_of(made, 0.5).worst.drift_MPa;
+      EXPECT_LT(drift, 0.5 * before) << law << " " << nodes;
+      before = drift;
+    }
+  }
+}
+
+TEST(Budget, OfNodesIsUsedAsWellAsATableToThatToleranceUsesThem) {
+  // A table made to a tolerance has some nodes; asked for as many, the tool must come as close.
+  for (const char* interpolation : {"linear", "cubic"}) {
+    TableOptions options;
+    options.interpolation = interpolation;
+    const Made to_tolerance = make("wanheim_bay", options);
+    options.nodes = to_tolerance.table.nodes();
+    const Made to_budget = make("wanheim_bay", options);
+    EXPECT_LE(to_budget.table.nodes(), *options.nodes);
+    EXPECT_LE(drift_of(to_budget, 0.5).worst.drift_MPa,
+              1.05 * drift_of(to_tolerance, 0.5).worst.drift_MPa)
+        << interpolation;
+  }
+}
+
+TEST(Budget, OfBytesCountsValuesAndNodes) {
+  TableOptions options;
+  options.max_bytes = 2048;
+  const Table table = make("levanov", options).table;
+  EXPECT_LE(table.bytes(), 2048U);
+  EXPECT_GT(table.bytes(), 1024U);
+  EXPECT_EQ(table.number_attributes.at("asked_bytes"), 2048);
+}
+
+TEST(Budget, TooSmallForAnyTableIsAFault) {
+  TableOptions options;
+  options.nodes = 3;
+  try {
+    make("wanheim_bay", options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the smallest table of wanheim_bay has 4 nodes"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Coordinates, PlainAndALogarithmicAxisContradictEachOther) {
+  TableOptions options;
+  options.coordinates = "plain";
+  options.axes["psi"].spacing = "log";
+  EXPECT_THROW(make("log_coulomb", options), InputError);
+}
+
+TEST(Coordinates, OfTheLawNeedFarFewerNodesThanPlainOnes) {
+  TableOptions options;
+  const std::size_t of_law = make("log_coulomb", options).table.nodes();
+  options.coordinates = "plain";
+  EXPECT_LT(50 * of_law, make("log_coulomb", options).table.nodes());
+}
+
+} // namespace
+} // namespace frictab
