@@ -7,10 +7,8 @@
 #include "core/parallel.h"
 #include "data/quantity.h"
 #include "expr/program.h"
-#include "table/frictab_kernel.h"
-// The two that stand behind it.
-#include "table/frictab_cubic.h"
-#include "table/frictab_gradient.h"
+#include "table/axis_search.h"
+#include "table/kernel.h"
 #include "table/spline.h"
 
 namespace frictab {
@@ -24,11 +22,7 @@ std::vector<double> TableAxis::coordinates() const {
 }
 
 double TableAxis::per_step() const {
-  const std::vector<double> u = coordinates();
-  const double step = (u.back() - u.front()) / static_cast<double>(u.size() - 1);
-  for (std::size_t i = 0; i < u.size(); ++i)
-    if (std::abs(u[i] - (u.front() + step * static_cast<double>(i))) > 1e-9 * step) return 0;
-  return 1 / step;
+  return frictab::per_step(coordinates());
 }
 
 std::vector<std::string> Table::inputs() const {
@@ -52,7 +46,7 @@ std::size_t Table::bytes() const {
 
 struct TableFunction::Data {
   std::vector<std::string> inputs;
-  std::vector<std::vector<double>> coordinates; // of linear axes
+  std::vector<AxisSearch> searches;
   std::vector<ft_axis> linear;
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
@@ -80,12 +74,13 @@ void TableFunction::Data::add_axes(const Table& table) {
     log.push_back(axis.log);
     input_of_axis.push_back(static_cast<std::size_t>(
         std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin()));
-    coordinates.push_back(axis.coordinates());
+    searches.push_back(axis_search(axis.coordinates()));
     if (is_cubic) splines.push_back(spline_axis(axis));
   }
-  for (std::size_t a = 0; a < table.axes.size(); ++a) { // pointers only when nothing moves any more
-    linear.push_back(
-        {static_cast<int>(coordinates[a].size()), table.axes[a].per_step(), coordinates[a].data()});
+  long stride = static_cast<long>(table.value.size());
+  for (std::size_t a = 0; a < searches.size(); ++a) { // pointers only when nothing moves any more
+    stride /= static_cast<long>(searches[a].u.size());
+    linear.push_back(searches[a].axis(stride));
     if (is_cubic)
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
@@ -117,8 +112,8 @@ double TableFunction::operator()(std::span<const double> state, unsigned* outsid
   double u[FT_MAX_AXES], row[1 + 16];
   d.coordinates_of(state, u);
   const double raw = d.is_cubic
-                         ? ft_cubic(d.axes(), d.cubic.data(), d.value.data(), u, outside)
-                         : ft_interpolate(d.axes(), d.linear.data(), d.value.data(), u, outside);
+                         ? interpolate(d.axes(), d.cubic.data(), d.value.data(), u, outside)
+                         : interpolate(d.axes(), d.linear.data(), d.value.data(), u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
   return (*d.combine)(std::span<const double>(row, state.size() + 1), d.constants);
@@ -129,10 +124,9 @@ double TableFunction::gradient(std::span<const double> state, std::span<double> 
   const Data& d = *data_;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
   d.coordinates_of(state, u);
-  const double raw =
-      d.is_cubic
-          ? ft_cubic_gradient(d.axes(), d.cubic.data(), d.value.data(), u, by_u, outside)
-          : ft_interpolate_gradient(d.axes(), d.linear.data(), d.value.data(), u, by_u, outside);
+  const double raw = d.is_cubic
+                         ? interpolate(d.axes(), d.cubic.data(), d.value.data(), u, by_u, outside)
+                         : interpolate(d.axes(), d.linear.data(), d.value.data(), u, by_u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
   const double tau = d.combine->gradient({row, state.size() + 1}, d.constants,
