@@ -73,13 +73,16 @@ FT_INLINE double ft_tau(
 @end
   *outside = 0u;
 @for input in used
+@if input.formula_only
   if (x@{input.index} != x@{input.index}) return x@{input.index}; /* NaN in, NaN out */
+@end
 @end
 @for axis in axes
   u[@{axis.index}] = @{axis.coordinate};
 @end
 @if has_axes
   value = @{interpolate}(ft_axes, ft_table, u, outside);
+  if (value != value) return value; /* NaN in one of the axes */
 @else
   value = ft_value[0];
 @end

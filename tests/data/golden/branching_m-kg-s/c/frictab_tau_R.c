@@ -48,12 +48,15 @@ typedef struct {
   const float* f32;
 } ft_values;
 
-/* NaN in either operand gives NaN. */
+/* NaN in either operand gives NaN. The comparison stands alone, so that it becomes an instruction
+ * instead of a branch: which side of a kink a state lies on is hard to predict. */
 FT_INLINE double ft_min(double a, double b) {
-  return (b < a || b != b) ? b : a;
+  const double least = b < a ? b : a;
+  return b != b ? b : least;
 }
 FT_INLINE double ft_max(double a, double b) {
-  return (b > a || b != b) ? b : a;
+  const double most = b > a ? b : a;
+  return b != b ? b : most;
 }
 FT_INLINE double ft_where_le(double a, double b, double x, double y) {
   if (a != a) return a;
@@ -63,7 +66,7 @@ FT_INLINE double ft_where_le(double a, double b, double x, double y) {
 
 /* Coordinate of a logarithmic axis; zero and negative values lie below every axis. */
 FT_INLINE double ft_log(double x) {
-  return x > 0.0 ? log(x) : (x == x ? -HUGE_VAL : x);
+  return isgreater(x, 0.0) ? log(x) : (x == x ? -HUGE_VAL : x);
 }
 
 /* Two numbers. */
@@ -306,12 +309,11 @@ FT_INLINE double ft_tau(
   (void)T_contact_C;
   *outside = 0u;
   if (x1 != x1) return x1; /* NaN in, NaN out */
-  if (x3 != x3) return x3; /* NaN in, NaN out */
-  if (x5 != x5) return x5; /* NaN in, NaN out */
   if (x6 != x6) return x6; /* NaN in, NaN out */
   u[0] = x3;
   u[1] = x5;
   value = ft_linear_2(ft_axes, ft_table, u, outside);
+  if (value != value) return value; /* NaN in one of the axes */
   /* the formula of the header, in MPa */
   {
     const double t1 = value*x1;
