@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
+#include "bench/generated_kernels.h"
 
 namespace frictab::bench {
 
@@ -153,6 +154,10 @@ void measure(const std::string& name, std::size_t queries, std::function<void()>
 
 int main(int argc, char** argv) {
   using namespace frictab::bench;
+  if (argc == 2 && std::string(argv[1]).rfind("--write=", 0) == 0) {
+    write_generated(argv[1] + std::strlen("--write="));
+    return 0;
+  }
   std::vector<char*> arguments(argv, argv + argc);
   std::string interleave = "--benchmark_enable_random_interleaving=true";
   arguments.insert(arguments.begin() + 1, interleave.data());

@@ -1,7 +1,10 @@
 // Exports, adds, compiles, loads.
 #include "bench/generated_kernels.h"
 
+#include <fstream>
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/random.h"
 #include "io/atomic_file.h"
@@ -134,6 +137,19 @@ FortranKernel::FortranKernel(const Table& table) {
   library_ = std::make_unique<Library>(
       compile_library(fortran.generate(request), fortran.variants(request)[0], directory_.path()));
   value = library_->find<double(const double*)>("ftintp_");
+}
+
+void write_generated(const std::filesystem::path& directory) {
+  const Table table = random_table({17, 9, 9, 9, 17}, false, false);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(directory / name, std::ios::binary) << text;
+  };
+  for (const auto& [name, text] : find_exporter("c")->generate({table, "mm-t-s", {}}))
+    write(name, text);
+  nlohmann::json nodes;
+  for (const TableAxis& axis : table.axes)
+    nodes[axis.name] = axis.nodes;
+  write("table.json", nlohmann::json{{"nodes", nodes}, {"value", table.value}}.dump());
 }
 
 } // namespace frictab::bench

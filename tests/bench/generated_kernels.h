@@ -39,4 +39,7 @@ private:
   std::unique_ptr<Library> library_;
 };
 
+// For kernels_against_scipy.py: 210,681 nodes on arbitrary axes as table.json, and the C bundle.
+void write_generated(const std::filesystem::path& directory);
+
 } // namespace frictab::bench
