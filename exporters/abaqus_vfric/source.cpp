@@ -8,9 +8,9 @@
 
 #include "codegen/template.h"
 #include "core/text.h"
+#include "interpolation.h"
 #include "parts.h"
 #include "table/outside.h"
-#include "table/spline.h"
 
 namespace frictab::abaqus_vfric {
 
@@ -107,43 +107,24 @@ std::vector<TableAxis> tabulated(const Table& table) {
   return table.is_direct() ? std::vector<TableAxis>{} : table.axes;
 }
 
-void add_axes(TemplateValues& values, const Table& table,
-              const std::map<std::string, std::string>& rename) {
-  std::vector<double> nodes, per_step;
-  std::vector<int> counts, first;
+void add_coordinates(TemplateValues& values, const Table& table,
+                     const std::map<std::string, std::string>& rename) {
   bool logarithm = false;
+  Lines& axes = values.lists["axes"];
   for (const TableAxis& axis : tabulated(table)) {
-    const std::vector<double> u = axis.coordinates();
-    first.push_back(static_cast<int>(nodes.size()) + 1);
-    counts.push_back(static_cast<int>(u.size()));
-    nodes.insert(nodes.end(), u.begin(), u.end());
-    per_step.push_back(axis.per_step());
     logarithm = logarithm || axis.log;
-    TemplateValues one;
     const std::string& x = rename.at(axis.name);
-    one.text = {{"number", std::to_string(counts.size())},
-                {"coordinate", axis.log ? "ftlog(" + x + ")" : x}};
-    values.lists["axes"].push_back(one);
+    axes.emplace_back();
+    axes.back().text["number"] = std::to_string(axes.size());
+    axes.back().text["coordinate"] = axis.log ? "ftlog(" + x + ")" : x;
   }
-  values.lists["axes"]; // also where there are none
   values.text["n_axes"] = std::to_string(table.axes.size());
-  values.text["n_nodes"] = std::to_string(nodes.size());
-  const std::vector<double> baked = baked_values(table);
-  values.text["n_values"] = std::to_string(baked.size());
-  values.text["n_corners"] =
-      std::to_string(table.axes.empty() ? 1 : std::size_t{1} << (table.axes.size() - 1));
-  values.text["data_nax"] = fixed_form_data("nax", counts);
-  values.text["data_off"] = fixed_form_data("off", first);
-  values.text["data_ps"] = fixed_form_data("ps", per_step);
-  values.text["data_un"] = fixed_form_data("un", nodes);
-  values.text["data_tv"] = fixed_form_data("tv", baked);
   values.text["only_value"] = table.is_direct() ? "ftpiec(x)" : fortran_number(table.value[0]);
   values.text["value_comment"] =
       clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
                        table.log_value ? "ln " : "", table.quantity));
-  values.flags["many_axes"] = table.axes.size() > 1;
   values.flags["has_axes"] = !table.axes.empty();
-  values.flags["interpolates"] = !counts.empty();
+  values.flags["interpolates"] = !axes.empty();
   values.flags["uses_log"] = logarithm;
 }
 
@@ -170,25 +151,6 @@ void add_outside(TemplateValues& values, const Table& table) {
   else
     lines.insert(lines.begin(), "Outside the range (error: XPLB_ABQERR ends the analysis):");
   values.lists["outside"] = comments(lines);
-}
-
-// Cell polynomials of a cubic table; what it has beyond a linear one.
-void add_splines(TemplateValues& values, const Table& table) {
-  std::vector<double> basis;
-  std::vector<int> first, begin;
-  if (is_cubic(table))
-    for (const TableAxis& axis : table.axes) {
-      const SplineAxis spline = spline_axis(axis);
-      begin.push_back(static_cast<int>(first.size()) + 1);
-      first.insert(first.end(), spline.first.begin(), spline.first.end());
-      basis.insert(basis.end(), spline.basis.begin(), spline.basis.end());
-    }
-  values.flags["cubic"] = is_cubic(table);
-  values.text["n_cells"] = std::to_string(first.size());
-  values.text["n_basis"] = std::to_string(basis.size());
-  values.text["data_oc"] = fixed_form_data("oc", begin);
-  values.text["data_fc"] = fixed_form_data("fc", first);
-  values.text["data_tb"] = fixed_form_data("tb", basis);
 }
 
 void add_formula(TemplateValues& values, const Table& table,
@@ -244,9 +206,9 @@ std::string vfric_source(const ExportRequest& request, const std::vector<VfricIn
   values.lists["source"] = comments({find_exporter("abaqus_vfric")->signature_source});
   values.lists["arguments"] = comments(argument_lines(inputs));
   add_inputs(values, inputs);
-  add_axes(values, table, rename);
+  add_coordinates(values, table, rename);
+  add_interpolation(values, table);
   add_outside(values, table);
-  add_splines(values, table);
   add_formula(values, table, rename);
   return render_template("abaqus_vfric/frictab_vfric.f", values);
 }

@@ -9,11 +9,14 @@
 
 namespace frictab {
 
+// The comparison stands alone, so that it becomes an instruction instead of a branch.
 inline double min_nan(double a, double b) {
-  return (b < a || std::isnan(b)) ? b : a;
+  const double least = b < a ? b : a;
+  return std::isnan(b) ? b : least;
 }
 inline double max_nan(double a, double b) {
-  return (b > a || std::isnan(b)) ? b : a;
+  const double most = b > a ? b : a;
+  return std::isnan(b) ? b : most;
 }
 
 inline double apply(Op op, double a, double b, double c, double d) {

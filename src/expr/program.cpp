@@ -25,6 +25,7 @@ Program::Program(const Expr& formula, std::vector<std::string> columns,
   std::vector<std::pair<const Expr::Node*, std::size_t>> seen;
   add(formula, seen);
   assign_slots();
+  assign_steps();
 }
 
 // A result's place is free again behind its last use, so that the blocks of a long formula stay in
@@ -46,6 +47,28 @@ void Program::assign_slots() {
       const bool first = std::find(in.a, in.a + k, in.a[k]) == in.a + k;
       if (first && last[in.a[k]] == i && from.op != Op::constant && from.op != Op::symbol)
         free.push_back(slot_[in.a[k]]);
+    }
+  }
+}
+
+void Program::assign_steps() {
+  std::vector<std::pair<Place, std::size_t>> found;
+  for (const Instruction& in : code_) {
+    if (in.op == Op::constant) {
+      found.emplace_back(Place::constant, constants_.size());
+      constants_.push_back(in.value);
+    } else if (in.op == Op::symbol) {
+      found.emplace_back(in.kind == Kind::data ? Place::row : Place::scalar, in.index);
+    } else {
+      found.emplace_back(Place::result, steps_.size());
+      Step step{.op = in.op};
+      for (std::size_t k = 0; k < 4;
+           ++k) { // what an operation leaves alone reads its first operand
+        const auto& [place, index] = found[in.a[k < in.operands ? k : 0]];
+        step.place[k] = place;
+        step.index[k] = static_cast<std::uint32_t>(index);
+      }
+      steps_.push_back(step);
     }
   }
 }
@@ -103,11 +126,25 @@ void Program::forward(std::span<const double> row, std::span<const double> scala
 }
 
 double Program::operator()(std::span<const double> row, std::span<const double> scalars) const {
+  if (steps_.empty()) { // one symbol or constant
+    double alone = 0;
+    forward(row, scalars, &alone);
+    return alone;
+  }
   double small[64];
-  std::vector<double> large(code_.size() > 64 ? code_.size() : 0);
-  double* v = large.empty() ? small : large.data();
-  forward(row, scalars, v);
-  return v[code_.size() - 1];
+  std::vector<double> large(steps_.size() > 64 ? steps_.size() : 0);
+  double* result = large.empty() ? small : large.data();
+  const double* const places[] = {row.data(), scalars.data(), constants_.data(), result};
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const auto operand = [&](std::size_t k) {
+      return places[static_cast<std::size_t>(step.place[k])][step.index[k]];
+    };
+    result[i] = step.op == Op::where_le
+                    ? apply(step.op, operand(0), operand(1), operand(2), operand(3))
+                    : apply(step.op, operand(0), operand(1), 0, 0);
+  }
+  return result[steps_.size() - 1];
 }
 
 double Program::gradient(std::span<const double> row, std::span<const double> scalars,

@@ -45,11 +45,21 @@ private:
     std::size_t a[4] = {}; // operands
     std::size_t operands = 0;
   };
+  // One operation of the one-row path: where each operand lies.
+  enum class Place : std::uint8_t { row, scalar, constant, result };
+  struct Step {
+    Op op;
+    Place place[4] = {};
+    std::uint32_t index[4] = {};
+  };
   void assign_slots();
+  void assign_steps();
   void forward(std::span<const double> row, std::span<const double> scalars, double* v) const;
   std::size_t add(const Expr& e, std::vector<std::pair<const Expr::Node*, std::size_t>>& seen);
 
   std::vector<Instruction> code_;
+  std::vector<Step> steps_; // the operations of code_; constants and symbols are read in place
+  std::vector<double> constants_;
   std::vector<std::size_t> slot_; // per instruction: where `evaluate` keeps its result
   std::size_t slots_ = 0;
   std::vector<std::string> columns_;

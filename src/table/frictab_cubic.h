@@ -13,117 +13,161 @@ typedef struct {
   const double* basis;
 } ft_spline_axis;
 
-/* First coefficient and weights of u; returns 1 where u lies outside the axis (the edge is used).
- */
-static inline int ft_spline_weights(const ft_spline_axis* axis, double u, int* first, double* w) {
-  const double* b;
-  double t;
-  int cell, j;
-  const int outside = ft_locate(&axis->nodes, u, &cell, &t);
-  b = axis->basis + 16 * cell;
-  *first = axis->first[cell];
-  for (j = 0; j < 4; ++j)
-    w[j] = b[j] + t * (b[4 + j] + t * (b[8 + j] + t * b[12 + j]));
-  return outside;
+/* Four numbers, for as many coefficients along the last axis. */
+#if defined(__AVX__) && defined(__GNUC__) && !defined(FT_PLAIN)
+typedef double ft_quad __attribute__((vector_size(32)));
+FT_INLINE ft_quad ft_zero4(void) {
+  const ft_quad q = {0.0, 0.0, 0.0, 0.0};
+  return q;
+}
+FT_INLINE ft_quad ft_load4(ft_values v, long at) {
+  return v.f32 ? (ft_quad)_mm256_cvtps_pd(_mm_loadu_ps(v.f32 + at))
+               : (ft_quad)_mm256_loadu_pd(v.f64 + at);
+}
+FT_INLINE ft_quad ft_plus4(ft_quad a, ft_quad b) {
+  return a + b;
+}
+FT_INLINE ft_quad ft_times4(double w, ft_quad a) {
+  return w * a;
+}
+FT_INLINE double ft_get4(ft_quad q, int i) {
+  return q[i];
+}
+#else
+typedef struct {
+  ft_pair of[2];
+} ft_quad;
+FT_INLINE ft_quad ft_quad_of(ft_pair a, ft_pair b) {
+  ft_quad q;
+  q.of[0] = a;
+  q.of[1] = b;
+  return q;
+}
+FT_INLINE ft_quad ft_zero4(void) {
+  return ft_quad_of(ft_pair_of(0.0, 0.0), ft_pair_of(0.0, 0.0));
+}
+FT_INLINE ft_quad ft_load4(ft_values v, long at) {
+  return ft_quad_of(ft_load(v, at), ft_load(v, at + 2));
+}
+FT_INLINE ft_quad ft_plus4(ft_quad a, ft_quad b) {
+  return ft_quad_of(ft_plus(a.of[0], b.of[0]), ft_plus(a.of[1], b.of[1]));
+}
+FT_INLINE ft_quad ft_times4(double w, ft_quad a) {
+  return ft_quad_of(ft_times(w, a.of[0]), ft_times(w, a.of[1]));
+}
+FT_INLINE double ft_get4(ft_quad q, int i) {
+  return ft_get(q.of[i / 2], i % 2);
+}
+#endif
+
+FT_INLINE double ft_dot4(const double* w, ft_quad x) {
+  return (w[0] * ft_get4(x, 0) + w[1] * ft_get4(x, 1)) +
+         (w[2] * ft_get4(x, 2) + w[3] * ft_get4(x, 3));
 }
 
-/* On 4 numbers, for as many coefficients along the last axis. */
-static inline void ft_zero4(double* sum) {
-  int l;
-  for (l = 0; l < 4; ++l)
-    sum[l] = 0.0;
-}
-static inline void ft_add4(double* sum, double w, const double* x) {
-  int l;
-  for (l = 0; l < 4; ++l)
-    sum[l] += w * x[l];
-}
-/* lane = the sum over the 4 taps of an axis whose coefficients lie at c + row[j]. */
-static inline void ft_rows4(double* lane, const double* w, const double* c, const long* row) {
-  const double *x0 = c + row[0], *x1 = c + row[1], *x2 = c + row[2], *x3 = c + row[3];
-  int l;
-  for (l = 0; l < 4; ++l)
-    lane[l] = (w[0] * x0[l] + w[1] * x1[l]) + (w[2] * x2[l] + w[3] * x3[l]);
-}
-/* Hands sums on and starts new ones. */
-static inline void ft_take4(double* to, double* sum) {
-  int l;
-  for (l = 0; l < 4; ++l) {
-    to[l] = sum[l];
-    sum[l] = 0.0;
-  }
-}
-static inline double ft_dot4(const double* w, const double* x) {
-  return (w[0] * x[0] + w[1] * x[1]) + (w[2] * x[2] + w[3] * x[3]);
+FT_INLINE int ft_taps(const ft_spline_axis* axis) {
+  return axis->nodes.n < 4 ? axis->nodes.n : 4;
 }
 
-/* What a spline of two or more axes is summed over at u. */
+/* Where N axes are read: the first coefficient, those at each axis' taps with their weights. */
 typedef struct {
   double w[FT_MAX_AXES][4];
-  int taps[FT_MAX_AXES];
-  long stride[FT_MAX_AXES];
-  long row[4];      /* of the last axis but one; a tap that is not there has the weight 0 */
-  long first;       /* coefficient */
-  unsigned outside; /* bits of clamped axes */
-} ft_spline_place;
+  double t[FT_MAX_AXES]; /* weight of the cell's upper node */
+  int cell[FT_MAX_AXES];
+  long at;
+  unsigned outside;
+} ft_spot;
 
-static inline void ft_spline_locate(ft_spline_place* at, int axes, const ft_spline_axis* axis,
-                                    const double* u) {
-  long size = 1;
-  int d, j;
-  at->first = 0;
-  at->outside = 0u;
-  for (d = axes - 1; d >= 0; --d) {
-    int first;
-    if (ft_spline_weights(&axis[d], u[d], &first, at->w[d])) at->outside |= 1u << d;
-    at->taps[d] = axis[d].nodes.n < 4 ? axis[d].nodes.n : 4;
-    at->stride[d] = size;
-    at->first += first * size;
-    size *= axis[d].nodes.n;
+FT_INLINE void ft_spot_0(const ft_spline_axis* axis, const double* u, ft_spot* spot) {
+  (void)axis;
+  (void)u;
+  spot->at = 0;
+  spot->outside = 0u;
+}
+#define FT_SPOT_TAP(D, J)                                                                          \
+  spot->w[D][J] = b[J] + spot->t[D] * (b[4 + J] + spot->t[D] * (b[8 + J] + spot->t[D] * b[12 + J]));
+#define FT_SPOT(N, D)                                                                              \
+  FT_INLINE void ft_spot_##N(const ft_spline_axis* axis, const double* u, ft_spot* spot) {         \
+    const double* b;                                                                               \
+    ft_spot_##D(axis, u, spot);                                                                    \
+    if (ft_locate(&axis[D].nodes, u[D], &spot->cell[D], &spot->t[D])) spot->outside |= 1u << D;    \
+    b = axis[D].basis + 16 * spot->cell[D];                                                        \
+    spot->at += axis[D].first[spot->cell[D]] * axis[D].nodes.stride;                               \
+    FT_SPOT_TAP(D, 0) FT_SPOT_TAP(D, 1) FT_SPOT_TAP(D, 2) FT_SPOT_TAP(D, 3)                        \
   }
-  for (j = 0; axes > 1 && j < 4; ++j)
-    at->row[j] = j < at->taps[axes - 2] ? j * at->stride[axes - 2] : 0;
+FT_SPOT(1, 0)
+FT_SPOT(2, 1)
+FT_SPOT(3, 2)
+FT_SPOT(4, 3)
+FT_SPOT(5, 4)
+FT_SPOT(6, 5)
+FT_SPOT(7, 6)
+FT_SPOT(8, 7)
+
+/* Along the first of `axis`: sum over its taps of w[j] times the 4 coefficients there. */
+FT_INLINE ft_quad ft_rows(const ft_spline_axis* axis, const double* w, ft_values v, long at) {
+  const long step = axis->nodes.stride;
+  const int n = axis->nodes.n;
+  ft_quad sum = ft_plus4(ft_times4(w[0], ft_load4(v, at)), ft_times4(w[1], ft_load4(v, at + step)));
+  if (n == 3) sum = ft_plus4(sum, ft_times4(w[2], ft_load4(v, at + 2 * step)));
+  if (n > 3)
+    sum = ft_plus4(sum, ft_plus4(ft_times4(w[2], ft_load4(v, at + 2 * step)),
+                                 ft_times4(w[3], ft_load4(v, at + 3 * step))));
+  return sum;
 }
 
-/* c: row-major, last axis fastest, and 2 zeros behind the last coefficient (4 are read along an
- * axis of 2 or 3 nodes as well). u, *outside and zero axes: as for ft_interpolate. */
-static inline double ft_cubic(int axes, const ft_spline_axis* axis, const double* c,
-                              const double* u, unsigned* outside) {
-  ft_spline_place at;
-  double sum[FT_MAX_AXES][4], rows[4], lane[4];
-  int tap[FT_MAX_AXES];
-  const int last = axes - 1, inner = axes - 2, outer = axes - 3;
-  int d, j;
-  if (outside) *outside = 0u;
-  if (axes == 0) return c[0];
-  ft_spline_locate(&at, axes, axis, u);
-  if (outside) *outside = at.outside;
-  c += at.first;
-  if (axes == 1) return ft_dot4(at.w[0], c);
-  for (d = 0; d < outer; ++d) {
-    tap[d] = 0;
-    ft_zero4(sum[d]);
-  }
-  for (;;) { /* the last three axes as one block; its sums are carried upwards like digits */
-    if (outer < 0) {
-      ft_rows4(lane, at.w[inner], c, at.row);
-    } else {
-      ft_zero4(lane);
-      for (j = 0; j < at.taps[outer]; ++j) {
-        ft_rows4(rows, at.w[inner], c + j * at.stride[outer], at.row);
-        ft_add4(lane, at.w[outer][j], rows);
-      }
-    }
-    for (d = outer - 1; d >= 0; --d) {
-      ft_add4(sum[d], at.w[d][tap[d]], lane);
-      c += at.stride[d];
-      if (++tap[d] < at.taps[d]) break;
-      c -= at.taps[d] * at.stride[d];
-      tap[d] = 0;
-      ft_take4(lane, sum[d]);
-    }
-    if (d < 0) return ft_dot4(at.w[last], lane);
-  }
+/* Along all of N axes but the last: what is left on that one. Three axes, 16 rows of 4, are
+ * unrolled; the others are loops, so that the code stays in the processor's cache of code. */
+typedef const double (*ft_weights)[4];
+FT_INLINE ft_quad ft_sum_1(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  (void)axis;
+  (void)w;
+  return ft_load4(v, at);
 }
+FT_INLINE ft_quad ft_sum_2(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  return ft_rows(axis, w[0], v, at);
+}
+FT_INLINE ft_quad ft_sum_3(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  const long step = axis->nodes.stride;
+  ft_quad sum = ft_plus4(ft_zero4(), ft_times4(w[0][0], ft_sum_2(axis + 1, w + 1, v, at)));
+  sum = ft_plus4(sum, ft_times4(w[0][1], ft_sum_2(axis + 1, w + 1, v, at + step)));
+  if (axis->nodes.n > 2)
+    sum = ft_plus4(sum, ft_times4(w[0][2], ft_sum_2(axis + 1, w + 1, v, at + 2 * step)));
+  if (axis->nodes.n > 3)
+    sum = ft_plus4(sum, ft_times4(w[0][3], ft_sum_2(axis + 1, w + 1, v, at + 3 * step)));
+  return sum;
+}
+#define FT_SUM(N, D)                                                                               \
+  FT_INLINE ft_quad ft_sum_##N(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {   \
+    ft_quad sum = ft_zero4();                                                                      \
+    int j;                                                                                         \
+    for (j = 0; j < ft_taps(axis); ++j, at += axis->nodes.stride)                                  \
+      sum = ft_plus4(sum, ft_times4(w[0][j], ft_sum_##D(axis + 1, w + 1, v, at)));                 \
+    return sum;                                                                                    \
+  }
+FT_SUM(4, 3)
+FT_SUM(5, 4)
+FT_SUM(6, 5)
+FT_SUM(7, 6)
+FT_SUM(8, 7)
+
+/* ft_cubic_N: as ft_linear_N. v: coefficients, and 2 zeros behind the last one (4 are read along an
+ * axis of 2 or 3 nodes as well). */
+#define FT_CUBIC(N, LAST)                                                                          \
+  FT_INLINE double ft_cubic_##N(const ft_spline_axis* axis, ft_values v, const double* u,          \
+                                unsigned* outside) {                                               \
+    ft_spot spot;                                                                                  \
+    ft_spot_##N(axis, u, &spot);                                                                   \
+    if (outside) *outside = spot.outside;                                                          \
+    return ft_dot4(spot.w[LAST], ft_sum_##N(axis, (ft_weights)spot.w, v, spot.at));                \
+  }
+FT_CUBIC(1, 0)
+FT_CUBIC(2, 1)
+FT_CUBIC(3, 2)
+FT_CUBIC(4, 3)
+FT_CUBIC(5, 4)
+FT_CUBIC(6, 5)
+FT_CUBIC(7, 6)
+FT_CUBIC(8, 7)
 
 #endif

@@ -1,152 +1,165 @@
 /* Value and all derivatives by the axis coordinates in one pass, linear and cubic; the same value,
- * bit for bit, as ft_interpolate and ft_cubic give. C99, no allocation, no state, thread-safe.
+ * bit for bit, as ft_linear_N and ft_cubic_N give. C99, no allocation, no state, thread-safe.
  * Stands behind frictab_cubic.h. */
 #ifndef FRICTAB_GRADIENT_H
 #define FRICTAB_GRADIENT_H
 
-/* d weight/d u in the cell of u: 0 outside, where the edge's value is used; NaN for NaN. */
-static inline double ft_weight_slope(const ft_axis* axis, double u, int cell, int outside) {
-  if (u != u) return u;
-  return outside ? 0.0 : 1.0 / (axis->u[cell + 1] - axis->u[cell]);
+/* DO(0) ... DO(k - 1), without a loop: what they index stays in registers. */
+#define FT_EACH_0(DO)
+#define FT_EACH_1(DO) DO(0)
+#define FT_EACH_2(DO) FT_EACH_1(DO) DO(1)
+#define FT_EACH_3(DO) FT_EACH_2(DO) DO(2)
+#define FT_EACH_4(DO) FT_EACH_3(DO) DO(3)
+#define FT_EACH_5(DO) FT_EACH_4(DO) DO(4)
+#define FT_EACH_6(DO) FT_EACH_5(DO) DO(5)
+#define FT_EACH_7(DO) FT_EACH_6(DO) DO(6)
+#define FT_EACH_8(DO) FT_EACH_7(DO) DO(7)
+
+/* d weight/d u: 0 outside, where the edge's value is used; NaN for NaN. */
+FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, unsigned outside) {
+  if (weight != weight) return weight;
+  return outside ? 0.0 : axis->per_cell[cell];
 }
 
-/* As ft_interpolate; by_u: one derivative per axis. */
-static inline double ft_interpolate_gradient(int axes, const ft_axis* axis, const double* value,
-                                             const double* u, double* by_u, unsigned* outside) {
-  double corner[1 << (FT_MAX_AXES - 1)];
-  double slope[FT_MAX_AXES][1 << (FT_MAX_AXES - 1)]; /* by the weight of each axis done so far */
-  double weight[FT_MAX_AXES], weight_slope[FT_MAX_AXES];
-  long stride[FT_MAX_AXES];
-  long base = 0, size = 1;
-  unsigned flags = 0u;
-  const int last = axes - 1;
-  int d, e, corners, i;
-  if (outside) *outside = 0u;
-  if (axes == 0) return value[0];
-  for (d = last; d >= 0; --d) {
-    int cell;
-    const int beyond = ft_locate(&axis[d], u[d], &cell, &weight[d]);
-    if (beyond) flags |= 1u << d;
-    weight_slope[d] = ft_weight_slope(&axis[d], u[d], cell, beyond);
-    stride[d] = size;
-    base += cell * size;
-    size *= axis[d].n;
+/* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
+typedef struct {
+  ft_pair value, by[FT_MAX_AXES];
+} ft_fan;
+
+FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+  (void)axis;
+  (void)w;
+  fan->value = ft_load(v, at);
+}
+#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
+#define FT_FAN_LOOP(D)                                                                             \
+  for (j = 0; j < 2; ++j)                                                                          \
+  FT_FAN_END(j, D)
+#define FT_FAN(N, D, INNER, ENDS)                                                                  \
+  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
+                            ft_fan* fan) {                                                         \
+    ft_fan end[2];                                                                                 \
+    int j = 0;                                                                                     \
+    (void)j;                                                                                       \
+    ENDS(D)                                                                                        \
+    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
   }
-  if (outside) *outside = flags;
-  corners = 1 << last;
-  for (i = 0; i < corners; ++i) {
-    long at = base;
-    for (d = 0; d < last; ++d)
-      if (i & (1 << (last - 1 - d))) at += stride[d];
-    corner[i] = (1.0 - weight[last]) * value[at] + weight[last] * value[at + 1];
-    slope[last][i] = value[at + 1] - value[at];
+FT_FAN(2, 1, 0, FT_FAN_BOTH)
+FT_FAN(3, 2, 1, FT_FAN_BOTH)
+FT_FAN(4, 3, 2, FT_FAN_BOTH)
+FT_FAN(5, 4, 3, FT_FAN_BOTH)
+FT_FAN(6, 5, 4, FT_FAN_LOOP)
+FT_FAN(7, 6, 5, FT_FAN_LOOP)
+FT_FAN(8, 7, 6, FT_FAN_LOOP)
+
+/* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
+#define FT_LINEAR_BY(i)                                                                            \
+  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+#define FT_LINEAR_GRADIENT(N, LAST)                                                                \
+  FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
+                                          double* by_u, unsigned* outside) {                       \
+    ft_place place;                                                                                \
+    ft_fan fan;                                                                                    \
+    double t;                                                                                      \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
+    t = place.w[LAST];                                                                             \
+    FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
+        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
   }
-  for (d = last - 1; d >= 0; --d) {
-    const double w = weight[d];
-    corners /= 2;
-    for (e = d + 1; e < axes; ++e)
-      for (i = 0; i < corners; ++i)
-        slope[e][i] = (1.0 - w) * slope[e][2 * i] + w * slope[e][2 * i + 1];
-    for (i = 0; i < corners; ++i) {
-      slope[d][i] = corner[2 * i + 1] - corner[2 * i];
-      corner[i] = (1.0 - w) * corner[2 * i] + w * corner[2 * i + 1];
-    }
-  }
-  for (d = 0; d < axes; ++d)
-    by_u[d] = slope[d][0] * weight_slope[d];
-  return corner[0];
+FT_LINEAR_GRADIENT(1, 0)
+FT_LINEAR_GRADIENT(2, 1)
+FT_LINEAR_GRADIENT(3, 2)
+FT_LINEAR_GRADIENT(4, 3)
+FT_LINEAR_GRADIENT(5, 4)
+FT_LINEAR_GRADIENT(6, 5)
+FT_LINEAR_GRADIENT(7, 6)
+FT_LINEAR_GRADIENT(8, 7)
+
+/* Derivatives by u of the weights of axis d. */
+FT_INLINE void ft_spot_slopes(const ft_spline_axis* axis, const ft_spot* spot, int d, double* by) {
+  const double* b = axis[d].basis + 16 * spot->cell[d];
+  const double t = spot->t[d];
+  const double s = ft_weight_slope(&axis[d].nodes, t, spot->cell[d], spot->outside >> d & 1u);
+  by[0] = s * (b[4] + t * (2.0 * b[8] + t * (3.0 * b[12])));
+  by[1] = s * (b[5] + t * (2.0 * b[9] + t * (3.0 * b[13])));
+  by[2] = s * (b[6] + t * (2.0 * b[10] + t * (3.0 * b[14])));
+  by[3] = s * (b[7] + t * (2.0 * b[11] + t * (3.0 * b[15])));
 }
 
-/* Derivatives of the weights that ft_spline_weights gives, by u. */
-static inline void ft_spline_slopes(const ft_spline_axis* axis, double u, double* by_u) {
-  const double* b;
-  double t, s;
-  int cell, j;
-  const int outside = ft_locate(&axis->nodes, u, &cell, &t);
-  b = axis->basis + 16 * cell;
-  s = ft_weight_slope(&axis->nodes, u, cell, outside);
-  for (j = 0; j < 4; ++j)
-    by_u[j] = s * (b[4 + j] + t * (2.0 * b[8 + j] + t * (3.0 * b[12 + j])));
-}
+/* As ft_sum_N, and the derivatives by each axis but the last. s: slopes of the weights w. */
+typedef struct {
+  ft_quad value, by[FT_MAX_AXES];
+} ft_bundle;
 
-/* Adds one tap of axis d. lane, sum: [0] the value, [1 + e] the derivative by axis e, for
- * d <= e < last. */
-static inline void ft_gather4(double (*sum)[4], double (*lane)[4], int d, int last, double w,
-                              double slope) {
-  int e;
-  ft_add4(sum[0], w, lane[0]);
-  ft_add4(sum[1 + d], slope, lane[0]);
-  for (e = d + 1; e < last; ++e)
-    ft_add4(sum[1 + e], w, lane[1 + e]);
+FT_INLINE void ft_bundle_1(const ft_spline_axis* axis, ft_weights w, ft_weights s, ft_values v,
+                           long at, ft_bundle* sum) {
+  (void)axis;
+  (void)w;
+  (void)s;
+  sum->value = ft_load4(v, at);
 }
+FT_INLINE void ft_bundle_2(const ft_spline_axis* axis, ft_weights w, ft_weights s, ft_values v,
+                           long at, ft_bundle* sum) {
+  sum->value = ft_rows(axis, w[0], v, at);
+  sum->by[0] = ft_rows(axis, s[0], v, at);
+}
+#define FT_BUNDLE_ZERO(i) sum->by[(i) + 1] = ft_zero4();
+#define FT_BUNDLE_BY(i)                                                                            \
+  sum->by[(i) + 1] = ft_plus4(sum->by[(i) + 1], ft_times4(w[0][j], row.by[i]));
+#define FT_BUNDLE(N, D, INNER)                                                                     \
+  FT_INLINE void ft_bundle_##N(const ft_spline_axis* axis, ft_weights w, ft_weights s,             \
+                               ft_values v, long at, ft_bundle* sum) {                             \
+    ft_bundle row;                                                                                 \
+    int j;                                                                                         \
+    sum->value = sum->by[0] = ft_zero4();                                                          \
+    FT_EACH_##INNER(FT_BUNDLE_ZERO) for (j = 0; j < ft_taps(axis);                                 \
+                                         ++j, at += axis->nodes.stride) {                          \
+      ft_bundle_##D(axis + 1, w + 1, s + 1, v, at, &row);                                          \
+      sum->value = ft_plus4(sum->value, ft_times4(w[0][j], row.value));                            \
+      sum->by[0] = ft_plus4(sum->by[0], ft_times4(s[0][j], row.value));                            \
+      FT_EACH_##INNER(FT_BUNDLE_BY)                                                                \
+    }                                                                                              \
+  }
+FT_BUNDLE(3, 2, 1)
+FT_BUNDLE(4, 3, 2)
+FT_BUNDLE(5, 4, 3)
+FT_BUNDLE(6, 5, 4)
+FT_BUNDLE(7, 6, 5)
+FT_BUNDLE(8, 7, 6)
 
-/* The last two axes, or three, as one block: lane[0], lane[1 + inner], lane[1 + outer]. */
-static inline void ft_block4(const ft_spline_place* at, double (*slope)[4], const double* c,
-                             int axes, double (*lane)[4]) {
-  const int inner = axes - 2, outer = axes - 3;
-  double value[4], by_inner[4], sum[3][4];
-  int j;
-  if (outer < 0) {
-    ft_rows4(lane[0], at->w[inner], c, at->row);
-    ft_rows4(lane[1 + inner], slope[inner], c, at->row);
-    return;
+/* ft_cubic_gradient_N: as ft_cubic_N; by_u: one derivative per axis. */
+#define FT_CUBIC_SLOPES(i) ft_spot_slopes(axis, &spot, i, slope[i]);
+#define FT_CUBIC_BY(i) by_u[i] = ft_dot4(spot.w[last], sum.by[i]);
+#define FT_CUBIC_GRADIENT(N, LAST)                                                                 \
+  FT_INLINE double ft_cubic_gradient_##N(const ft_spline_axis* axis, ft_values v, const double* u, \
+                                         double* by_u, unsigned* outside) {                        \
+    const int last = LAST;                                                                         \
+    double slope[N][4];                                                                            \
+    ft_spot spot;                                                                                  \
+    ft_bundle sum;                                                                                 \
+    ft_spot_##N(axis, u, &spot);                                                                   \
+    if (outside) *outside = spot.outside;                                                          \
+    FT_EACH_##N(FT_CUBIC_SLOPES)                                                                   \
+        ft_bundle_##N(axis, (ft_weights)spot.w, (ft_weights)slope, v, spot.at, &sum);              \
+    FT_EACH_##LAST(FT_CUBIC_BY) by_u[LAST] = ft_dot4(slope[LAST], sum.value);                      \
+    return ft_dot4(spot.w[last], sum.value);                                                       \
   }
-  for (j = 0; j < 3; ++j)
-    ft_zero4(sum[j]);
-  for (j = 0; j < at->taps[outer]; ++j) {
-    ft_rows4(value, at->w[inner], c + j * at->stride[outer], at->row);
-    ft_rows4(by_inner, slope[inner], c + j * at->stride[outer], at->row);
-    ft_add4(sum[0], at->w[outer][j], value);
-    ft_add4(sum[1], at->w[outer][j], by_inner);
-    ft_add4(sum[2], slope[outer][j], value);
-  }
-  ft_take4(lane[0], sum[0]);
-  ft_take4(lane[1 + inner], sum[1]);
-  ft_take4(lane[1 + outer], sum[2]);
-}
-
-/* As ft_cubic; by_u: one derivative per axis. */
-static inline double ft_cubic_gradient(int axes, const ft_spline_axis* axis, const double* c,
-                                       const double* u, double* by_u, unsigned* outside) {
-  ft_spline_place at;
-  double slope[FT_MAX_AXES][4], sum[FT_MAX_AXES][1 + FT_MAX_AXES][4], lane[1 + FT_MAX_AXES][4];
-  int tap[FT_MAX_AXES];
-  const int last = axes - 1, outer = axes - 3;
-  int d, e;
-  if (outside) *outside = 0u;
-  if (axes == 0) return c[0];
-  ft_spline_locate(&at, axes, axis, u);
-  if (outside) *outside = at.outside;
-  c += at.first;
-  for (d = 0; d < axes; ++d)
-    ft_spline_slopes(&axis[d], u[d], slope[d]);
-  if (axes == 1) {
-    by_u[0] = ft_dot4(slope[0], c);
-    return ft_dot4(at.w[0], c);
-  }
-  for (d = 0; d < outer; ++d) {
-    tap[d] = 0;
-    for (e = 0; e < axes; ++e)
-      ft_zero4(sum[d][e]);
-  }
-  for (;;) { /* as in ft_cubic */
-    ft_block4(&at, slope, c, axes, lane);
-    for (d = outer - 1; d >= 0; --d) {
-      ft_gather4(sum[d], lane, d, last, at.w[d][tap[d]], slope[d][tap[d]]);
-      c += at.stride[d];
-      if (++tap[d] < at.taps[d]) break;
-      c -= at.taps[d] * at.stride[d];
-      tap[d] = 0;
-      ft_take4(lane[0], sum[d][0]);
-      for (e = d; e < last; ++e)
-        ft_take4(lane[1 + e], sum[d][1 + e]);
-    }
-    if (d < 0) break;
-  }
-  for (e = 0; e < last; ++e)
-    by_u[e] = ft_dot4(at.w[last], lane[1 + e]);
-  by_u[last] = ft_dot4(slope[last], lane[0]);
-  return ft_dot4(at.w[last], lane[0]);
-}
+FT_CUBIC_GRADIENT(1, 0)
+FT_CUBIC_GRADIENT(2, 1)
+FT_CUBIC_GRADIENT(3, 2)
+FT_CUBIC_GRADIENT(4, 3)
+FT_CUBIC_GRADIENT(5, 4)
+FT_CUBIC_GRADIENT(6, 5)
+FT_CUBIC_GRADIENT(7, 6)
+FT_CUBIC_GRADIENT(8, 7)
 
 #endif

@@ -7,10 +7,8 @@
 #include "core/parallel.h"
 #include "data/quantity.h"
 #include "expr/program.h"
-#include "table/frictab_kernel.h"
-// The two that stand behind it.
-#include "table/frictab_cubic.h"
-#include "table/frictab_gradient.h"
+#include "table/axis_search.h"
+#include "table/kernel.h"
 #include "table/outside.h"
 #include "table/spline.h"
 
@@ -25,11 +23,7 @@ std::vector<double> TableAxis::coordinates() const {
 }
 
 double TableAxis::per_step() const {
-  const std::vector<double> u = coordinates();
-  const double step = (u.back() - u.front()) / static_cast<double>(u.size() - 1);
-  for (std::size_t i = 0; i < u.size(); ++i)
-    if (std::abs(u[i] - (u.front() + step * static_cast<double>(i))) > 1e-9 * step) return 0;
-  return 1 / step;
+  return frictab::per_step(coordinates());
 }
 
 std::vector<std::string> Table::inputs() const {
@@ -52,42 +46,52 @@ std::size_t Table::bytes() const {
 }
 
 struct TableFunction::Data {
+  struct Axis {
+    std::size_t input;
+    bool log;
+  };
   std::vector<std::string> inputs;
-  std::vector<std::vector<double>> coordinates; // of linear axes
+  std::vector<Axis> axes;
+  std::vector<AxisSearch> searches;
   std::vector<ft_axis> linear;
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
   bool is_cubic = false;
-  std::vector<std::size_t> input_of_axis;
-  std::vector<char> log;
   std::vector<double> value; // at the nodes, or coefficients
   bool log_value = false;
-  std::unique_ptr<OutsideRule> rule; // where clamping is not all there is to it
-  std::unique_ptr<Program> combine;  // row: value, then inputs; scalars: constants
-  std::vector<double> constants;
+  std::unique_ptr<OutsideRule> rule;  // where clamping is not all there is to it
+  std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
+  std::unique_ptr<Program> of_all;    // row: value, then inputs
 
-  int axes() const { return static_cast<int>(log.size()); }
-  void coordinates_of(std::span<const double> state, double* u) const {
-    for (std::size_t a = 0; a < log.size(); ++a) {
-      const double x = state[input_of_axis[a]];
-      u[a] = log[a] ? ft_log(x) : x;
+  void add_axes(const Table& table);
+  void coordinates(const double* state, double* u) const {
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const double x = state[axes[a].input];
+      u[a] = axes[a].log ? ft_log(x) : x;
     }
   }
-  void add_axes(const Table& table);
+  // The tabulated piece, or its logarithm.
+  double raw(const double* u, unsigned* outside) const {
+    const int n = static_cast<int>(axes.size());
+    return is_cubic ? interpolate(n, cubic.data(), value.data(), u, outside)
+                    : interpolate(n, linear.data(), value.data(), u, outside);
+  }
+  void pieces(std::span<const double* const> columns, std::size_t first, std::size_t count,
+              double* value, unsigned* outside) const;
 };
 
 void TableFunction::Data::add_axes(const Table& table) {
   is_cubic = table.interpolation == "cubic";
   for (const TableAxis& axis : table.axes) {
-    log.push_back(axis.log);
-    input_of_axis.push_back(static_cast<std::size_t>(
-        std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin()));
-    coordinates.push_back(axis.coordinates());
+    const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
+    axes.push_back({static_cast<std::size_t>(input), axis.log});
+    searches.push_back(axis_search(axis.coordinates()));
     if (is_cubic) splines.push_back(spline_axis(axis));
   }
-  for (std::size_t a = 0; a < table.axes.size(); ++a) { // pointers only when nothing moves any more
-    linear.push_back(
-        {static_cast<int>(coordinates[a].size()), table.axes[a].per_step(), coordinates[a].data()});
+  long stride = static_cast<long>(table.value.size());
+  for (std::size_t a = 0; a < searches.size(); ++a) { // pointers only when nothing moves any more
+    stride /= static_cast<long>(searches[a].u.size());
+    linear.push_back(searches[a].axis(stride));
     if (is_cubic)
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
@@ -100,13 +104,14 @@ TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>(
   if (OutsideRule::needed(table)) d.rule = std::make_unique<OutsideRule>(table);
   if (!table.is_direct()) d.add_axes(table);
   d.log_value = table.log_value;
-  std::vector<std::string> row{"value"}, scalars;
+  std::map<std::string, Expr> constants;
+  for (const auto& [name, value] : table.constants)
+    constants.emplace(name, Expr(value));
+  const Expr combine = substitute(table.combine, constants);
+  std::vector<std::string> row{"value"};
   row.insert(row.end(), d.inputs.begin(), d.inputs.end());
-  for (const auto& [name, value] : table.constants) {
-    scalars.push_back(name);
-    d.constants.push_back(value);
-  }
-  d.combine = std::make_unique<Program>(table.combine, row, scalars);
+  d.of_inputs = std::make_unique<Program>(combine, d.inputs, std::vector<std::string>{"value"});
+  d.of_all = std::make_unique<Program>(combine, row, std::vector<std::string>{});
 }
 
 TableFunction::~TableFunction() = default;
@@ -119,14 +124,10 @@ double TableFunction::operator()(std::span<const double> state, unsigned* outsid
   const Data& d = *data_;
   if (d.rule)
     if (const auto tau = d.rule->tau(state, outside)) return *tau;
-  double u[FT_MAX_AXES], row[1 + 16];
-  d.coordinates_of(state, u);
-  const double raw = d.is_cubic
-                         ? ft_cubic(d.axes(), d.cubic.data(), d.value.data(), u, outside)
-                         : ft_interpolate(d.axes(), d.linear.data(), d.value.data(), u, outside);
-  row[0] = d.log_value ? std::exp(raw) : raw;
-  std::copy(state.begin(), state.end(), row + 1);
-  return (*d.combine)(std::span<const double>(row, state.size() + 1), d.constants);
+  double u[FT_MAX_AXES];
+  d.coordinates(state.data(), u);
+  const double raw = d.raw(u, outside), value = d.log_value ? std::exp(raw) : raw;
+  return (*d.of_inputs)(state, {&value, 1});
 }
 
 double TableFunction::gradient(std::span<const double> state, std::span<double> derivative,
@@ -135,38 +136,64 @@ double TableFunction::gradient(std::span<const double> state, std::span<double> 
   if (d.rule)
     if (const auto tau = d.rule->gradient(state, derivative, outside)) return *tau;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
-  d.coordinates_of(state, u);
-  const double raw =
-      d.is_cubic
-          ? ft_cubic_gradient(d.axes(), d.cubic.data(), d.value.data(), u, by_u, outside)
-          : ft_interpolate_gradient(d.axes(), d.linear.data(), d.value.data(), u, by_u, outside);
+  d.coordinates(state.data(), u);
+  const int axes = static_cast<int>(d.axes.size());
+  const double raw = d.is_cubic
+                         ? interpolate(axes, d.cubic.data(), d.value.data(), u, by_u, outside)
+                         : interpolate(axes, d.linear.data(), d.value.data(), u, by_u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
-  const double tau = d.combine->gradient({row, state.size() + 1}, d.constants,
-                                         std::span<double>(by_row, state.size() + 1));
+  const double tau =
+      d.of_all->gradient({row, state.size() + 1}, {}, std::span<double>(by_row, state.size() + 1));
   for (std::size_t i = 0; i < state.size(); ++i)
     derivative[i] = by_row[1 + i];
   const double by_raw = d.log_value ? by_row[0] * row[0] : by_row[0];
-  for (std::size_t a = 0; a < d.log.size(); ++a) {
+  for (std::size_t a = 0; a < d.axes.size(); ++a) {
     if (by_u[a] == 0) continue; // clamped: no 0/0 at the origin of a logarithmic axis
-    const std::size_t i = d.input_of_axis[a];
-    derivative[i] += by_raw * (d.log[a] ? by_u[a] / state[i] : by_u[a]);
+    const std::size_t i = d.axes[a].input;
+    derivative[i] += by_raw * (d.axes[a].log ? by_u[a] / state[i] : by_u[a]);
   }
   return tau;
 }
 
+// Of rows first .. first + count - 1 (at most a block). Logarithms, lookups and exponentials in
+// loops of their own: the processor works on several rows at once where it need not wait for one.
+void TableFunction::Data::pieces(std::span<const double* const> columns, std::size_t first,
+                                 std::size_t count, double* out, unsigned* outside) const {
+  double u[Program::block][FT_MAX_AXES];
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const double* x = columns[axes[a].input] + first;
+    for (std::size_t i = 0; i < count; ++i)
+      u[i][a] = axes[a].log ? ft_log(x[i]) : x[i];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = raw(u[i], outside ? outside + i : nullptr);
+  for (std::size_t i = 0; log_value && i < count; ++i)
+    out[i] = std::exp(out[i]);
+}
+
 void TableFunction::evaluate(std::size_t rows, std::span<const double* const> columns,
                              std::span<double> tau, std::span<unsigned> outside) const {
-  constexpr std::size_t per_task = 4096;
-  const std::size_t inputs = columns.size();
+  constexpr std::size_t per_task = 32 * Program::block;
   parallel_for((rows + per_task - 1) / per_task, [&](std::size_t task) {
-    double state[16];
-    for (std::size_t i = task * per_task; i < std::min(rows, (task + 1) * per_task); ++i) {
-      for (std::size_t c = 0; c < inputs; ++c)
-        state[c] = columns[c][i];
-      tau[i] =
-          (*this)(std::span<const double>(state, inputs), outside.empty() ? nullptr : &outside[i]);
+    const std::size_t first = task * per_task, count = std::min(rows - first, per_task);
+    if (data_->rule) { // asks row by row
+      double state[16];
+      for (std::size_t i = first; i < first + count; ++i) {
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          state[c] = columns[c][i];
+        tau[i] = (*this)({state, columns.size()}, outside.empty() ? nullptr : &outside[i]);
+      }
+      return;
     }
+    std::vector<double> value(count);
+    for (std::size_t i = 0; i < count; i += Program::block)
+      data_->pieces(columns, first + i, std::min(count - i, Program::block), value.data() + i,
+                    outside.empty() ? nullptr : &outside[first + i]);
+    std::vector<const double*> row{value.data()};
+    for (const double* column : columns)
+      row.push_back(column + first);
+    data_->of_all->evaluate(count, row, {}, tau.data() + first);
   });
 }
 

@@ -308,204 +308,114 @@ C
 @if refuses
 @{stop}
 @end
+@if interpolates
 @if cubic
 C     Cubic spline, the twin of frictab_cubic.h: same cells, same
 C     polynomials, same order of operations. The numbers below are
 C     never changed: safe in threads and parallel domains.
-      double precision function ftintp(u)
-      implicit none
-      integer naxes, nnodes, nvals, ncells, nbasis
-      parameter (naxes = @{n_axes}, nnodes = @{n_nodes})
-      parameter (nvals = @{n_values}, ncells = @{n_cells})
-      parameter (nbasis = @{n_basis})
-      double precision u(naxes)
-      integer d, cell, size, at, i, l
-      integer nax(naxes), off(naxes), oc(naxes), fc(ncells)
-@if many_axes
-      integer taps, stride(naxes), tap(naxes), row(4)
-      double precision total(4,naxes)
-@end
-      double precision lane(4), w(4,naxes), t
-      double precision ps(naxes), un(nnodes), tb(nbasis), tv(nvals)
-      save nax, off, oc, fc, ps, un, tb, tv
-C     nodes per axis, where each begins, where its cells begin,
-C     1/step where even
-@{data_nax}
-@{data_off}
-@{data_oc}
-@{data_ps}
-C     nodes (logarithms on logarithmic axes)
-@{data_un}
-C     per cell: first coefficient; 4 polynomials of the cell's weight
-@{data_fc}
-@{data_tb}
-C     @{value_comment}
-@{data_tv}
-      at = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, t)
-        cell = cell + oc(d)
-        i = 16*(cell - 1)
-        do l = 1, 4
-          w(l,d) = tb(i+l) + t*(tb(i+l+4)
-     &      + t*(tb(i+l+8) + t*tb(i+l+12)))
-        end do
-        at = at + fc(cell)*size
-@if many_axes
-        stride(d) = size
-        tap(d) = 0
-        do l = 1, 4
-          total(l,d) = 0.0D0
-        end do
-@end
-        size = size*nax(d)
-      end do
-@if many_axes
-      do i = 1, 4
-        row(i) = 0
-        if (i .le. nax(naxes-1)) row(i) = (i-1)*stride(naxes-1)
-      end do
-C     The two last axes as one block; its sums are carried upwards
-C     like digits.
-      do
-        do l = 1, 4
-          i = at + l - 1
-          lane(l) = (w(1,naxes-1)*tv(i+row(1))
-     &      + w(2,naxes-1)*tv(i+row(2)))
-     &      + (w(3,naxes-1)*tv(i+row(3))
-     &      + w(4,naxes-1)*tv(i+row(4)))
-        end do
-        do d = naxes - 2, 1, -1
-          t = w(tap(d)+1,d)
-          do l = 1, 4
-            total(l,d) = total(l,d) + t*lane(l)
-          end do
-          at = at + stride(d)
-          tap(d) = tap(d) + 1
-          taps = min(nax(d), 4)
-          if (tap(d) .lt. taps) exit
-          at = at - taps*stride(d)
-          tap(d) = 0
-          do l = 1, 4
-            lane(l) = total(l,d)
-            total(l,d) = 0.0D0
-          end do
-        end do
-        if (d .lt. 1) exit
-      end do
 @else
-      do l = 1, 4
-        lane(l) = tv(at+l-1)
-      end do
-@end
-      ftintp = (w(1,naxes)*lane(1) + w(2,naxes)*lane(2))
-     &  + (w(3,naxes)*lane(3) + w(4,naxes)*lane(4))
-      return
-      end
-C
-@else
-@if interpolates
 C     Multilinear interpolation, the twin of frictab_kernel.h: same
 C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
+@end
       double precision function ftintp(u)
       implicit none
-      integer naxes, nnodes, nvals, ncorn
-      parameter (naxes = @{n_axes}, nnodes = @{n_nodes})
-      parameter (nvals = @{n_values}, ncorn = @{n_corners})
-      double precision u(naxes)
-      integer d, cell, size, base, at, i, corn
-      integer nax(naxes), off(naxes)
-@if many_axes
-      integer stride(naxes)
+      double precision u(@{n_axes}), x, t
+      integer i, at
+@if uses_bisection
+      integer high, middle
 @end
-      double precision corner(ncorn), w(naxes), wd
-      double precision ps(naxes), un(nnodes), tv(nvals)
-      save nax, off, ps, un, tv
-C     nodes per axis, where each begins, 1/step where even
-@{data_nax}
-@{data_off}
-@{data_ps}
-C     nodes (logarithms on logarithmic axes)
+@for axis in axes
+@if axis.scaled
+      double precision sc@{axis.number}, sh@{axis.number}
+      parameter (sc@{axis.number} = @{axis.scale})
+      parameter (sh@{axis.number} = @{axis.shift})
+@end
+@end
+@for line in names
+@{line.text}
+@end
+@if cubic
+      integer l
+      double precision w(4,@{n_axes})
+      integer fc(@{n_cells})
+      double precision tb(@{n_basis})
+      save fc, tb
+@end
+      double precision un(@{n_nodes}), pc(@{n_cells})
+      double precision tv(@{n_values})
+      save un, pc, tv
+@if uses_guide
+      integer gd(@{n_guide})
+      save gd
+@end
+C     nodes (logarithms on logarithmic axes), 1/width of cells
 @{data_un}
+@{data_pc}
+@if uses_guide
+C     cells by the coordinate's place
+@{data_gd}
+@end
+@if cubic
+C     per cell: first coefficient; 4 polynomials of the cell's weight
+@{data_fc}
+@{data_tb}
+@end
 C     @{value_comment}
 @{data_tv}
-      base = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, w(d))
-@if many_axes
-        stride(d) = size
-@end
-        base = base + cell*size
-        size = size*nax(d)
-      end do
-      corn = ncorn
-      wd = w(naxes)
-      do i = 0, corn - 1
-        at = base
-@if many_axes
-        do d = 1, naxes - 1
-          if (btest(i, naxes-1-d)) at = at + stride(d)
-        end do
-@end
-        corner(i+1) = (1.0D0 - wd)*tv(at) + wd*tv(at+1)
-      end do
-@if many_axes
-      do d = naxes - 1, 1, -1
-        corn = corn/2
-        wd = w(d)
-        do i = 1, corn
-          corner(i) = (1.0D0 - wd)*corner(2*i-1) + wd*corner(2*i)
-        end do
-      end do
-@end
-      ftintp = corner(1)
-      return
-      end
-C
-@end
-@end
-@if interpolates
-C     The cell (from 0) of u among n nodes, and the weight of its
-C     upper node; at the nearest edge where u lies outside.
-      subroutine ftloc(n, ps, x, u, cell, w)
-      implicit none
-      integer n, cell, low, high, middle
-      double precision ps, x(n), u, w
-      if (u .le. x(1)) then
-        cell = 0
-        w = 0.0D0
-        return
-      end if
-      if (u .ge. x(n)) then
-        cell = n - 2
-        w = 1.0D0
-        return
-      end if
-      if (ps .gt. 0.0D0) then
-        low = int((u - x(1))*ps)
-        if (low .gt. n - 2) low = n - 2
-        if (u .lt. x(low+1)) then
-          low = low - 1
-        else if (u .gt. x(low+2)) then
-          low = low + 1
-        end if
+      at = 1
+@for axis in axes
+C     axis @{axis.number}: cell i (from 0), weight t of its upper node
+      x = u(@{axis.number})
+      if (x .le. un(@{axis.node})) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(@{axis.last_node})) then
+        i = @{axis.last_cell}
+        t = 1.0D0
       else
-        low = 0
-        high = n - 1
-        do while (high - low .gt. 1)
-          middle = (low + high)/2
-          if (x(middle+1) .le. u) then
-            low = middle
+@if axis.one_cell
+        i = 0
+@end
+@if axis.scaled
+        i = int(x*sc@{axis.number} - sh@{axis.number})
+@if axis.guided
+        i = gd(i+@{axis.guide})
+@end
+        do while (x .ge. un(i+@{axis.next_node}))
+          i = i + 1
+        end do
+@end
+@if axis.bisected
+        i = 0
+        high = @{axis.cells}
+        do while (high - i .gt. 1)
+          middle = (i + high)/2
+          if (un(middle+@{axis.node}) .le. x) then
+            i = middle
           else
             high = middle
           end if
         end do
+@end
+        t = (x - un(i+@{axis.node}))*pc(i+@{axis.cell})
       end if
-      cell = low
-      w = (u - x(low+1))/(x(low+2) - x(low+1))
+@if cubic
+      at = at + fc(i+@{axis.cell})*@{axis.stride}
+      i = 16*(i + @{axis.cell_before})
+      do l = 1, 4
+        w(l,@{axis.number}) = tb(i+l) + t*(tb(i+l+4)
+     &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+      end do
+@else
+      at = at + i*@{axis.stride}
+      w@{axis.number} = t
+      v@{axis.number} = 1.0D0 - t
+@end
+@end
+@for line in steps
+@{line.text}
+@end
       return
       end
 C

@@ -9,6 +9,14 @@
 static const double ft_u@{axis.index}[@{axis.nodes}] = {
 @{axis.values}
 };
+static const double ft_per_cell@{axis.index}[@{axis.cells}] = {
+@{axis.per_cell}
+};
+@if axis.has_guide
+static const unsigned short ft_guide@{axis.index}[@{axis.bins}] = {
+@{axis.guide}
+};
+@end
 @if cubic
 static const int ft_first@{axis.index}[@{axis.cells}] = {
 @{axis.first}
@@ -22,7 +30,9 @@ static const double ft_basis@{axis.index}[@{axis.n_basis}] = {
 @if cubic
 static const ft_spline_axis ft_axes[@{n_axes}] = {
 @for axis in axes
-    {{@{axis.nodes}, @{axis.per_step}, ft_u@{axis.index}}, ft_first@{axis.index}, ft_basis@{axis.index}},
+    {{@{axis.nodes}, @{axis.stride}, ft_u@{axis.index}, ft_per_cell@{axis.index},
+      @{axis.scale}, @{axis.shift}, @{axis.guide_name}},
+     ft_first@{axis.index}, ft_basis@{axis.index}},
 @end
 };
 
@@ -30,7 +40,8 @@ static const ft_spline_axis ft_axes[@{n_axes}] = {
 @if has_axes
 static const ft_axis ft_axes[@{n_axes}] = {
 @for axis in axes
-    {@{axis.nodes}, @{axis.per_step}, ft_u@{axis.index}},
+    {@{axis.nodes}, @{axis.stride}, ft_u@{axis.index}, ft_per_cell@{axis.index},
+     @{axis.scale}, @{axis.shift}, @{axis.guide_name}},
 @end
 };
 
@@ -40,12 +51,15 @@ static const ft_axis ft_axes[@{n_axes}] = {
 static const double ft_value[@{n_values}] = {
 @{values}
 };
+@if has_axes
+static const ft_values ft_table = {ft_value, 0};
+@end
 
 @if extends
 @{piece}
 
 @end
-static double ft_tau(
+FT_INLINE double ft_tau(
     @{parameters},
     unsigned* outside) {
 @for input in used
@@ -63,13 +77,16 @@ static double ft_tau(
 @end
   *outside = 0u;
 @for input in used
+@if input.formula_only
   if (x@{input.index} != x@{input.index}) return x@{input.index}; /* NaN in, NaN out */
+@end
 @end
 @for axis in axes
   u[@{axis.index}] = @{axis.coordinate};
 @end
 @if has_axes
-  value = @{interpolate}(@{n_axes}, ft_axes, ft_value, u, outside);
+  value = @{interpolate}(ft_axes, ft_table, u, outside);
+  if (value != value) return value; /* NaN in one of the axes */
 @else
   value = ft_value[0];
 @end

@@ -1,144 +1,174 @@
-// Interpolation in five axes, ns per query: value, and value with all derivatives, each beside a
-// plain nested loop over the same nodes in the same run (argument: the size of the table).
-#include <benchmark/benchmark.h>
+// Interpolation, ns per query at random states, as a user of generated code has it: value, and
+// value with all derivatives, linear and cubic, in double and single precision; in the same run a
+// textbook's nested loop, GSL in two axes, and the kinked law with all its maps.
+#include <map>
 
+#include "bench/bench.h"
+#include "bench/generated_kernels.h"
 #include "core/random.h"
-#include "table/frictab_kernel.h"
-// The two that stand behind it.
-#include "table/frictab_cubic.h"
-#include "table/frictab_gradient.h"
-#include "table/spline.h"
+#include "support/kinked_law.h"
+#include "table/drift.h"
 
-namespace frictab {
+#ifdef FRICTAB_GSL
+#include <gsl/gsl_interp2d.h>
+#include <gsl/gsl_spline2d.h>
+#endif
+
+namespace frictab::bench {
 namespace {
 
-constexpr int axes = 5;
 constexpr std::size_t queries = 4096;
 
-// 0: 4,800 nodes, as neural_network needs at 0.5 MPa; 1: 210,681 nodes, larger than the L2 cache.
-struct Grid {
-  explicit Grid(std::int64_t size, bool even) {
-    const std::vector<std::size_t> counts = size == 0 ? std::vector<std::size_t>{6, 4, 5, 5, 8}
-                                                      : std::vector<std::size_t>{17, 9, 9, 9, 17};
-    std::size_t nodes = 1;
-    for (const std::size_t count : counts) {
-      std::vector<double> x;
-      for (std::size_t i = 0; i < count; ++i) {
-        const double w = static_cast<double>(i) / static_cast<double>(count - 1);
-        x.push_back(even ? w : 0.5 * w * (1 + w));
-      }
-      splines.push_back(spline_axis(x));
-      nodes *= count;
-    }
-    Random random(1);
-    for (std::size_t i = 0; i < nodes; ++i)
-      value.push_back(random.uniform(1, 2));
-    coefficients = spline_coefficients(splines, value);
-    for (const SplineAxis& spline : splines) {
-      const int n = static_cast<int>(spline.u.size());
-      linear.push_back({n, even ? n - 1.0 : 0, spline.u.data()});
-      cubic.push_back({linear.back(), spline.first.data(), spline.basis.data()});
-    }
-    for (std::size_t i = 0; i < queries * axes; ++i)
-      u.push_back(random.uniform());
+// 4,800 nodes, as neural_network needs at 0.5 MPa; 210,681 nodes, larger than the L2 cache; a plane
+// for GSL.
+const std::map<std::string, std::vector<std::size_t>> grids = {
+    {"4800", {6, 4, 5, 5, 8}}, {"210681", {17, 9, 9, 9, 17}}, {"33x33", {33, 33}}};
+
+const std::vector<double>& states(std::size_t axes) {
+  static std::map<std::size_t, std::vector<double>> all;
+  std::vector<double>& u = all[axes];
+  Random random(2);
+  while (u.size() < axes * queries)
+    u.push_back(random.uniform());
+  return u;
+}
+
+// `make` gives what is called per state; asked once per 4096 of them, so that it costs nothing.
+template <class Make>
+void add(const std::string& name, const double* state, std::size_t size, Make make) {
+  measure(name, queries, [make, state, size] {
+    const auto query = make();
+    const double* u = state;
+    for (std::size_t i = 0; i < queries; ++i, u += size)
+      benchmark::DoNotOptimize(query(u));
+  });
+}
+template <class Make> void add(const std::string& name, std::size_t axes, Make make) {
+  add(name, states(axes).data(), axes, make);
+}
+
+// Compiled where it is first asked for: a filter pays for what it runs only.
+template <class Kernel, class... Arguments> auto lazy(Arguments... arguments) {
+  auto kernel = std::make_shared<std::unique_ptr<Kernel>>();
+  return [kernel, arguments...]() -> const Kernel& {
+    if (!*kernel) *kernel = std::make_unique<Kernel>(arguments...);
+    return **kernel;
+  };
+}
+
+void add_generated_c(const std::string& name, const std::string& grid, const Table& table) {
+  for (const bool native : {false, true}) {
+    const auto kernel = lazy<CKernel>(table, native ? std::vector<std::string>{"-march=native"}
+                                                    : std::vector<std::string>{});
+    const std::string tail = "/" + grid + (native ? "/native" : "/O2");
+    const std::size_t axes = table.axes.size();
+    add(name + "/nested" + tail, axes, [kernel] { return kernel().nested; });
+    add(name + "/value" + tail, axes, [kernel] { return kernel().value; });
+    add(name + "/f32" + tail, axes, [kernel] { return kernel().single; });
+    add(name + "/gradient" + tail, axes, [kernel] {
+      return [gradient = kernel().gradient](const double* u) {
+        double by_u[5];
+        const double value = gradient(u, by_u);
+        benchmark::DoNotOptimize(by_u);
+        return value;
+      };
+    });
   }
-  std::vector<SplineAxis> splines;
-  std::vector<ft_axis> linear;
-  std::vector<ft_spline_axis> cubic;
-  std::vector<double> value, coefficients, u;
-};
+}
 
-// The cell by a walk from the left, weights, then the sum as it stands in a textbook.
-double nested(const Grid& grid, const double* u, int taps) {
-  int first[axes];
-  double w[axes][4];
-  for (int d = 0; d < axes; ++d) {
-    const ft_axis& axis = grid.linear[static_cast<std::size_t>(d)];
-    int cell = 0;
-    while (cell < axis.n - 2 && axis.u[cell + 1] <= u[d])
-      ++cell;
-    const double t = (u[d] - axis.u[cell]) / (axis.u[cell + 1] - axis.u[cell]);
-    const SplineAxis& spline = grid.splines[static_cast<std::size_t>(d)];
-    first[d] = taps == 2 ? cell : spline.first[static_cast<std::size_t>(cell)];
-    const double* b = spline.basis.data() + 16 * cell;
-    for (int j = 0; j < taps; ++j)
-      w[d][j] =
-          taps == 2 ? (j ? t : 1 - t) : b[j] + t * (b[4 + j] + t * (b[8 + j] + t * b[12 + j]));
+void add_table(const std::string& grid, bool even, bool cubic) {
+  const Table table = random_table(grids.at(grid), even, cubic);
+  const std::string name =
+      std::string(cubic ? "cubic" : "linear") + (even ? "/uniform" : "/arbitrary");
+  const std::size_t axes = table.axes.size();
+  add_generated_c(name, grid, table);
+  const auto fortran = lazy<FortranKernel>(table);
+  add(name + "/value/" + grid + "/fortran", axes, [fortran] { return fortran().value; });
+  const auto function = std::make_shared<TableFunction>(table);
+  add(name + "/value/" + grid + "/frictab", axes, [function, axes] {
+    return [f = function.get(), axes](const double* u) { return (*f)({u, axes}); };
+  });
+}
+
+#ifdef FRICTAB_GSL
+void add_gsl(const gsl_interp2d_type* type, const std::string& name) {
+  const Table table = random_table(grids.at("33x33"), false, false);
+  const std::vector<double>&x = table.axes[0].nodes, &y = table.axes[1].nodes;
+  std::shared_ptr<gsl_spline2d> spline(gsl_spline2d_alloc(type, x.size(), y.size()),
+                                       gsl_spline2d_free);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < y.size(); ++j)
+      gsl_spline2d_set(spline.get(), spline->zarr, i, j, table.value[i * y.size() + j]);
+  const std::vector<double> z(spline->zarr, spline->zarr + x.size() * y.size());
+  gsl_spline2d_init(spline.get(), x.data(), y.data(), z.data(), x.size(), y.size());
+  const auto accelerator = [] {
+    return std::shared_ptr<gsl_interp_accel>(gsl_interp_accel_alloc(), gsl_interp_accel_free);
+  };
+  const auto in_x = accelerator(), in_y = accelerator();
+  add(name + "/arbitrary/value/33x33/gsl", 2, [=] {
+    return [&](const double* u) {
+      return gsl_spline2d_eval(spline.get(), u[0], u[1], in_x.get(), in_y.get());
+    };
+  });
+}
+#endif
+
+// The law of tests/support/kinked_law.h at 0.01 MPa: logarithms of three axes, lookup, exponential,
+// min; and the law itself.
+void add_kinked() {
+  const Model model = test::kinked_model();
+  TableOptions options;
+  options.tolerance_MPa = 0.01;
+  options.interpolation = "linear";
+  const auto ranges = test::kinked_ranges();
+  const Table table = build_table(model, ranges, options);
+  constexpr std::size_t n = 5;
+  auto rows = std::make_shared<std::vector<double>>(states(n)); // states, one after the other
+  auto columns = std::make_shared<std::vector<std::vector<double>>>(n);
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const StateRange& range = ranges[i % n];
+    double& x = (*rows)[i];
+    x = range.low + x * (range.high - range.low);
+    (*columns)[i % n].push_back(x);
   }
-  const double* value = taps == 2 ? grid.value.data() : grid.coefficients.data();
-  const auto n = [&](int d) { return grid.linear[static_cast<std::size_t>(d)].n; };
-  double sum = 0;
-  for (int a = 0; a < taps; ++a)
-    for (int b = 0; b < taps; ++b)
-      for (int c = 0; c < taps; ++c)
-        for (int d = 0; d < taps; ++d)
-          for (int e = 0; e < taps; ++e) {
-            int at = first[0] + a;
-            at = at * n(1) + first[1] + b;
-            at = at * n(2) + first[2] + c;
-            at = at * n(3) + first[3] + d;
-            at = at * n(4) + first[4] + e;
-            sum += w[0][a] * w[1][b] * w[2][c] * w[3][d] * w[4][e] * value[at];
-          }
-  return sum;
+  const std::string tail = "/" + std::to_string(table.nodes());
+  for (const char* flags : {"-O2", "-march=native"}) {
+    const auto kernel = lazy<CKernel>(table, std::vector<std::string>{flags});
+    add("kinked/tau" + tail + (std::string(flags) == "-O2" ? "/O2" : "/native"), rows->data(), n,
+        [kernel, rows] {
+          const auto tau = kernel().tau;
+          return [tau](const double* x) { return tau(x[0], x[1], x[2], x[3], 0, x[4]); };
+        });
+  }
+  const auto function = std::make_shared<TableFunction>(table);
+  add("kinked/tau" + tail + "/frictab", rows->data(), n, [function, rows] {
+    const TableFunction* f = function.get();
+    return [f](const double* x) { return (*f)({x, n}); };
+  });
+  std::vector<const double*> pointers;
+  for (const auto& column : *columns)
+    pointers.push_back(column.data());
+  auto tau = std::make_shared<std::vector<double>>(queries);
+  measure("kinked/tau" + tail + "/frictab batch", queries,
+          [=] { (void)columns, function->evaluate(queries, pointers, *tau); });
+  const auto law = std::make_shared<LawFunction>(model, function->inputs());
+  measure("kinked/law/frictab batch", queries,
+          [=] { law->evaluate(queries, pointers, tau->data()); });
 }
 
-template <class Query> void run(benchmark::State& state, bool even, Query query) {
-  const Grid grid(state.range(0), even);
-  for (auto _ : state)
-    for (std::size_t i = 0; i < queries; ++i)
-      benchmark::DoNotOptimize(query(grid, grid.u.data() + axes * i));
-  state.counters["ns/query"] =
-      benchmark::Counter(static_cast<double>(state.iterations() * queries) * 1e-9,
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-double by_u[axes];
-
-void linear_nested(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) { return nested(g, u, 2); });
-}
-void linear_even(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) {
-    return ft_interpolate(axes, g.linear.data(), g.value.data(), u, nullptr);
-  });
-}
-void linear_uneven(benchmark::State& state) {
-  run(state, false, [](const Grid& g, const double* u) {
-    return ft_interpolate(axes, g.linear.data(), g.value.data(), u, nullptr);
-  });
-}
-void linear_gradient(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) {
-    return ft_interpolate_gradient(axes, g.linear.data(), g.value.data(), u, by_u, nullptr);
-  });
-}
-void cubic_nested(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) { return nested(g, u, 4); });
-}
-void cubic_even(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) {
-    return ft_cubic(axes, g.cubic.data(), g.coefficients.data(), u, nullptr);
-  });
-}
-void cubic_uneven(benchmark::State& state) {
-  run(state, false, [](const Grid& g, const double* u) {
-    return ft_cubic(axes, g.cubic.data(), g.coefficients.data(), u, nullptr);
-  });
-}
-void cubic_gradient(benchmark::State& state) {
-  run(state, true, [](const Grid& g, const double* u) {
-    return ft_cubic_gradient(axes, g.cubic.data(), g.coefficients.data(), u, by_u, nullptr);
-  });
-}
-BENCHMARK(linear_nested)->Arg(0)->Arg(1);
-BENCHMARK(linear_even)->Arg(0)->Arg(1);
-BENCHMARK(linear_uneven)->Arg(0)->Arg(1);
-BENCHMARK(linear_gradient)->Arg(0)->Arg(1);
-BENCHMARK(cubic_nested)->Arg(0)->Arg(1);
-BENCHMARK(cubic_even)->Arg(0)->Arg(1);
-BENCHMARK(cubic_uneven)->Arg(0)->Arg(1);
-BENCHMARK(cubic_gradient)->Arg(0)->Arg(1);
+const Registration kernels([] {
+  for (const char* grid : {"4800", "210681"})
+    for (const bool cubic : {false, true})
+      for (const bool even : {true, false})
+        add_table(grid, even, cubic);
+  for (const bool cubic : {false, true})
+    add_table("33x33", false, cubic);
+#ifdef FRICTAB_GSL
+  add_gsl(gsl_interp2d_bilinear, "linear");
+  add_gsl(gsl_interp2d_bicubic, "cubic");
+#endif
+  add_kinked();
+});
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::bench

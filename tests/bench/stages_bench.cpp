@@ -86,5 +86,3 @@ BENCHMARK_CAPTURE(query_law, wanheim_bay, "wanheim_bay");
 
 } // namespace
 } // namespace frictab
-
-BENCHMARK_MAIN();

@@ -1,11 +1,13 @@
 // Every target, every way to compile it, every sample table: the generated routine, called as its
 // solver calls it, gives what frictab's own evaluation gives.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
+#include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab {
@@ -53,6 +55,49 @@ TEST_P(Agreement, OfTheRoutineWithFrictabItselfOverAMillionPoints) {
         {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};
     compare(exporter, request, 200000, fixed);
     compare(exporter, request, 2000, {});
+  }
+}
+
+// The table alone: what is interpolated is tau_R.
+Table without_formula(Table table) {
+  table.combine = Expr::symbol("value");
+  table.constants.clear();
+  return table;
+}
+
+TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
+  const Exporter &c = *find_exporter("c"), &fortran = *find_exporter("abaqus_vfric");
+  for (const test::NamedTable& sample : test::sample_tables()) {
+    SCOPED_TRACE(sample.name);
+    const Table table = without_formula(sample.table);
+    if (table.axes.empty()) continue;
+    const ExportRequest request{table, "mm-t-s", {}};
+    const test::States states(table, 20000, 17, 0.1);
+    const std::vector<double> truth = test::expected(table, states);
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{}, {"-march=native", "-O3"}, {"-DFT_PLAIN", "-O1"}}) {
+      const Library* library = test::compiled(
+          sample.name + " bits " + (flags.empty() ? "" : flags[0]), c, request, "c99", flags);
+      if (!library) GTEST_SKIP() << "gcc is not installed";
+      std::vector<double> tau(states.rows());
+      c.drive(library->handle(), c.variants(request)[0], request, states.rows(), states.columns(),
+              tau);
+      EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
+    }
+    const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");
+    if (!library) GTEST_SKIP() << "gfortran is not installed";
+    const auto interpolate = library->find<double(const double*)>("ftintp_");
+    const std::vector<std::string> inputs = table.inputs();
+    for (std::size_t i = 0; i < states.rows(); ++i) {
+      std::vector<double> u;
+      for (const TableAxis& axis : table.axes) {
+        const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
+        const double x = states.columns()[static_cast<std::size_t>(input)][i];
+        u.push_back(axis.log ? std::log(x) : x);
+      }
+      const double value = interpolate(u.data());
+      ASSERT_EQ(table.log_value ? std::exp(value) : value, truth[i]) << "Fortran";
+    }
   }
 }
 

@@ -249,27 +249,34 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      integer naxes, nnodes, nvals, ncorn
-      parameter (naxes = 2, nnodes = 13)
-      parameter (nvals = 36, ncorn = 2)
-      double precision u(naxes)
-      integer d, cell, size, base, at, i, corn
-      integer nax(naxes), off(naxes)
-      integer stride(naxes)
-      double precision corner(ncorn), w(naxes), wd
-      double precision ps(naxes), un(nnodes), tv(nvals)
-      save nax, off, ps, un, tv
-C     nodes per axis, where each begins, 1/step where even
-      data (nax(i),i=1,2)/
-     & 4,9/
-      data (off(i),i=1,2)/
-     & 1,5/
-      data (ps(i),i=1,2)/
-     & 0.0D0,0.2D0/
-C     nodes (logarithms on logarithmic axes)
+      double precision u(2), x, t
+      integer i, at
+      double precision sc1, sh1
+      parameter (sc1 = 1.28D0)
+      parameter (sh1 = 0.0D0)
+      double precision sc2, sh2
+      parameter (sc2 = 0.2D0)
+      parameter (sh2 = 1.0D-08)
+      double precision w1, v1
+      double precision p1a, q1a
+      double precision w2, v2
+      double precision un(13), pc(11)
+      double precision tv(36)
+      save un, pc, tv
+      integer gd(65)
+      save gd
+C     nodes (logarithms on logarithmic axes), 1/width of cells
       data (un(i),i=1,13)/
      & 0.0D0,1.0D0,4.0D0,50.0D0,0.0D0,5.0D0,10.0D0,15.0D0,20.0D0,25.0D0,
      & 30.0D0,35.0D0,40.0D0/
+      data (pc(i),i=1,11)/
+     & 1.0D0,0.3333333333333333D0,0.021739130434782608D0,0.2D0,0.2D0,
+     & 0.2D0,0.2D0,0.2D0,0.2D0,0.2D0,0.2D0/
+C     cells by the coordinate's place
+      data (gd(i),i=1,65)/
+     & 0,0,1,1,1,1,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,
+     & 2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,
+     & 2/
 C     mu, last axis fastest
       data (tv(i),i=1,36)/
      & 0.19117950325984215D0,0.12282428310348671D0,0.168127356526128D0,
@@ -288,72 +295,47 @@ C     mu, last axis fastest
      & 0.07274063905498286D0,0.05180672112430057D0,
      & 0.10842438535159703D0,0.1295054867399624D0,0.03317995393700672D0,
      & 0.09211226056064781D0/
-      base = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, w(d))
-        stride(d) = size
-        base = base + cell*size
-        size = size*nax(d)
-      end do
-      corn = ncorn
-      wd = w(naxes)
-      do i = 0, corn - 1
-        at = base
-        do d = 1, naxes - 1
-          if (btest(i, naxes-1-d)) at = at + stride(d)
-        end do
-        corner(i+1) = (1.0D0 - wd)*tv(at) + wd*tv(at+1)
-      end do
-      do d = naxes - 1, 1, -1
-        corn = corn/2
-        wd = w(d)
-        do i = 1, corn
-          corner(i) = (1.0D0 - wd)*corner(2*i-1) + wd*corner(2*i)
-        end do
-      end do
-      ftintp = corner(1)
-      return
-      end
-C
-C     The cell (from 0) of u among n nodes, and the weight of its
-C     upper node; at the nearest edge where u lies outside.
-      subroutine ftloc(n, ps, x, u, cell, w)
-      implicit none
-      integer n, cell, low, high, middle
-      double precision ps, x(n), u, w
-      if (u .le. x(1)) then
-        cell = 0
-        w = 0.0D0
-        return
-      end if
-      if (u .ge. x(n)) then
-        cell = n - 2
-        w = 1.0D0
-        return
-      end if
-      if (ps .gt. 0.0D0) then
-        low = int((u - x(1))*ps)
-        if (low .gt. n - 2) low = n - 2
-        if (u .lt. x(low+1)) then
-          low = low - 1
-        else if (u .gt. x(low+2)) then
-          low = low + 1
-        end if
+      at = 1
+C     axis 1: cell i (from 0), weight t of its upper node
+      x = u(1)
+      if (x .le. un(1)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(4)) then
+        i = 2
+        t = 1.0D0
       else
-        low = 0
-        high = n - 1
-        do while (high - low .gt. 1)
-          middle = (low + high)/2
-          if (x(middle+1) .le. u) then
-            low = middle
-          else
-            high = middle
-          end if
+        i = int(x*sc1 - sh1)
+        i = gd(i+1)
+        do while (x .ge. un(i+2))
+          i = i + 1
         end do
+        t = (x - un(i+1))*pc(i+1)
       end if
-      cell = low
-      w = (u - x(low+1))/(x(low+2) - x(low+1))
+      at = at + i*9
+      w1 = t
+      v1 = 1.0D0 - t
+C     axis 2: cell i (from 0), weight t of its upper node
+      x = u(2)
+      if (x .le. un(5)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(13)) then
+        i = 7
+        t = 1.0D0
+      else
+        i = int(x*sc2 - sh2)
+        do while (x .ge. un(i+6))
+          i = i + 1
+        end do
+        t = (x - un(i+5))*pc(i+4)
+      end if
+      at = at + i*1
+      w2 = t
+      v2 = 1.0D0 - t
+      p1a = v1*tv(at) + w1*tv(at+9)
+      q1a = v1*tv(at+1) + w1*tv(at+10)
+      ftintp = v2*p1a + w2*q1a
       return
       end
 C

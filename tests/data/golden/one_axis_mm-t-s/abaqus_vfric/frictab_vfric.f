@@ -188,84 +188,45 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      integer naxes, nnodes, nvals, ncorn
-      parameter (naxes = 1, nnodes = 5)
-      parameter (nvals = 5, ncorn = 1)
-      double precision u(naxes)
-      integer d, cell, size, base, at, i, corn
-      integer nax(naxes), off(naxes)
-      double precision corner(ncorn), w(naxes), wd
-      double precision ps(naxes), un(nnodes), tv(nvals)
-      save nax, off, ps, un, tv
-C     nodes per axis, where each begins, 1/step where even
-      data (nax(i),i=1,1)/
-     & 5/
-      data (off(i),i=1,1)/
-     & 1/
-      data (ps(i),i=1,1)/
-     & 0.21052631578947367D0/
-C     nodes (logarithms on logarithmic axes)
+      double precision u(1), x, t
+      integer i, at
+      double precision sc1, sh1
+      parameter (sc1 = 0.21052631578947367D0)
+      parameter (sh1 = 0.21052632578947367D0)
+      double precision w1, v1
+      double precision un(5), pc(4)
+      double precision tv(5)
+      save un, pc, tv
+C     nodes (logarithms on logarithmic axes), 1/width of cells
       data (un(i),i=1,5)/
      & 1.0D0,5.75D0,10.5D0,15.25D0,20.0D0/
+      data (pc(i),i=1,4)/
+     & 0.21052631578947367D0,0.21052631578947367D0,
+     & 0.21052631578947367D0,0.21052631578947367D0/
 C     tau_R, last axis fastest
       data (tv(i),i=1,5)/
      & 86.0797792265965D0,55.699681379327416D0,75.8343806782791D0,
      & 57.33536974140659D0,32.93790625831792D0/
-      base = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, w(d))
-        base = base + cell*size
-        size = size*nax(d)
-      end do
-      corn = ncorn
-      wd = w(naxes)
-      do i = 0, corn - 1
-        at = base
-        corner(i+1) = (1.0D0 - wd)*tv(at) + wd*tv(at+1)
-      end do
-      ftintp = corner(1)
-      return
-      end
-C
-C     The cell (from 0) of u among n nodes, and the weight of its
-C     upper node; at the nearest edge where u lies outside.
-      subroutine ftloc(n, ps, x, u, cell, w)
-      implicit none
-      integer n, cell, low, high, middle
-      double precision ps, x(n), u, w
-      if (u .le. x(1)) then
-        cell = 0
-        w = 0.0D0
-        return
-      end if
-      if (u .ge. x(n)) then
-        cell = n - 2
-        w = 1.0D0
-        return
-      end if
-      if (ps .gt. 0.0D0) then
-        low = int((u - x(1))*ps)
-        if (low .gt. n - 2) low = n - 2
-        if (u .lt. x(low+1)) then
-          low = low - 1
-        else if (u .gt. x(low+2)) then
-          low = low + 1
-        end if
+      at = 1
+C     axis 1: cell i (from 0), weight t of its upper node
+      x = u(1)
+      if (x .le. un(1)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(5)) then
+        i = 3
+        t = 1.0D0
       else
-        low = 0
-        high = n - 1
-        do while (high - low .gt. 1)
-          middle = (low + high)/2
-          if (x(middle+1) .le. u) then
-            low = middle
-          else
-            high = middle
-          end if
+        i = int(x*sc1 - sh1)
+        do while (x .ge. un(i+2))
+          i = i + 1
         end do
+        t = (x - un(i+1))*pc(i+1)
       end if
-      cell = low
-      w = (u - x(low+1))/(x(low+2) - x(low+1))
+      at = at + i*1
+      w1 = t
+      v1 = 1.0D0 - t
+      ftintp = v1*tv(at) + w1*tv(at+1)
       return
       end
 C

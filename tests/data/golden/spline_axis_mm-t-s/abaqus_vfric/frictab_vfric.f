@@ -188,29 +188,32 @@ C     polynomials, same order of operations. The numbers below are
 C     never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      integer naxes, nnodes, nvals, ncells, nbasis
-      parameter (naxes = 1, nnodes = 6)
-      parameter (nvals = 8, ncells = 5)
-      parameter (nbasis = 80)
-      double precision u(naxes)
-      integer d, cell, size, at, i, l
-      integer nax(naxes), off(naxes), oc(naxes), fc(ncells)
-      double precision lane(4), w(4,naxes), t
-      double precision ps(naxes), un(nnodes), tb(nbasis), tv(nvals)
-      save nax, off, oc, fc, ps, un, tb, tv
-C     nodes per axis, where each begins, where its cells begin,
-C     1/step where even
-      data (nax(i),i=1,1)/
-     & 6/
-      data (off(i),i=1,1)/
-     & 1/
-      data (oc(i),i=1,1)/
-     & 1/
-      data (ps(i),i=1,1)/
-     & 0.0D0/
-C     nodes (logarithms on logarithmic axes)
+      double precision u(1), x, t
+      integer i, at
+      double precision sc1, sh1
+      parameter (sc1 = 3.3684210526315788D0)
+      parameter (sh1 = 3.3684210526315788D0)
+      double precision r(4)
+      integer l
+      double precision w(4,1)
+      integer fc(5)
+      double precision tb(80)
+      save fc, tb
+      double precision un(6), pc(5)
+      double precision tv(8)
+      save un, pc, tv
+      integer gd(65)
+      save gd
+C     nodes (logarithms on logarithmic axes), 1/width of cells
       data (un(i),i=1,6)/
      & 1.0D0,2.0D0,4.0D0,7.0D0,12.0D0,20.0D0/
+      data (pc(i),i=1,5)/
+     & 1.0D0,0.5D0,0.3333333333333333D0,0.2D0,0.125D0/
+C     cells by the coordinate's place
+      data (gd(i),i=1,65)/
+     & 0,0,0,0,1,1,1,1,1,1,1,2,2,2,2,2,2,2,2,2,2,3,3,3,3,3,3,3,3,3,3,3,
+     & 3,3,3,3,3,3,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,4,
+     & 4/
 C     per cell: first coefficient; 4 polynomials of the cell's weight
       data (fc(i),i=1,5)/
      & 0,0,1,2,2/
@@ -249,64 +252,32 @@ C     coefficients of tau_R, last axis fastest
      & 16.59236913314407D0,29.682976104260995D0,33.159587202440974D0,
      & 0.0D0,0.0D0/
       at = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, t)
-        cell = cell + oc(d)
-        i = 16*(cell - 1)
-        do l = 1, 4
-          w(l,d) = tb(i+l) + t*(tb(i+l+4)
-     &      + t*(tb(i+l+8) + t*tb(i+l+12)))
+C     axis 1: cell i (from 0), weight t of its upper node
+      x = u(1)
+      if (x .le. un(1)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(6)) then
+        i = 4
+        t = 1.0D0
+      else
+        i = int(x*sc1 - sh1)
+        i = gd(i+1)
+        do while (x .ge. un(i+2))
+          i = i + 1
         end do
-        at = at + fc(cell)*size
-        size = size*nax(d)
+        t = (x - un(i+1))*pc(i+1)
+      end if
+      at = at + fc(i+1)*1
+      i = 16*(i + 0)
+      do l = 1, 4
+        w(l,1) = tb(i+l) + t*(tb(i+l+4)
+     &    + t*(tb(i+l+8) + t*tb(i+l+12)))
       end do
       do l = 1, 4
-        lane(l) = tv(at+l-1)
+        r(l) = tv(at+l-1)
       end do
-      ftintp = (w(1,naxes)*lane(1) + w(2,naxes)*lane(2))
-     &  + (w(3,naxes)*lane(3) + w(4,naxes)*lane(4))
-      return
-      end
-C
-C     The cell (from 0) of u among n nodes, and the weight of its
-C     upper node; at the nearest edge where u lies outside.
-      subroutine ftloc(n, ps, x, u, cell, w)
-      implicit none
-      integer n, cell, low, high, middle
-      double precision ps, x(n), u, w
-      if (u .le. x(1)) then
-        cell = 0
-        w = 0.0D0
-        return
-      end if
-      if (u .ge. x(n)) then
-        cell = n - 2
-        w = 1.0D0
-        return
-      end if
-      if (ps .gt. 0.0D0) then
-        low = int((u - x(1))*ps)
-        if (low .gt. n - 2) low = n - 2
-        if (u .lt. x(low+1)) then
-          low = low - 1
-        else if (u .gt. x(low+2)) then
-          low = low + 1
-        end if
-      else
-        low = 0
-        high = n - 1
-        do while (high - low .gt. 1)
-          middle = (low + high)/2
-          if (x(middle+1) .le. u) then
-            low = middle
-          else
-            high = middle
-          end if
-        end do
-      end if
-      cell = low
-      w = (u - x(low+1))/(x(low+2) - x(low+1))
+      ftintp = (w(1,1)*r(1) + w(2,1)*r(2)) + (w(3,1)*r(3) + w(4,1)*r(4))
       return
       end
 C

@@ -6,118 +6,248 @@
 /* Multilinear interpolation on a rectangular grid, C99, no allocation, no state, thread-safe.
  *
  * This one text is compiled into frictab and copied into every generated C source, so that what
- * was verified is what runs. Outside the grid the nearest edge is used (clamped) and reported;
- * NaN in gives NaN out. Compile without -ffast-math and with -ffp-contract=off. */
+ * was verified is what runs. Everything is inlined: where the axes are constants, sizes, strides
+ * and searches become constants of the code. Corners are read as pairs of neighbours on the last
+ * axis, in vectors where the compiler has them; the bits are the same without (FT_PLAIN).
+ * Outside the grid the nearest edge is used (clamped) and reported; NaN in gives NaN out. Compile
+ * without -ffast-math and with -ffp-contract=off. */
 #ifndef FRICTAB_KERNEL_H
 #define FRICTAB_KERNEL_H
 
 #include <math.h>
+#if defined(__AVX__) && !defined(FT_PLAIN)
+#include <immintrin.h>
+#elif defined(__SSE2__) && !defined(FT_PLAIN)
+#include <emmintrin.h>
+#endif
 
 #define FT_MAX_AXES 8
 
+#if defined(__GNUC__)
+#define FT_INLINE static inline __attribute__((always_inline, unused))
+#else
+#define FT_INLINE static inline
+#endif
+
 /* One axis: n >= 2 ascending nodes u in the axis coordinate (x, or ln x where the axis is
- * logarithmic). per_step > 0: the nodes are evenly spaced, 1/step, and are found without search. */
+ * logarithmic), and per cell 1/(u[i + 1] - u[i]). How a cell is found (the same one each way):
+ * scale > 0: (int)(u * scale - shift) is the cell or one below it, or where there is a guide, the
+ * place in it of such a cell; scale = 0: by bisection. */
 typedef struct {
   int n;
-  double per_step;
+  long stride; /* of the values along this axis */
   const double* u;
+  const double* per_cell;
+  double scale, shift;
+  const unsigned short* guide;
 } ft_axis;
 
-/* NaN in either operand gives NaN. */
-static inline double ft_min(double a, double b) {
-  return (b < a || b != b) ? b : a;
+/* Values, row-major, last axis fastest; one of the two is null. Arithmetic is double in either. */
+typedef struct {
+  const double* f64;
+  const float* f32;
+} ft_values;
+
+/* NaN in either operand gives NaN. The comparison stands alone, so that it becomes an instruction
+ * instead of a branch: which side of a kink a state lies on is hard to predict. */
+FT_INLINE double ft_min(double a, double b) {
+  const double least = b < a ? b : a;
+  return b != b ? b : least;
 }
-static inline double ft_max(double a, double b) {
-  return (b > a || b != b) ? b : a;
+FT_INLINE double ft_max(double a, double b) {
+  const double most = b > a ? b : a;
+  return b != b ? b : most;
 }
-static inline double ft_where_le(double a, double b, double x, double y) {
+FT_INLINE double ft_where_le(double a, double b, double x, double y) {
   if (a != a) return a;
   if (b != b) return b;
   return a <= b ? x : y;
 }
 
 /* Coordinate of a logarithmic axis; zero and negative values lie below every axis. */
-static inline double ft_log(double x) {
-  return x > 0.0 ? log(x) : (x == x ? -HUGE_VAL : x);
+FT_INLINE double ft_log(double x) {
+  return isgreater(x, 0.0) ? log(x) : (x == x ? -HUGE_VAL : x);
+}
+
+/* Two numbers. */
+#if defined(__GNUC__) && !defined(FT_PLAIN)
+typedef double ft_pair __attribute__((vector_size(16)));
+FT_INLINE ft_pair ft_pair_of(double a, double b) {
+  const ft_pair p = {a, b};
+  return p;
+}
+FT_INLINE double ft_get(ft_pair p, int i) {
+  return p[i];
+}
+FT_INLINE ft_pair ft_plus(ft_pair a, ft_pair b) {
+  return a + b;
+}
+FT_INLINE ft_pair ft_minus(ft_pair a, ft_pair b) {
+  return a - b;
+}
+FT_INLINE ft_pair ft_times(double w, ft_pair a) {
+  return w * a;
+}
+#else
+typedef struct {
+  double of[2];
+} ft_pair;
+FT_INLINE ft_pair ft_pair_of(double a, double b) {
+  ft_pair p;
+  p.of[0] = a;
+  p.of[1] = b;
+  return p;
+}
+FT_INLINE double ft_get(ft_pair p, int i) {
+  return p.of[i];
+}
+FT_INLINE ft_pair ft_plus(ft_pair a, ft_pair b) {
+  return ft_pair_of(a.of[0] + b.of[0], a.of[1] + b.of[1]);
+}
+FT_INLINE ft_pair ft_minus(ft_pair a, ft_pair b) {
+  return ft_pair_of(a.of[0] - b.of[0], a.of[1] - b.of[1]);
+}
+FT_INLINE ft_pair ft_times(double w, ft_pair a) {
+  return ft_pair_of(w * a.of[0], w * a.of[1]);
+}
+#endif
+
+FT_INLINE ft_pair ft_load(ft_values v, long at) {
+  if (!v.f32) return ft_pair_of(v.f64[at], v.f64[at + 1]);
+#if defined(__SSE2__) && !defined(FT_PLAIN)
+  return (ft_pair)_mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64((const __m128i*)(v.f32 + at))));
+#else
+  return ft_pair_of(v.f32[at], v.f32[at + 1]);
+#endif
+}
+
+/* Between a and b, exact at both. */
+FT_INLINE double ft_between(double w, double a, double b) {
+  return (1.0 - w) * a + w * b;
+}
+FT_INLINE ft_pair ft_mix(double w, ft_pair a, ft_pair b) {
+  return ft_plus(ft_times(1.0 - w, a), ft_times(w, b));
+}
+
+/* The cell of u, u[0] < u < u[n - 1]. */
+FT_INLINE int ft_cell(const ft_axis* axis, double u) {
+  const double* x = axis->u;
+  int i = 0, high = axis->n - 1;
+  if (axis->n == 2) return 0;
+  if (axis->scale > 0.0) {
+    i = (int)(u * axis->scale - axis->shift);
+    if (axis->guide) i = axis->guide[i];
+    while (u >= x[i + 1])
+      ++i;
+    return i;
+  }
+  while (high - i > 1) {
+    const int middle = (i + high) / 2;
+    if (x[middle] <= u)
+      i = middle;
+    else
+      high = middle;
+  }
+  return i;
 }
 
 /* The cell of u and the weight of its upper node. Returns 1 where u lies outside the axis. */
-static inline int ft_locate(const ft_axis* axis, double u, int* cell, double* weight) {
+FT_INLINE int ft_locate(const ft_axis* axis, double u, int* cell, double* weight) {
   const double* x = axis->u;
   const int last = axis->n - 1;
-  int i = 0;
-  *cell = 0;
-  if (u != u) {
-    *weight = u;
+  if (isgreater(u, x[0]) && isless(u, x[last])) {
+    const int i = ft_cell(axis, u);
+    *cell = i;
+    *weight = (u - x[i]) * axis->per_cell[i];
     return 0;
   }
-  if (u <= x[0]) {
-    *weight = 0.0;
-    return u < x[0];
-  }
-  if (u >= x[last]) {
-    *cell = last - 1;
-    *weight = 1.0;
-    return u > x[last];
-  }
-  if (axis->per_step > 0.0) {
-    i = (int)((u - x[0]) * axis->per_step);
-    if (i > last - 1) i = last - 1;
-    if (u < x[i])
-      --i; /* rounding at a node */
-    else if (u > x[i + 1])
-      ++i;
-  } else {
-    int high = last;
-    while (high - i > 1) {
-      const int middle = (i + high) / 2;
-      if (x[middle] <= u)
-        i = middle;
-      else
-        high = middle;
-    }
-  }
-  *cell = i;
-  *weight = (u - x[i]) / (x[i + 1] - x[i]);
-  return 0;
+  *cell = 0;
+  *weight = u;
+  if (u != u) return 0;
+  *weight = 0.0;
+  if (u <= x[0]) return u < x[0];
+  *cell = last - 1;
+  *weight = 1.0;
+  return u > x[last];
 }
 
-/* value: row-major, last axis fastest; u: one coordinate per axis. Bit d of *outside is set where
- * axis d was clamped (outside may be NULL). Zero axes: value[0]. */
-static inline double ft_interpolate(int axes, const ft_axis* axis, const double* value,
-                                    const double* u, unsigned* outside) {
-  double corner[1 << (FT_MAX_AXES - 1)];
-  double weight[FT_MAX_AXES];
-  int stride[FT_MAX_AXES];
-  long base = 0;
-  unsigned flags = 0u;
-  int d, size = 1, corners, i;
-  if (axes == 0) {
-    if (outside) *outside = 0u;
-    return value[0];
-  }
-  for (d = axes - 1; d >= 0; --d) {
-    int cell;
-    if (ft_locate(&axis[d], u[d], &cell, &weight[d])) flags |= 1u << d;
-    stride[d] = size;
-    base += (long)cell * size;
-    size *= axis[d].n;
-  }
-  if (outside) *outside = flags;
-  corners = 1 << (axes - 1);
-  for (i = 0; i < corners; ++i) { /* along the last axis first: its nodes are neighbours */
-    long at = base;
-    for (d = 0; d < axes - 1; ++d)
-      if (i & (1 << (axes - 2 - d))) at += stride[d];
-    corner[i] = (1.0 - weight[axes - 1]) * value[at] + weight[axes - 1] * value[at + 1];
-  }
-  for (d = axes - 2; d >= 0; --d) {
-    corners /= 2;
-    for (i = 0; i < corners; ++i)
-      corner[i] = (1.0 - weight[d]) * corner[2 * i] + weight[d] * corner[2 * i + 1];
-  }
-  return corner[0];
+/* Where n axes are read: first corner, cells and weights, bits of clamped axes. */
+typedef struct {
+  double w[FT_MAX_AXES];
+  int cell[FT_MAX_AXES];
+  long at;
+  unsigned outside;
+} ft_place;
+
+FT_INLINE void ft_place_0(const ft_axis* axis, const double* u, ft_place* place) {
+  (void)axis;
+  (void)u;
+  place->at = 0;
+  place->outside = 0u;
 }
+#define FT_PLACE(N, D)                                                                             \
+  FT_INLINE void ft_place_##N(const ft_axis* axis, const double* u, ft_place* place) {             \
+    ft_place_##D(axis, u, place);                                                                  \
+    if (ft_locate(axis + D, u[D], &place->cell[D], &place->w[D])) place->outside |= 1u << D;       \
+    place->at += place->cell[D] * axis[D].stride;                                                  \
+  }
+FT_PLACE(1, 0)
+FT_PLACE(2, 1)
+FT_PLACE(3, 2)
+FT_PLACE(4, 3)
+FT_PLACE(5, 4)
+FT_PLACE(6, 5)
+FT_PLACE(7, 6)
+FT_PLACE(8, 7)
+
+/* Along all of N axes but the last: the pair that is left on that one. Up to 5 axes, 16 pairs, are
+ * unrolled; further ones are loops, so that the code stays small. */
+FT_INLINE ft_pair ft_corners_1(const ft_axis* axis, const double* w, ft_values v, long at) {
+  (void)axis;
+  (void)w;
+  return ft_load(v, at);
+}
+#define FT_CORNERS(N, D)                                                                           \
+  FT_INLINE ft_pair ft_corners_##N(const ft_axis* axis, const double* w, ft_values v, long at) {   \
+    return ft_mix(w[0], ft_corners_##D(axis + 1, w + 1, v, at),                                    \
+                  ft_corners_##D(axis + 1, w + 1, v, at + axis->stride));                          \
+  }
+FT_CORNERS(2, 1)
+FT_CORNERS(3, 2)
+FT_CORNERS(4, 3)
+FT_CORNERS(5, 4)
+#define FT_CORNERS_LOOP(N, D)                                                                      \
+  FT_INLINE ft_pair ft_corners_##N(const ft_axis* axis, const double* w, ft_values v, long at) {   \
+    ft_pair end[2];                                                                                \
+    int j;                                                                                         \
+    for (j = 0; j < 2; ++j)                                                                        \
+      end[j] = ft_corners_##D(axis + 1, w + 1, v, at + j * axis->stride);                          \
+    return ft_mix(w[0], end[0], end[1]);                                                           \
+  }
+FT_CORNERS_LOOP(6, 5)
+FT_CORNERS_LOOP(7, 6)
+FT_CORNERS_LOOP(8, 7)
+
+/* ft_linear_N: the value at u, one coordinate per axis. Bit d of *outside is set where axis d was
+ * clamped (outside may be null). */
+#define FT_LINEAR(N, LAST)                                                                         \
+  FT_INLINE double ft_linear_##N(const ft_axis* axis, ft_values v, const double* u,                \
+                                 unsigned* outside) {                                              \
+    ft_place place;                                                                                \
+    ft_pair ends;                                                                                  \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ends = ft_corners_##N(axis, place.w, v, place.at);                                             \
+    return ft_between(place.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
+  }
+FT_LINEAR(1, 0)
+FT_LINEAR(2, 1)
+FT_LINEAR(3, 2)
+FT_LINEAR(4, 3)
+FT_LINEAR(5, 4)
+FT_LINEAR(6, 5)
+FT_LINEAR(7, 6)
+FT_LINEAR(8, 7)
 
 #endif
 
@@ -136,124 +266,176 @@ typedef struct {
   const double* basis;
 } ft_spline_axis;
 
-/* First coefficient and weights of u; returns 1 where u lies outside the axis (the edge is used).
- */
-static inline int ft_spline_weights(const ft_spline_axis* axis, double u, int* first, double* w) {
-  const double* b;
-  double t;
-  int cell, j;
-  const int outside = ft_locate(&axis->nodes, u, &cell, &t);
-  b = axis->basis + 16 * cell;
-  *first = axis->first[cell];
-  for (j = 0; j < 4; ++j)
-    w[j] = b[j] + t * (b[4 + j] + t * (b[8 + j] + t * b[12 + j]));
-  return outside;
+/* Four numbers, for as many coefficients along the last axis. */
+#if defined(__AVX__) && defined(__GNUC__) && !defined(FT_PLAIN)
+typedef double ft_quad __attribute__((vector_size(32)));
+FT_INLINE ft_quad ft_zero4(void) {
+  const ft_quad q = {0.0, 0.0, 0.0, 0.0};
+  return q;
+}
+FT_INLINE ft_quad ft_load4(ft_values v, long at) {
+  return v.f32 ? (ft_quad)_mm256_cvtps_pd(_mm_loadu_ps(v.f32 + at))
+               : (ft_quad)_mm256_loadu_pd(v.f64 + at);
+}
+FT_INLINE ft_quad ft_plus4(ft_quad a, ft_quad b) {
+  return a + b;
+}
+FT_INLINE ft_quad ft_times4(double w, ft_quad a) {
+  return w * a;
+}
+FT_INLINE double ft_get4(ft_quad q, int i) {
+  return q[i];
+}
+#else
+typedef struct {
+  ft_pair of[2];
+} ft_quad;
+FT_INLINE ft_quad ft_quad_of(ft_pair a, ft_pair b) {
+  ft_quad q;
+  q.of[0] = a;
+  q.of[1] = b;
+  return q;
+}
+FT_INLINE ft_quad ft_zero4(void) {
+  return ft_quad_of(ft_pair_of(0.0, 0.0), ft_pair_of(0.0, 0.0));
+}
+FT_INLINE ft_quad ft_load4(ft_values v, long at) {
+  return ft_quad_of(ft_load(v, at), ft_load(v, at + 2));
+}
+FT_INLINE ft_quad ft_plus4(ft_quad a, ft_quad b) {
+  return ft_quad_of(ft_plus(a.of[0], b.of[0]), ft_plus(a.of[1], b.of[1]));
+}
+FT_INLINE ft_quad ft_times4(double w, ft_quad a) {
+  return ft_quad_of(ft_times(w, a.of[0]), ft_times(w, a.of[1]));
+}
+FT_INLINE double ft_get4(ft_quad q, int i) {
+  return ft_get(q.of[i / 2], i % 2);
+}
+#endif
+
+FT_INLINE double ft_dot4(const double* w, ft_quad x) {
+  return (w[0] * ft_get4(x, 0) + w[1] * ft_get4(x, 1)) +
+         (w[2] * ft_get4(x, 2) + w[3] * ft_get4(x, 3));
 }
 
-/* On 4 numbers, for as many coefficients along the last axis. */
-static inline void ft_zero4(double* sum) {
-  int l;
-  for (l = 0; l < 4; ++l)
-    sum[l] = 0.0;
-}
-static inline void ft_add4(double* sum, double w, const double* x) {
-  int l;
-  for (l = 0; l < 4; ++l)
-    sum[l] += w * x[l];
-}
-/* lane = the sum over the 4 taps of an axis whose coefficients lie at c + row[j]. */
-static inline void ft_rows4(double* lane, const double* w, const double* c, const long* row) {
-  const double *x0 = c + row[0], *x1 = c + row[1], *x2 = c + row[2], *x3 = c + row[3];
-  int l;
-  for (l = 0; l < 4; ++l)
-    lane[l] = (w[0] * x0[l] + w[1] * x1[l]) + (w[2] * x2[l] + w[3] * x3[l]);
-}
-/* Hands sums on and starts new ones. */
-static inline void ft_take4(double* to, double* sum) {
-  int l;
-  for (l = 0; l < 4; ++l) {
-    to[l] = sum[l];
-    sum[l] = 0.0;
-  }
-}
-static inline double ft_dot4(const double* w, const double* x) {
-  return (w[0] * x[0] + w[1] * x[1]) + (w[2] * x[2] + w[3] * x[3]);
+FT_INLINE int ft_taps(const ft_spline_axis* axis) {
+  return axis->nodes.n < 4 ? axis->nodes.n : 4;
 }
 
-/* What a spline of two or more axes is summed over at u. */
+/* Where N axes are read: the first coefficient, those at each axis' taps with their weights. */
 typedef struct {
   double w[FT_MAX_AXES][4];
-  int taps[FT_MAX_AXES];
-  long stride[FT_MAX_AXES];
-  long row[4];      /* of the last axis but one; a tap that is not there has the weight 0 */
-  long first;       /* coefficient */
-  unsigned outside; /* bits of clamped axes */
-} ft_spline_place;
+  double t[FT_MAX_AXES]; /* weight of the cell's upper node */
+  int cell[FT_MAX_AXES];
+  long at;
+  unsigned outside;
+} ft_spot;
 
-static inline void ft_spline_locate(ft_spline_place* at, int axes, const ft_spline_axis* axis,
-                                    const double* u) {
-  long size = 1;
-  int d, j;
-  at->first = 0;
-  at->outside = 0u;
-  for (d = axes - 1; d >= 0; --d) {
-    int first;
-    if (ft_spline_weights(&axis[d], u[d], &first, at->w[d])) at->outside |= 1u << d;
-    at->taps[d] = axis[d].nodes.n < 4 ? axis[d].nodes.n : 4;
-    at->stride[d] = size;
-    at->first += first * size;
-    size *= axis[d].nodes.n;
+FT_INLINE void ft_spot_0(const ft_spline_axis* axis, const double* u, ft_spot* spot) {
+  (void)axis;
+  (void)u;
+  spot->at = 0;
+  spot->outside = 0u;
+}
+#define FT_SPOT_TAP(D, J)                                                                          \
+  spot->w[D][J] = b[J] + spot->t[D] * (b[4 + J] + spot->t[D] * (b[8 + J] + spot->t[D] * b[12 + J]));
+#define FT_SPOT(N, D)                                                                              \
+  FT_INLINE void ft_spot_##N(const ft_spline_axis* axis, const double* u, ft_spot* spot) {         \
+    const double* b;                                                                               \
+    ft_spot_##D(axis, u, spot);                                                                    \
+    if (ft_locate(&axis[D].nodes, u[D], &spot->cell[D], &spot->t[D])) spot->outside |= 1u << D;    \
+    b = axis[D].basis + 16 * spot->cell[D];                                                        \
+    spot->at += axis[D].first[spot->cell[D]] * axis[D].nodes.stride;                               \
+    FT_SPOT_TAP(D, 0) FT_SPOT_TAP(D, 1) FT_SPOT_TAP(D, 2) FT_SPOT_TAP(D, 3)                        \
   }
-  for (j = 0; axes > 1 && j < 4; ++j)
-    at->row[j] = j < at->taps[axes - 2] ? j * at->stride[axes - 2] : 0;
+FT_SPOT(1, 0)
+FT_SPOT(2, 1)
+FT_SPOT(3, 2)
+FT_SPOT(4, 3)
+FT_SPOT(5, 4)
+FT_SPOT(6, 5)
+FT_SPOT(7, 6)
+FT_SPOT(8, 7)
+
+/* Along the first of `axis`: sum over its taps of w[j] times the 4 coefficients there. */
+FT_INLINE ft_quad ft_rows(const ft_spline_axis* axis, const double* w, ft_values v, long at) {
+  const long step = axis->nodes.stride;
+  const int n = axis->nodes.n;
+  ft_quad sum = ft_plus4(ft_times4(w[0], ft_load4(v, at)), ft_times4(w[1], ft_load4(v, at + step)));
+  if (n == 3) sum = ft_plus4(sum, ft_times4(w[2], ft_load4(v, at + 2 * step)));
+  if (n > 3)
+    sum = ft_plus4(sum, ft_plus4(ft_times4(w[2], ft_load4(v, at + 2 * step)),
+                                 ft_times4(w[3], ft_load4(v, at + 3 * step))));
+  return sum;
 }
 
-/* c: row-major, last axis fastest, and 2 zeros behind the last coefficient (4 are read along an
- * axis of 2 or 3 nodes as well). u, *outside and zero axes: as for ft_interpolate. */
-static inline double ft_cubic(int axes, const ft_spline_axis* axis, const double* c,
-                              const double* u, unsigned* outside) {
-  ft_spline_place at;
-  double sum[FT_MAX_AXES][4], rows[4], lane[4];
-  int tap[FT_MAX_AXES];
-  const int last = axes - 1, inner = axes - 2, outer = axes - 3;
-  int d, j;
-  if (outside) *outside = 0u;
-  if (axes == 0) return c[0];
-  ft_spline_locate(&at, axes, axis, u);
-  if (outside) *outside = at.outside;
-  c += at.first;
-  if (axes == 1) return ft_dot4(at.w[0], c);
-  for (d = 0; d < outer; ++d) {
-    tap[d] = 0;
-    ft_zero4(sum[d]);
-  }
-  for (;;) { /* the last three axes as one block; its sums are carried upwards like digits */
-    if (outer < 0) {
-      ft_rows4(lane, at.w[inner], c, at.row);
-    } else {
-      ft_zero4(lane);
-      for (j = 0; j < at.taps[outer]; ++j) {
-        ft_rows4(rows, at.w[inner], c + j * at.stride[outer], at.row);
-        ft_add4(lane, at.w[outer][j], rows);
-      }
-    }
-    for (d = outer - 1; d >= 0; --d) {
-      ft_add4(sum[d], at.w[d][tap[d]], lane);
-      c += at.stride[d];
-      if (++tap[d] < at.taps[d]) break;
-      c -= at.taps[d] * at.stride[d];
-      tap[d] = 0;
-      ft_take4(lane, sum[d]);
-    }
-    if (d < 0) return ft_dot4(at.w[last], lane);
-  }
+/* Along all of N axes but the last: what is left on that one. Three axes, 16 rows of 4, are
+ * unrolled; the others are loops, so that the code stays in the processor's cache of code. */
+typedef const double (*ft_weights)[4];
+FT_INLINE ft_quad ft_sum_1(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  (void)axis;
+  (void)w;
+  return ft_load4(v, at);
 }
+FT_INLINE ft_quad ft_sum_2(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  return ft_rows(axis, w[0], v, at);
+}
+FT_INLINE ft_quad ft_sum_3(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {
+  const long step = axis->nodes.stride;
+  ft_quad sum = ft_plus4(ft_zero4(), ft_times4(w[0][0], ft_sum_2(axis + 1, w + 1, v, at)));
+  sum = ft_plus4(sum, ft_times4(w[0][1], ft_sum_2(axis + 1, w + 1, v, at + step)));
+  if (axis->nodes.n > 2)
+    sum = ft_plus4(sum, ft_times4(w[0][2], ft_sum_2(axis + 1, w + 1, v, at + 2 * step)));
+  if (axis->nodes.n > 3)
+    sum = ft_plus4(sum, ft_times4(w[0][3], ft_sum_2(axis + 1, w + 1, v, at + 3 * step)));
+  return sum;
+}
+#define FT_SUM(N, D)                                                                               \
+  FT_INLINE ft_quad ft_sum_##N(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {   \
+    ft_quad sum = ft_zero4();                                                                      \
+    int j;                                                                                         \
+    for (j = 0; j < ft_taps(axis); ++j, at += axis->nodes.stride)                                  \
+      sum = ft_plus4(sum, ft_times4(w[0][j], ft_sum_##D(axis + 1, w + 1, v, at)));                 \
+    return sum;                                                                                    \
+  }
+FT_SUM(4, 3)
+FT_SUM(5, 4)
+FT_SUM(6, 5)
+FT_SUM(7, 6)
+FT_SUM(8, 7)
+
+/* ft_cubic_N: as ft_linear_N. v: coefficients, and 2 zeros behind the last one (4 are read along an
+ * axis of 2 or 3 nodes as well). */
+#define FT_CUBIC(N, LAST)                                                                          \
+  FT_INLINE double ft_cubic_##N(const ft_spline_axis* axis, ft_values v, const double* u,          \
+                                unsigned* outside) {                                               \
+    ft_spot spot;                                                                                  \
+    ft_spot_##N(axis, u, &spot);                                                                   \
+    if (outside) *outside = spot.outside;                                                          \
+    return ft_dot4(spot.w[LAST], ft_sum_##N(axis, (ft_weights)spot.w, v, spot.at));                \
+  }
+FT_CUBIC(1, 0)
+FT_CUBIC(2, 1)
+FT_CUBIC(3, 2)
+FT_CUBIC(4, 3)
+FT_CUBIC(5, 4)
+FT_CUBIC(6, 5)
+FT_CUBIC(7, 6)
+FT_CUBIC(8, 7)
 
 #endif
 
 /* axis 0: psi */
 static const double ft_u0[6] = {
     1.0, 2.0, 4.0, 7.0, 12.0, 20.0
+};
+static const double ft_per_cell0[5] = {
+    1.0, 0.5, 0.3333333333333333, 0.2, 0.125
+};
+static const unsigned short ft_guide0[65] = {
+    0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3,
+    3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4,
+    4, 4, 4
 };
 static const int ft_first0[5] = {
     0, 0, 1, 2, 2
@@ -278,7 +460,9 @@ static const double ft_basis0[80] = {
 };
 
 static const ft_spline_axis ft_axes[1] = {
-    {{6, 0.0, ft_u0}, ft_first0, ft_basis0},
+    {{6, 1, ft_u0, ft_per_cell0,
+      3.3684210526315788, 3.3684210526315788, ft_guide0},
+     ft_first0, ft_basis0},
 };
 
 /* spline coefficients of tau_R, last axis fastest */
@@ -286,8 +470,9 @@ static const double ft_value[8] = {
     39.01994480664912, 24.68741868051871, 43.18113849330555, 16.59236913314407,
     29.682976104260995, 33.159587202440974, 0.0, 0.0
 };
+static const ft_values ft_table = {ft_value, 0};
 
-static double ft_tau(
+FT_INLINE double ft_tau(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa,
     unsigned* outside) {
@@ -299,15 +484,10 @@ static double ft_tau(
   (void)T_contact_C;
   (void)s_mm;
   (void)sigma_f_MPa;
-  (void)ft_min;
-  (void)ft_max;
-  (void)ft_where_le;
-  (void)ft_log;
-  (void)ft_interpolate;
   *outside = 0u;
-  if (x2 != x2) return x2; /* NaN in, NaN out */
   u[0] = x2;
-  value = ft_cubic(1, ft_axes, ft_value, u, outside);
+  value = ft_cubic_1(ft_axes, ft_table, u, outside);
+  if (value != value) return value; /* NaN in one of the axes */
   /* the formula of the header, in MPa */
   {
     return value;

@@ -1,0 +1,211 @@
+// Axes as data and literals; sums over corners as statements in the order of the C kernels.
+#include "interpolation.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "table/axis_search.h"
+#include "table/spline.h"
+
+namespace frictab::abaqus_vfric {
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+std::vector<long> strides(const Table& table) {
+  std::vector<long> out;
+  long stride = static_cast<long>(table.value.size());
+  for (const TableAxis& axis : table.axes)
+    out.push_back(stride /= static_cast<long>(axis.nodes.size()));
+  return out;
+}
+
+// "tv(at+5)"
+std::string value_at(long offset) {
+  return offset == 0 ? "tv(at)" : fmt::format("tv(at+{})", offset);
+}
+
+// Statements of ft_corners_N, depth first: p and q are the two ends on the last axis, "a" and "b"
+// the two sides of the axis before.
+void corners(const std::vector<long>& stride, std::size_t axis, long offset, char side,
+             Strings& out) {
+  const std::size_t number = axis + 1;
+  const auto mix = [&](char name, const std::string& a, const std::string& b) {
+    out.push_back(fmt::format("{0}{1}{2} = v{1}*{3} + w{1}*{4}", name, number, side, a, b));
+  };
+  if (axis + 2 == stride.size()) {
+    mix('p', value_at(offset), value_at(offset + stride[axis]));
+    mix('q', value_at(offset + 1), value_at(offset + stride[axis] + 1));
+    return;
+  }
+  corners(stride, axis + 1, offset, 'a', out);
+  corners(stride, axis + 1, offset + stride[axis], 'b', out);
+  for (const char name : {'p', 'q'})
+    mix(name, fmt::format("{}{}a", name, number + 1), fmt::format("{}{}b", name, number + 1));
+}
+
+Strings linear_steps(const std::vector<long>& stride) {
+  Strings out;
+  const std::size_t axes = stride.size();
+  if (axes == 1) return {"ftintp = v1*tv(at) + w1*tv(at+1)"};
+  corners(stride, 0, 0, 'a', out);
+  out.push_back(fmt::format("ftintp = v{0}*p1a + w{0}*q1a", axes));
+  return out;
+}
+
+Strings linear_names(std::size_t axes) {
+  Strings out;
+  for (std::size_t d = 1; d <= axes; ++d) {
+    out.push_back(fmt::format("double precision w{0}, v{0}", d));
+    if (d == axes) continue;
+    out.push_back(fmt::format("double precision p{0}a, q{0}a", d));
+    if (d > 1) out.push_back(fmt::format("double precision p{0}b, q{0}b", d));
+  }
+  return out;
+}
+
+// Statements of ft_sum_N for axes `axis` and behind, into r(1..4), with the first coefficient at
+// `at`; as there, rows are added in pairs, further axes one tap after the other.
+void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
+          const std::string& at, const std::string& indent, Strings& out) {
+  const std::size_t n = table.axes[axis].nodes.size(), taps = std::min<std::size_t>(n, 4);
+  const std::size_t number = axis + 1;
+  const auto line = [&](const std::string& text) { out.push_back(indent + text); };
+  if (axis + 1 == stride.size()) {
+    line("do l = 1, 4");
+    line(fmt::format("  r(l) = tv({}+l-1)", at));
+    line("end do");
+    return;
+  }
+  if (axis + 2 == stride.size()) {
+    const auto tap = [&](long j) {
+      return fmt::format("w({},{})*tv({}+l{:+})", j + 1, number, at, j * stride[axis] - 1);
+    };
+    line("do l = 1, 4");
+    line(fmt::format("  r(l) = {} + {}", tap(0), tap(1)));
+    if (n == 3) line(fmt::format("  r(l) = r(l) + {}", tap(2)));
+    if (n > 3) line(fmt::format("  r(l) = r(l) + ({} + {})", tap(2), tap(3)));
+    line("end do");
+    return;
+  }
+  line("do l = 1, 4");
+  line(fmt::format("  s{}(l) = 0.0D0", number));
+  line("end do");
+  line(fmt::format("do j{} = 0, {}", number, taps - 1));
+  line(fmt::format("  i{0} = {1} + j{0}*{2}", number, at, stride[axis]));
+  sums(table, stride, axis + 1, fmt::format("i{}", number), indent + "  ", out);
+  line("  do l = 1, 4");
+  line(fmt::format("    s{0}(l) = s{0}(l) + w(j{0}+1,{0})*r(l)", number));
+  line("  end do");
+  line("end do");
+  line("do l = 1, 4");
+  line(fmt::format("  r(l) = s{}(l)", number));
+  line("end do");
+}
+
+Strings cubic_steps(const Table& table, const std::vector<long>& stride) {
+  Strings out;
+  sums(table, stride, 0, "at", "", out);
+  out.push_back(fmt::format("ftintp = (w(1,{0})*r(1) + w(2,{0})*r(2)) + (w(3,{0})*r(3) + "
+                            "w(4,{0})*r(4))",
+                            stride.size()));
+  return out;
+}
+
+Strings cubic_names(std::size_t axes) {
+  Strings out{"double precision r(4)"};
+  for (std::size_t d = 1; d + 2 <= axes; ++d) {
+    out.push_back(fmt::format("double precision s{}(4)", d));
+    out.push_back(fmt::format("integer i{0}, j{0}", d));
+  }
+  return out;
+}
+
+std::vector<TemplateValues> statements(const Strings& lines) {
+  std::vector<TemplateValues> out;
+  for (const std::string& line : lines) {
+    TemplateValues one;
+    one.text["text"] = fixed_form(line);
+    out.push_back(one);
+  }
+  return out;
+}
+
+// What the arrays of all axes hold, one axis after the other.
+struct Data {
+  std::vector<double> nodes, per_cell, basis;
+  std::vector<int> guide, first;
+};
+
+void add_axis(TemplateValues& axis, const AxisSearch& search, long stride, const Data& data) {
+  const std::size_t node = data.nodes.size() + 1, cell = data.per_cell.size() + 1;
+  const std::size_t n = search.u.size();
+  const auto text = [&](const char* name, std::size_t number) {
+    axis.text[name] = std::to_string(number);
+  };
+  text("node", node);
+  text("next_node", node + 1);
+  text("last_node", node + n - 1);
+  text("cells", n - 1);
+  text("last_cell", n - 2);
+  text("cell", cell);
+  text("cell_before", cell - 1);
+  text("guide", data.guide.size() + 1);
+  axis.text["stride"] = std::to_string(stride);
+  axis.text["scale"] = fortran_number(search.scale);
+  axis.text["shift"] = fortran_number(search.shift);
+  axis.flags = {{"one_cell", n == 2},
+                {"scaled", n > 2 && search.scale > 0},
+                {"guided", n > 2 && !search.guide.empty()},
+                {"bisected", n > 2 && !(search.scale > 0)}};
+}
+
+} // namespace
+
+void add_interpolation(TemplateValues& values, const Table& table) {
+  const std::size_t axes = table.is_direct() ? 0 : table.axes.size(); // the law has no nodes
+  const std::vector<long> stride = strides(table);
+  const bool cubic = is_cubic(table);
+  Data data;
+  bool bisection = false;
+  for (std::size_t a = 0; a < axes; ++a) {
+    const AxisSearch search = axis_search(table.axes[a].coordinates());
+    TemplateValues& axis = values.lists["axes"][a];
+    add_axis(axis, search, stride[a], data);
+    bisection = bisection || axis.flags["bisected"];
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(data.nodes, search.u);
+    append(data.per_cell, search.per_cell);
+    append(data.guide, search.guide);
+    if (!cubic) continue;
+    const SplineAxis spline = spline_axis(table.axes[a]);
+    append(data.first, spline.first);
+    append(data.basis, spline.basis);
+  }
+  const std::vector<double> baked = baked_values(table);
+  values.text["n_nodes"] = std::to_string(data.nodes.size());
+  values.text["n_cells"] = std::to_string(data.per_cell.size());
+  values.text["n_guide"] = std::to_string(data.guide.size());
+  values.text["n_basis"] = std::to_string(data.basis.size());
+  values.text["n_values"] = std::to_string(baked.size());
+  values.text["data_un"] = fixed_form_data("un", data.nodes);
+  values.text["data_pc"] = fixed_form_data("pc", data.per_cell);
+  values.text["data_gd"] = fixed_form_data("gd", data.guide);
+  values.text["data_fc"] = fixed_form_data("fc", data.first);
+  values.text["data_tb"] = fixed_form_data("tb", data.basis);
+  values.text["data_tv"] = fixed_form_data("tv", baked);
+  values.flags["cubic"] = cubic;
+  values.flags["uses_guide"] = !data.guide.empty();
+  values.flags["uses_bisection"] = bisection;
+  values.lists["names"];
+  values.lists["steps"];
+  if (axes == 0) return;
+  values.lists["names"] = statements(cubic ? cubic_names(axes) : linear_names(axes));
+  values.lists["steps"] = statements(cubic ? cubic_steps(table, stride) : linear_steps(stride));
+}
+
+} // namespace frictab::abaqus_vfric
