@@ -98,14 +98,7 @@ std::vector<InputArgument> entry_arguments(const Table& table, std::string_view 
 }
 
 std::optional<std::pair<double, double>> known_range(const Table& table, const std::string& name) {
-  for (const TableAxis& axis : table.axes)
-    if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
-  const auto low = table.number_attributes.find("range_low_" + name);
-  const auto high = table.number_attributes.find("range_high_" + name);
-  if (low == table.number_attributes.end() || high == table.number_attributes.end() ||
-      !std::isfinite(low->second) || !std::isfinite(high->second))
-    return std::nullopt;
-  return {{low->second, high->second}};
+  return table.range(name);
 }
 
 std::optional<double> typical_value(const Table& table, const std::string& name) {
@@ -122,7 +115,7 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
 namespace {
 
 void check_size(const Table& table, FaultList& faults) {
-  std::size_t numbers = table.value.size();
+  std::size_t numbers = table.nodes();
   for (const TableAxis& axis : table.axes)
     numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
   if (numbers <= most_baked_numbers) return;
@@ -135,6 +128,12 @@ void check_size(const Table& table, FaultList& faults) {
 }
 
 } // namespace
+
+void check_table_size(const Table& table) {
+  FaultList faults;
+  check_size(table, faults);
+  faults.throw_if_any();
+}
 
 void check_table(const Table& table) {
   FaultList faults;
@@ -151,7 +150,7 @@ void check_table(const Table& table) {
   if (table.axes.size() > FT_MAX_AXES)
     faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
                                table.axes.size(), FT_MAX_AXES));
-  if (nodes != table.value.size())
+  if (!table.stored && nodes != table.value.size()) // else the size below is too large
     faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))

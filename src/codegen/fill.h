@@ -61,6 +61,9 @@ inline constexpr std::size_t most_baked_numbers = 300000;
 // numbers than a compiler takes.
 void check_table(const Table& table);
 
+// The last of these alone, which needs no values: `table` may be a description.
+void check_table_size(const Table& table);
+
 // Whether the code needs the spline kernel: a cubic table with axes.
 bool is_cubic(const Table& table);
 

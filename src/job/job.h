@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/hdf5.h"
 
 namespace frictab {
 
@@ -81,6 +82,8 @@ struct TableOptions {
   double tolerance_MPa = 0.5;
   std::optional<std::string> interpolation; // linear | cubic; absent: linear where that is small
   std::map<std::string, AxisOptions> axes;  // by canonical name
+  double memory_limit_MiB = 256;            // of values; a larger table stays on disk
+  Hdf5Storage hdf5;
   Place place;
 };
 

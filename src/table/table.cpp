@@ -43,8 +43,33 @@ std::vector<std::string> Table::inputs() const {
   return names;
 }
 
+std::optional<std::pair<double, double>> Table::range(const std::string& name) const {
+  for (const TableAxis& axis : axes)
+    if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
+  const auto low = number_attributes.find("range_low_" + name);
+  const auto high = number_attributes.find("range_high_" + name);
+  if (low == number_attributes.end() || high == number_attributes.end() ||
+      !std::isfinite(low->second) || !std::isfinite(high->second))
+    return std::nullopt;
+  return {{low->second, high->second}};
+}
+
+std::vector<std::size_t> Table::shape() const {
+  std::vector<std::size_t> shape;
+  for (const TableAxis& axis : axes)
+    shape.push_back(axis.nodes.size());
+  return shape;
+}
+
+std::size_t Table::nodes() const {
+  std::size_t count = 1;
+  for (const TableAxis& axis : axes)
+    count *= axis.nodes.size();
+  return count;
+}
+
 std::size_t Table::bytes() const {
-  std::size_t count = value.size() + constants.size();
+  std::size_t count = nodes() + constants.size();
   for (const TableAxis& axis : axes)
     count += axis.nodes.size();
   return count * sizeof(double);
@@ -59,7 +84,8 @@ struct TableFunction::Data {
   bool is_cubic = false;
   std::vector<std::size_t> input_of_axis;
   std::vector<char> log;
-  std::vector<double> value; // at the nodes, or coefficients
+  std::vector<double> value;                  // at the nodes, or coefficients
+  std::shared_ptr<const StoredValues> stored; // instead of `value`
   bool log_value = false;
   std::unique_ptr<Program> combine; // row: value, then inputs; scalars: constants
   std::vector<double> constants;
@@ -72,7 +98,53 @@ struct TableFunction::Data {
     }
   }
   void add_axes(const Table& table);
+  // The value at u, ln where log_value; with its derivatives where by_u is given.
+  double raw(const double* u, double* by_u, unsigned* outside) const;
 };
+
+namespace {
+
+// The cell of u as a grid of two nodes per axis: the kernel gives there, bit for bit, what it gives
+// on the whole grid, however many nodes that has.
+struct StoredCell {
+  ft_axis axis[FT_MAX_AXES];
+  double value[1 << FT_MAX_AXES];
+
+  StoredCell(const StoredValues& stored, const std::vector<ft_axis>& grid, const double* u) {
+    std::size_t stride[FT_MAX_AXES], first = 0, size = 1;
+    const std::size_t axes = grid.size();
+    for (std::size_t d = axes; d-- > 0;) {
+      int cell = 0;
+      double weight = 0;
+      ft_locate(&grid[d], u[d], &cell, &weight);
+      axis[d] = {2, 0.0, grid[d].u + cell};
+      stride[d] = size;
+      first += static_cast<std::size_t>(cell) * size;
+      size *= static_cast<std::size_t>(grid[d].n);
+    }
+    for (std::size_t corner = 0; corner < (std::size_t{1} << axes); corner += 2) {
+      std::size_t at = first;
+      for (std::size_t d = 0; d + 1 < axes; ++d)
+        if (corner >> (axes - 1 - d) & 1) at += stride[d];
+      stored.read(at, {value + corner, 2}); // neighbours along the last axis
+    }
+  }
+};
+
+} // namespace
+
+double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside) const {
+  if (stored) {
+    const StoredCell cell(*stored, linear, u);
+    return by_u ? ft_interpolate_gradient(axes(), cell.axis, cell.value, u, by_u, outside)
+                : ft_interpolate(axes(), cell.axis, cell.value, u, outside);
+  }
+  if (is_cubic)
+    return by_u ? ft_cubic_gradient(axes(), cubic.data(), value.data(), u, by_u, outside)
+                : ft_cubic(axes(), cubic.data(), value.data(), u, outside);
+  return by_u ? ft_interpolate_gradient(axes(), linear.data(), value.data(), u, by_u, outside)
+              : ft_interpolate(axes(), linear.data(), value.data(), u, outside);
+}
 
 void TableFunction::Data::add_axes(const Table& table) {
   is_cubic = table.interpolation == "cubic";
@@ -89,7 +161,8 @@ void TableFunction::Data::add_axes(const Table& table) {
     if (is_cubic)
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
-  value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
+  stored = table.stored;
+  if (!stored) value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
 }
 
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {
@@ -116,9 +189,7 @@ double TableFunction::operator()(std::span<const double> state, unsigned* outsid
   const Data& d = *data_;
   double u[FT_MAX_AXES], row[1 + 16];
   d.coordinates_of(state, u);
-  const double raw = d.is_cubic
-                         ? ft_cubic(d.axes(), d.cubic.data(), d.value.data(), u, outside)
-                         : ft_interpolate(d.axes(), d.linear.data(), d.value.data(), u, outside);
+  const double raw = d.raw(u, nullptr, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
   return (*d.combine)(std::span<const double>(row, state.size() + 1), d.constants);
@@ -129,10 +200,7 @@ double TableFunction::gradient(std::span<const double> state, std::span<double> 
   const Data& d = *data_;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
   d.coordinates_of(state, u);
-  const double raw =
-      d.is_cubic
-          ? ft_cubic_gradient(d.axes(), d.cubic.data(), d.value.data(), u, by_u, outside)
-          : ft_interpolate_gradient(d.axes(), d.linear.data(), d.value.data(), u, by_u, outside);
+  const double raw = d.raw(u, by_u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
   const double tau = d.combine->gradient({row, state.size() + 1}, d.constants,

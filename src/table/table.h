@@ -4,11 +4,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "expr/expr.h"
+#include "io/stored_values.h"
 
 namespace frictab {
 
@@ -37,6 +40,8 @@ struct Table {
   std::string model;           // law name
   std::vector<TableAxis> axes; // none: the value is one constant
   std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value
+  // Set: the values of a linear table that is too large for memory, and `value` is empty.
+  std::shared_ptr<const StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
   std::string interpolation = "linear";    // linear | cubic: the spline of table/spline.h
@@ -49,13 +54,17 @@ struct Table {
 
   // States the table needs, canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;
+  // Of an input: its axis', else what the attributes range_low_<name> and range_high_<name> say;
+  // nullopt where neither is there.
+  std::optional<std::pair<double, double>> range(const std::string& name) const;
   // Of the experiments; 0.5 is the law itself.
   double quantile() const {
     const auto found = number_attributes.find("quantile");
     return found == number_attributes.end() ? 0.5 : found->second;
   }
-  std::size_t nodes() const { return value.size(); }
-  std::size_t bytes() const; // values and nodes as doubles
+  std::vector<std::size_t> shape() const; // nodes per axis
+  std::size_t nodes() const;              // their product
+  std::size_t bytes() const;              // values and nodes as doubles
 };
 
 // Evaluates a table by the kernel that the generated sources contain.
