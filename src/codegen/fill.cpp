@@ -124,7 +124,8 @@ void check_size(const Table& table, FaultList& faults) {
              fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
                          "reasonable time and memory",
                          table.model, thousands(numbers), thousands(most_baked_numbers)),
-             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states");
+             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
+                      "export.targets = [] makes the table alone");
 }
 
 } // namespace

@@ -122,11 +122,19 @@ struct StoredCell {
       first += static_cast<std::size_t>(cell) * size;
       size *= static_cast<std::size_t>(grid[d].n);
     }
-    for (std::size_t corner = 0; corner < (std::size_t{1} << axes); corner += 2) {
+    // Neighbours along the last axis in one go, and those along the last but one where they are
+    // near.
+    constexpr std::size_t near = 512; // copying them takes less time than another call
+    const bool four = axes > 1 && stride[axes - 2] <= near;
+    double row[near + 2];
+    for (std::size_t corner = 0; corner < (std::size_t{1} << axes); corner += four ? 4 : 2) {
       std::size_t at = first;
       for (std::size_t d = 0; d + 1 < axes; ++d)
         if (corner >> (axes - 1 - d) & 1) at += stride[d];
-      stored.read(at, {value + corner, 2}); // neighbours along the last axis
+      const std::size_t step = four ? stride[axes - 2] : 0;
+      stored.read(at, {row, step + 2});
+      for (std::size_t i = 0; i < (four ? 4U : 2U); ++i)
+        value[corner + i] = row[(i / 2) * step + i % 2];
     }
   }
 };
