@@ -29,11 +29,12 @@ struct CommonOptions {
 };
 
 struct Command {
-  std::string name;
+  std::string name; // "table info": the command `info` of the command `table`
   int order = 0;
   std::string title; // one line for the command list
   // Adds the command's own options to `app` and returns what runs it: exit code 0 or 1; faults are
-  // thrown. Results go to stdout or files; notes to stderr through note() below.
+  // thrown. Results go to stdout or files; notes to stderr through note() below. nullptr: only the
+  // commands below it run.
   std::function<int()> (*declare)(CLI::App& app, const CommonOptions& common) = nullptr;
 };
 

@@ -52,23 +52,33 @@ int run_chosen(const Runners& runners, const CommonOptions& common) {
   return 2;
 }
 
+// Names of the commands below `group` ("" = at the top).
+std::vector<std::string> commands_of(const std::string& group) {
+  std::vector<std::string> names;
+  const std::string before = group.empty() ? "" : group + " ";
+  for (const Command& command : Registry<Command>::instance().all())
+    if (command.name.starts_with(before)) {
+      const std::string name = command.name.substr(before.size());
+      if (name.find(' ') == name.npos) names.push_back(name);
+    }
+  return names;
+}
+
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-  std::string hint = "run `frictab --help`";
-  const auto& commands = Registry<Command>::instance().all();
-  std::vector<std::string> names;
-  for (const Command& command : commands)
-    names.push_back(command.name);
-  if (argc > 1 && argv[1][0] != '-') {
-    const bool known = std::find(names.begin(), names.end(), argv[1]) != names.end();
-    if (!known) {
-      fmt::print(stderr, "error: unknown command '{}'\n  hint: {}\n", argv[1],
-                 suggest(argv[1], names));
+  std::string group;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const std::vector<std::string> names = commands_of(group);
+    if (names.empty()) break;
+    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
+      fmt::print(stderr, "error: unknown command '{}{}{}'\n  hint: {}\n", group,
+                 group.empty() ? "" : " ", argv[i], suggest(argv[i], names));
       return 2;
     }
-    hint = fmt::format("run `frictab {} --help`", argv[1]);
+    group += (group.empty() ? "" : " ") + std::string(argv[i]);
   }
-  fmt::print(stderr, "error: {}\n  hint: {}\n", error.what(), hint);
+  fmt::print(stderr, "error: {}\n  hint: run `frictab {}{}--help`\n", error.what(), group,
+             group.empty() ? "" : " ");
   return 2;
 }
 
@@ -86,9 +96,18 @@ int run_command_line(int argc, char** argv) {
   CommonOptions common;
   Runners runners;
   for (const Command& command : Registry<Command>::instance().all()) {
-    CLI::App* sub = app.add_subcommand(command.name, command.title);
-    add_common(*sub, common);
-    runners.emplace_back(sub, command.declare(*sub, common));
+    const std::size_t blank = command.name.find(' ');
+    CLI::App* above = blank == command.name.npos
+                          ? &app
+                          : app.get_subcommand(command.name.substr(0, blank)); // its order is less
+    CLI::App* sub = above->add_subcommand(command.name.substr(blank + 1), command.title);
+    if (command.declare) {
+      add_common(*sub, common);
+      runners.emplace_back(sub, command.declare(*sub, common));
+    } else {
+      sub->require_subcommand(1);
+      sub->footer(exit_codes);
+    }
   }
   try {
     app.parse(argc, argv);

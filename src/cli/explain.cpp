@@ -95,7 +95,8 @@ int run(const std::string& name, const CommonOptions& common) {
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   auto name = std::make_shared<std::string>();
   app.add_option("NAME", *name,
-                 "a law, an effect, a target, a quantity, `job` or a key such as table.model")
+                 "a law, an effect, a target, a quantity, `job`, a key such as table.model, or\n"
+                 "`table-layout`")
       ->required();
   return [name, &common] { return run(*name, common); };
 }

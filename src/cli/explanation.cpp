@@ -130,6 +130,48 @@ Explanation about_section(const std::string& path, const std::string& title) {
   return out;
 }
 
+// What a table made elsewhere must hold: `verify --table`, `export --table` and `table` read it.
+Explanation about_table_layout() {
+  Explanation out{
+      "table-layout",
+      "file",
+      "a table as netCDF-4-compatible HDF5: one dataset `value` and one dimension scale "
+      "per axis, in the root group; made by frictab or by anyone else",
+      {},
+      "datasets and attributes",
+      {}};
+  out.fields = {{"tau_R", "the formula `combine` of the interpolated value (exp of it where its "
+                          "transform is log), the states and the constants"},
+                {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used"},
+                {"not needed",
+                 "all other attributes; frictab writes model, data_hash, "
+                 "data_origin, tool_version, tolerance_MPa, worst_case_MPa, refinement "
+                 "and others to the root"}};
+  out.items = {
+      {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
+      {"value: quantity", "mu or tau_R: what is tabulated", {}},
+      {"value: transform", "linear, or log where ln of it is stored", {}},
+      {"value: interpolation",
+       "linear (in the axes' coordinates), or cubic (then `spline` is not-a-knot)",
+       {}},
+      {"value: combine",
+       "tau_R_MPa as a Python expression of `value`, canonical states (explain sigma_n_MPa) and "
+       "constants, with minimum, maximum, exp, log, sqrt, sin, tanh, arccos, where",
+       {{"example", "minimum(value*sigma_n_MPa, m*0.577*sigma_f_MPa)"}}},
+      {"value: NAME", "one number attribute per constant of combine", {}},
+      {"AXIS",
+       "ascending nodes, at least 2; a dimension scale of `value`, named like a quantity",
+       {}},
+      {"AXIS: units", "the canonical unit of that quantity, 1 for a number", {}},
+      {"AXIS: transform", "linear, or log where it is interpolated in ln", {}},
+      {"AXIS: kinks", "optional, cubic only: nodes at which the spline bends, in one text", {}},
+      {"/: range_low_STATE, range_high_STATE",
+       "optional: range of a state of combine that is no axis, for verify",
+       {}},
+      {"/: model", "optional: a name of letters, digits, '_', '.', '-'", {}}};
+  return out;
+}
+
 // "table.axes.psi.nodes" is explained by "table.axes.*.nodes".
 std::string rule_path(const std::string& path) {
   std::string out, rest = path;
@@ -157,6 +199,7 @@ std::optional<Explanation> explain(const std::string& name) {
   if (name == "job")
     return about_section("", "the job file (TOML): every key, all optional but data.training; "
                              "'*' stands for a canonical quantity");
+  if (name == "table-layout") return about_table_layout();
   const std::string path = rule_path(name);
   if (const KeyRule* key = find_key(path)) return about(*key);
   if (const SectionRule* section = find_section(path)) return about_section(path, section->meaning);
@@ -174,6 +217,7 @@ std::vector<std::string> explainable() {
   for (const Quantity& quantity : quantities())
     names.push_back(quantity.name);
   names.push_back("job");
+  names.push_back("table-layout");
   for (const SectionRule& section : section_rules())
     names.push_back(section.path);
   for (const KeyRule& key : key_rules())

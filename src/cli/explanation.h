@@ -10,7 +10,8 @@ namespace frictab {
 
 struct Explanation {
   std::string name;
-  std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job section"
+  std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job section",
+                     // "file"
   std::string title; // one line
   std::vector<std::pair<std::string, std::string>> fields; // label, text; in order
   struct Item {

@@ -1,51 +1,49 @@
-// The commands that work on a job file: run, and each of its stages.
+// The commands that work on a job file alone: run, and most of its stages.
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "calibrate/folds.h"
-#include "cli/command.h"
-#include "run/pipeline.h"
+#include "cli/job_commands.h"
 
 namespace frictab {
 
-namespace {
-
-Pipeline open_job(const std::string& file, const CommonOptions& common) {
+int run_stages(const std::string& file, const CommonOptions& common, Stages stages) {
   Job job = read_job(file, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (common.seed) job.calibration.seed = *common.seed;
-  return Pipeline(std::move(job));
+  Pipeline pipeline(std::move(job));
+  stages(pipeline);
+  pipeline.commit();
+  if (pipeline.training())
+    if (const std::string leak = leak_note(*pipeline.training(), *pipeline.validation());
+        !leak.empty())
+      note(common, "warning: " + leak);
+  for (const std::string& line : pipeline.notes())
+    note(common, line);
+  if (common.verbose && pipeline.training())
+    for (const std::string& line : pipeline.training()->notes)
+      note(common, line);
+  fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
+  for (const std::string& miss : pipeline.missed())
+    fmt::print(stderr, "error: {}\n", miss);
+  const bool verified = !pipeline.verification() || pipeline.verification()->passed();
+  return verified && pipeline.missed().empty() ? 0 : 1;
 }
 
-using Stages = void (*)(Pipeline&);
+namespace {
 
 // Declares "frictab NAME JOB": runs the stages, commits, prints the summary.
 std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages stages) {
   const auto file = std::make_shared<std::string>();
   app.add_option("JOB", *file, "Job file (TOML)")->required();
-  return [file, &common, stages] {
-    Pipeline pipeline = open_job(*file, common);
-    stages(pipeline);
-    pipeline.commit();
-    if (pipeline.training())
-      if (const std::string leak = leak_note(*pipeline.training(), *pipeline.validation());
-          !leak.empty())
-        note(common, "warning: " + leak);
-    if (common.verbose && pipeline.training())
-      for (const std::string& line : pipeline.training()->notes)
-        note(common, line);
-    fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
-    for (const std::string& miss : pipeline.missed())
-      fmt::print(stderr, "error: {}\n", miss);
-    const bool verified = !pipeline.verification() || pipeline.verification()->passed();
-    return verified && pipeline.missed().empty() ? 0 : 1;
-  };
+  return [file, &common, stages] { return run_stages(*file, common, stages); };
 }
 
 void all_stages(Pipeline& p) {
   p.calibrate();
+  p.check_sizes();
   p.tabulate();
   p.generate();
   p.verify();
@@ -78,12 +76,6 @@ const Registered<Command> tabulate{[] {
   return stage(4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
                [](CLI::App& app, const CommonOptions& common) {
                  return declare(app, common, [](Pipeline& p) { p.tabulate(); });
-               });
-}};
-const Registered<Command> generate{[] {
-  return stage(5, "export", "Generate the friction subroutines from the tables",
-               [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](Pipeline& p) { p.generate(); });
                });
 }};
 const Registered<Command> report{[] {

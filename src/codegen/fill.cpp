@@ -100,14 +100,7 @@ std::vector<InputArgument> entry_arguments(const Table& table, std::string_view 
 }
 
 std::optional<std::pair<double, double>> known_range(const Table& table, const std::string& name) {
-  for (const TableAxis& axis : table.axes)
-    if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
-  const auto low = table.number_attributes.find("range_low_" + name);
-  const auto high = table.number_attributes.find("range_high_" + name);
-  if (low == table.number_attributes.end() || high == table.number_attributes.end() ||
-      !std::isfinite(low->second) || !std::isfinite(high->second))
-    return std::nullopt;
-  return {{low->second, high->second}};
+  return table.range(name);
 }
 
 std::optional<double> typical_value(const Table& table, const std::string& name) {
@@ -122,7 +115,7 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
 }
 
 std::size_t baked_numbers(const Table& table) {
-  std::size_t numbers = table.value.size() + table.constants.size() + count_numbers(table.combine);
+  std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
   for (const TableAxis& axis : table.axes)
     numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
   if (!table.extension) return numbers;
@@ -140,10 +133,17 @@ void check_size(const Table& table, FaultList& faults) {
              fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
                          "reasonable time and memory",
                          table.model, thousands(numbers), thousands(most_baked_numbers)),
-             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states");
+             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
+                      "export.targets = [] makes the table alone");
 }
 
 } // namespace
+
+void check_table_size(const Table& table) {
+  FaultList faults;
+  check_size(table, faults);
+  faults.throw_if_any();
+}
 
 void check_table(const Table& table) {
   FaultList faults;
@@ -160,7 +160,8 @@ void check_table(const Table& table) {
   if (table.axes.size() > FT_MAX_AXES)
     faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
                                table.axes.size(), FT_MAX_AXES));
-  if (!table.is_direct() && nodes != table.value.size())
+  if (!table.is_direct() && !table.stored && // a stored one is refused below by its size
+      nodes != table.value.size())
     faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))

@@ -64,6 +64,9 @@ std::size_t baked_numbers(const Table& table);
 // numbers than a compiler takes.
 void check_table(const Table& table);
 
+// The last of these alone, which needs no values: `table` may be a description.
+void check_table_size(const Table& table);
+
 // Whether the code needs the spline kernel: a cubic table with axes.
 bool is_cubic(const Table& table);
 

@@ -15,7 +15,8 @@ namespace frictab {
 
 namespace {
 std::atomic<bool> enabled{false};
-}
+std::atomic<const void*> innermost{nullptr}; // is shown
+} // namespace
 
 void enable_progress(bool on) {
   enabled = on;
@@ -24,6 +25,8 @@ void enable_progress(bool on) {
 struct Progress::Line {
   std::string title;
   std::size_t total = 0;
+  std::size_t before = 0;
+  const void* outer = nullptr;
   std::atomic<std::size_t> done{0};
   std::mutex mutex;
   std::condition_variable wake;
@@ -34,9 +37,10 @@ struct Progress::Line {
     constexpr std::size_t width = 30;
     const std::size_t now = std::min(done.load(), total);
     const std::size_t filled = total == 0 ? 0 : now * width / total;
+    const std::size_t here = now - std::min(before, now);
     const double left =
-        now == 0 ? 0 : seconds * static_cast<double>(total - now) / static_cast<double>(now);
-    const std::string eta = now == 0 ? "" : fmt::format(", {:.0f} s left", left);
+        here == 0 ? 0 : seconds * static_cast<double>(total - now) / static_cast<double>(here);
+    const std::string eta = here == 0 ? "" : fmt::format(", {:.0f} s left", left);
     fmt::print(stderr, "\r\x1b[K{} [{}{}] {}/{}, {:.0f} s{}", title, std::string(filled, '#'),
                std::string(width - filled, '.'), now, total, seconds, eta);
     std::fflush(stderr);
@@ -49,6 +53,7 @@ struct Progress::Line {
     auto wait = std::chrono::milliseconds(1000);
     while (!wake.wait_for(lock, wait, [&] { return stop; })) {
       wait = std::chrono::milliseconds(200);
+      if (innermost != this) continue;
       draw(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
       shown = true;
     }
@@ -56,11 +61,14 @@ struct Progress::Line {
   }
 };
 
-Progress::Progress(std::string title, std::size_t total) {
+Progress::Progress(std::string title, std::size_t total, std::size_t before) {
   if (!enabled) return;
   line_ = std::make_unique<Line>();
   line_->title = std::move(title);
   line_->total = total;
+  line_->before = before;
+  line_->done = before;
+  line_->outer = innermost.exchange(line_.get());
   line_->thread = std::thread([line = line_.get()] { line->run(); });
 }
 
@@ -72,9 +80,10 @@ Progress::~Progress() {
   }
   line_->wake.notify_one();
   line_->thread.join();
+  innermost = line_->outer;
 }
 
-void Progress::tick(std::size_t steps) {
+void Progress::tick(std::size_t steps) const {
   if (line_) line_->done += steps;
 }
 

@@ -10,15 +10,15 @@ namespace frictab {
 // Off until switched on by the command line.
 void enable_progress(bool on);
 
-// A piece of work of `total` steps, from construction to destruction; tick() from any thread. Only
-// one at a time is shown.
+// A piece of work of `total` steps, from construction to destruction; tick() from any thread. One
+// within another is shown in its place. `before`: steps that an earlier run has done.
 class Progress {
 public:
-  Progress(std::string title, std::size_t total);
+  Progress(std::string title, std::size_t total, std::size_t before = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  void tick(std::size_t steps = 1);
+  void tick(std::size_t steps = 1) const;
 
 private:
   struct Line;

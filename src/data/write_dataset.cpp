@@ -82,7 +82,7 @@ void write_hdf5_columns(const Dataset& data, const std::filesystem::path& file) 
   out.dataset("experiment", text);
   for (const Column& column : data.columns) {
     if (column.levels.empty()) {
-      out.dataset(column.name, std::span<const std::size_t>(&rows, 1), column.values, 4);
+      out.dataset(column.name, std::span<const std::size_t>(&rows, 1), column.values, {0, 4, true});
     } else {
       for (std::size_t row = 0; row < rows; ++row)
         text[row] = column.levels[static_cast<std::size_t>(column.values[row])];

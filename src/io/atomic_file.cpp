@@ -68,6 +68,11 @@ fs::path OutputFiles::stage(const std::string& path) {
   return file;
 }
 
+void OutputFiles::adopt(const std::string& path, fs::path file) {
+  paths_.push_back(path);
+  adopted_[path] = std::move(file);
+}
+
 void OutputFiles::remove_old(const std::string& path) {
   old_.push_back(path);
 }
@@ -76,7 +81,8 @@ void OutputFiles::commit() {
   for (const std::string& path : paths_) {
     const fs::path target = directory_ / path;
     fs::create_directories(target.parent_path());
-    fs::rename(staging_ / path, target);
+    const auto adopted = adopted_.find(path);
+    fs::rename(adopted == adopted_.end() ? staging_ / path : adopted->second, target);
   }
   for (const std::string& path : old_) {
     if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) continue;
@@ -88,6 +94,7 @@ void OutputFiles::commit() {
     }
   }
   fs::remove_all(staging_);
+  adopted_.clear();
   created_ = false;
 }
 

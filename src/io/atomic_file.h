@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ public:
   void write(const std::string& path, std::string_view content);
   // A place to write one file by other means (HDF5); committed like the others.
   std::filesystem::path stage(const std::string& path);
+  // A complete file that already stands somewhere in the directory, under a working name: commit()
+  // renames it to `path`; without commit() it stays where it is.
+  void adopt(const std::string& path, std::filesystem::path file);
   // A file of an earlier run that commit() removes unless it was written anew; directories that
   // become empty go with it.
   void remove_old(const std::string& path);
@@ -35,6 +39,7 @@ private:
   std::filesystem::path directory_;
   std::filesystem::path staging_;
   std::vector<std::string> paths_;
+  std::map<std::string, std::filesystem::path> adopted_; // by path
   std::vector<std::string> old_;
   bool created_ = false; // the directory is ours to remove again
 };

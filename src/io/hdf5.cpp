@@ -1,184 +1,23 @@
-// HDF5 through its C API: handles close themselves, errors become exceptions.
+// Reads HDF5 files through the C API: what fails becomes an InputError with the file's name.
 #include "io/hdf5.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <mutex>
-#include <stdexcept>
-#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <hdf5_hl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/error.h"
+#include "io/hdf5_handle.h"
 
 namespace frictab {
 
-namespace {
-
-using Close = herr_t (*)(hid_t);
-
-class Handle {
-public:
-  Handle(hid_t id, Close closer) : id_(id), close_(closer) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool ok() const { return id_ >= 0; }
-  void close() {
-    if (id_ >= 0 && close_(std::exchange(id_, -1)) < 0)
-      throw std::runtime_error("HDF5: closing failed (disk full?)");
-  }
-
-private:
-  hid_t id_;
-  Close close_;
-};
-
-// The library prints its error stack unless told otherwise; our messages are enough.
-void silence() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-// The library is not made for threads: one file at a time.
-std::recursive_mutex& library(bool renew = false) {
-  static auto mutex = std::make_unique<std::recursive_mutex>();
-  // A forked child is another owner: it cannot take what its parent holds, nor needs to.
-  if (renew) static_cast<void>(mutex.release()), mutex = std::make_unique<std::recursive_mutex>();
-  return *mutex;
-}
-
-void must(bool ok, const std::string& what) {
-  if (!ok) throw std::runtime_error("HDF5: cannot " + what);
-}
-
-std::vector<hsize_t> dimensions(std::span<const std::size_t> shape) {
-  return {shape.begin(), shape.end()};
-}
-
-// Creation without time stamps, so that the same content gives the same bytes.
-hid_t without_times() {
-  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-  H5Pset_obj_track_times(list, false);
-  return list;
-}
-
-hid_t text_type(std::size_t size) {
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, size);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
-}
-
-} // namespace
-
-struct Hdf5Writer::Data {
-  explicit Data(hid_t id) : file(id, H5Fclose) {}
-  std::unique_lock<std::recursive_mutex> lock{library()};
-  Handle file;
-};
-
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) {
-  const std::lock_guard lock(library());
-  silence();
-  // Headers with checksums, which the library's earliest format has not.
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false); // of the root group
-  data_ = std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, creation, access));
-  must(data_->file.ok(), "create " + file.string());
-}
-
-Hdf5Writer::~Hdf5Writer() = default;
-
-void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
-                         std::span<const double> values, int compress) {
-  const auto dims = dimensions(shape);
-  Handle space(dims.empty() ? H5Screate(H5S_SCALAR)
-                            : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
-               H5Sclose);
-  Handle list(without_times(), H5Pclose);
-  if (compress > 0 && !dims.empty() && !values.empty()) {
-    std::vector<hsize_t> chunk(dims);
-    hsize_t cells = 1; // chunks of at most 64k values, whole along the last axes
-    for (std::size_t d = chunk.size(); d-- > 0;) {
-      chunk[d] = std::clamp<hsize_t>(65536 / cells, 1, chunk[d]);
-      cells *= chunk[d];
-    }
-    H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
-    H5Pset_shuffle(list);
-    H5Pset_deflate(list, static_cast<unsigned>(compress));
-    H5Pset_fletcher32(list);
-  }
-  Handle set(
-      H5Dcreate2(data_->file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT),
-      H5Dclose);
-  must(set.ok(), "create the dataset " + name);
-  must(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-       "write the dataset " + name);
-}
-
-void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> values) {
-  std::size_t width = 1;
-  for (const std::string& value : values)
-    width = std::max(width, value.size());
-  std::string packed(width * values.size(), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i].copy(&packed[i * width], width);
-  Handle type(text_type(width), H5Tclose);
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  const hsize_t count = values.size();
-  Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  Handle list(without_times(), H5Pclose);
-  Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT),
-             H5Dclose);
-  must(set.ok(), "create the dataset " + name);
-  must(values.empty() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) >= 0,
-       "write the dataset " + name);
-}
-
-void Hdf5Writer::attribute(const std::string& object, const std::string& name,
-                           const std::string& text) {
-  // H5LT writes no empty text.
-  const std::string written = text.empty() ? " " : text;
-  must(H5LTset_attribute_string(data_->file, object.c_str(), name.c_str(), written.c_str()) >= 0,
-       "write the attribute " + name);
-}
-
-void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
-  attribute(object, name, std::span<const double>(&value, 1));
-}
-
-void Hdf5Writer::attribute(const std::string& object, const std::string& name,
-                           std::span<const double> values) {
-  must(H5LTset_attribute_double(data_->file, object.c_str(), name.c_str(), values.data(),
-                                values.size()) >= 0,
-       "write the attribute " + name);
-}
-
-void Hdf5Writer::dimension_scale(const std::string& dataset, std::size_t axis,
-                                 const std::string& scale) {
-  Handle set(H5Dopen2(data_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  Handle ruler(H5Dopen2(data_->file, scale.c_str(), H5P_DEFAULT), H5Dclose);
-  must(set.ok() && ruler.ok(), "find " + dataset + " and " + scale);
-  if (H5DSis_scale(ruler) <= 0)
-    must(H5DSset_scale(ruler, scale.c_str()) >= 0, "make a dimension scale of " + scale);
-  must(H5DSattach_scale(set, ruler, static_cast<unsigned>(axis)) >= 0, "attach " + scale);
-}
-
-void Hdf5Writer::close() {
-  data_->file.close();
-}
+using namespace hdf5;
 
 struct Hdf5Reader::Data {
   Data(hid_t id, std::string name) : file(id, H5Fclose), named(std::move(name)) {}
@@ -189,6 +28,13 @@ struct Hdf5Reader::Data {
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     throw InputError({named, 0, 0}, what, hint);
   }
+  [[noreturn]] void fail_to_read(const std::string& dataset, hid_t set) const {
+    const Handle list(H5Dget_create_plist(set), H5Pclose);
+    if (H5Pget_nfilters(list) > 0)
+      fail("'" + dataset + "' cannot be read: a chunk does not fit its checksum or its compression",
+           "the file is damaged: write it again, or take a copy");
+    fail("'" + dataset + "' cannot be read", "the file may be damaged");
+  }
   Handle open(const std::string& dataset) const {
     const hid_t id = H5Dopen2(file, dataset.c_str(), H5P_DEFAULT);
     if (id < 0) fail("there is no dataset '" + dataset + "'");
@@ -196,9 +42,9 @@ struct Hdf5Reader::Data {
   }
 };
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named)
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named, bool large)
     : Hdf5Reader(file, std::move(named), Unchecked{}) {
-  if (survives_reading(file)) return;
+  if (survives_reading(file, large)) return;
   data_->fail("is damaged: the HDF5 library crashes on it", "write it again from its source");
 }
 
@@ -212,8 +58,13 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named, Unc
                 "it may be cut short or of another format; write it again, or give a CSV file");
 }
 
-// Reads everything once; what is wrong is for the real reading to say.
-void Hdf5Reader::read_all(const std::filesystem::path& file) {
+namespace {
+constexpr std::size_t small_bytes = std::size_t{1} << 24; // read at a time
+}
+
+// Reads everything once, plain numbers of large datasets left out; what is wrong is for the real
+// reading to say.
+void Hdf5Reader::read_all(const std::filesystem::path& file, bool large) {
   try {
     const Hdf5Reader in(file, "", Unchecked{});
     in.attributes("/");
@@ -222,7 +73,10 @@ void Hdf5Reader::read_all(const std::filesystem::path& file) {
       const auto shape = in.shape(name);
       for (std::size_t axis = 0; axis < shape.size(); ++axis)
         in.scale(name, axis);
-      in.is_text(name) ? void(in.texts(name)) : void(in.values(name));
+      if (in.is_text(name))
+        in.texts(name);
+      else if (in.layout(name).stored_bytes < small_bytes || (large && !in.raw_offset(name)))
+        in.blocks(name, small_bytes / sizeof(double), [](std::size_t, std::span<const double>) {});
     }
   } catch (const std::exception&) {
   }
@@ -230,7 +84,7 @@ void Hdf5Reader::read_all(const std::filesystem::path& file) {
 
 // The library can crash on damaged files, and its checksums are optional. A child process reads the
 // file first; only what it survives is read here.
-bool Hdf5Reader::survives_reading(const std::filesystem::path& file) {
+bool Hdf5Reader::survives_reading(const std::filesystem::path& file, bool large) {
   const std::lock_guard lock(library());
   const pid_t child = ::fork();
   if (child < 0) return true;
@@ -240,8 +94,10 @@ bool Hdf5Reader::survives_reading(const std::filesystem::path& file) {
     ::dup2(nowhere, STDERR_FILENO); // a sanitizer's or the C library's last words
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
-    ::alarm(60); // a loop of links in a damaged file
-    read_all(file);
+    // A loop of links in a damaged file would not end.
+    std::error_code ignored;
+    ::alarm(10 + static_cast<unsigned>(std::filesystem::file_size(file, ignored) >> 22));
+    read_all(file, large);
     ::_exit(0);
   }
   int status = 0;
@@ -314,8 +170,73 @@ std::vector<double> Hdf5Reader::values(const std::string& dataset) const {
   std::vector<double> values(count);
   if (count > 0 &&
       H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    data_->fail("'" + dataset + "' cannot be read", "the file may be damaged");
+    data_->fail_to_read(dataset, set);
   return values;
+}
+
+void Hdf5Reader::blocks(
+    const std::string& dataset, std::size_t most,
+    const std::function<void(std::size_t first, std::span<const double>)>& take) const {
+  const auto sizes = shape(dataset);
+  const std::size_t count = checked_count(sizes, data_->file);
+  if (count == SIZE_MAX) data_->fail("'" + dataset + "' claims more values than the file can hold");
+  if (count == 0) return;
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1); // chunks that span several blocks
+  const Handle set(H5Dopen2(data_->file, dataset.c_str(), access), H5Dclose);
+  const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+  const H5T_class_t kind = H5Tget_class(type);
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) data_->fail("'" + dataset + "' is not numeric");
+  const std::vector<hsize_t> dims(sizes.begin(), sizes.end());
+  std::vector<double> values;
+  std::size_t first = 0;
+  for_blocks(dims, block_shape(dims, most), [&](const auto& start, const auto& part, hsize_t n) {
+    values.resize(n);
+    const Handle memory(H5Screate_simple(1, &n, nullptr), H5Sclose);
+    if (!dims.empty())
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+    if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
+      data_->fail_to_read(dataset, set);
+    take(first, values);
+    first += n;
+  });
+}
+
+Hdf5Layout Hdf5Reader::layout(const std::string& dataset) const {
+  const Handle set = data_->open(dataset);
+  const Handle list(H5Dget_create_plist(set), H5Pclose);
+  Hdf5Layout out;
+  out.stored_bytes = H5Dget_storage_size(set);
+  if (H5Pget_layout(list) == H5D_CHUNKED) {
+    hsize_t chunk[H5S_MAX_RANK] = {};
+    const int rank = H5Pget_chunk(list, H5S_MAX_RANK, chunk);
+    out.chunk.assign(chunk, chunk + std::max(rank, 0));
+  }
+  for (int i = 0; i < H5Pget_nfilters(list); ++i) {
+    unsigned flags = 0, options[8] = {};
+    std::size_t count = 8;
+    char name[64] = {};
+    const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &count, options,
+                                           sizeof name, name, nullptr);
+    out.filters.push_back(id == H5Z_FILTER_DEFLATE ? fmt::format("deflate {}", options[0]) : name);
+  }
+  return out;
+}
+
+std::optional<std::uint64_t> Hdf5Reader::raw_offset(const std::string& dataset) const {
+  const Handle set = data_->open(dataset);
+  const Handle list(H5Dget_create_plist(set), H5Pclose), type(H5Dget_type(set), H5Tclose);
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const bool plain = H5Pget_layout(list) == H5D_CONTIGUOUS && H5Pget_external_count(list) == 0 &&
+                     H5Tequal(type, H5T_IEEE_F64LE) > 0 &&
+                     H5Tequal(type, H5T_NATIVE_DOUBLE) > 0; // of this machine too
+  const haddr_t offset = plain ? H5Dget_offset(set) : HADDR_UNDEF;
+  hsize_t bytes = 0;
+  H5Fget_filesize(data_->file, &bytes);
+  const auto values = static_cast<hsize_t>(std::max<hssize_t>(H5Sget_select_npoints(space), 0));
+  if (offset == HADDR_UNDEF || offset > bytes || values > (bytes - offset) / sizeof(double))
+    return std::nullopt;
+  return offset;
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& dataset) const {

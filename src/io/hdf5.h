@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,19 +14,33 @@
 
 namespace frictab {
 
+// How the values of a dataset lie in the file.
+struct Hdf5Storage {
+  std::size_t chunk = 0;    // values per chunk; 0: in one piece, or 65536 where a filter is on
+  std::size_t compress = 0; // deflate level 0..9, behind a shuffle of bytes
+  bool fletcher32 = false;  // a checksum per chunk, checked by every reader
+  bool chunked() const { return chunk > 0 || compress > 0 || fletcher32; }
+};
+
 // Throws std::runtime_error where the disk or the library refuses. No times are stored: the same
 // content gives the same bytes.
 class Hdf5Writer {
 public:
-  explicit Hdf5Writer(const std::filesystem::path& file);
+  // aligned > 0: datasets of at least that many bytes start at a multiple of it.
+  explicit Hdf5Writer(const std::filesystem::path& file, std::size_t aligned = 0);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-  // Row-major doubles; an empty shape is a scalar. compress: deflate level 0..9, in chunks, with
-  // Fletcher32 checksums.
+  // Row-major doubles; an empty shape is a scalar.
   void dataset(const std::string& name, std::span<const std::size_t> shape,
-               std::span<const double> values, int compress = 0);
+               std::span<const double> values, const Hdf5Storage& storage = {});
+  // The same, asked for piece by piece in ascending order: fill(first, values).
+  using Fill = std::function<void(std::size_t first, std::span<double> values)>;
+  void dataset(const std::string& name, std::span<const std::size_t> shape, const Fill& fill,
+               const Hdf5Storage& storage);
+  // The place of a dataset in one piece, without its values: whoever calls this writes them.
+  void reserve(const std::string& name, std::span<const std::size_t> shape);
   void dataset(const std::string& name, std::span<const std::string> values); // 1-D, UTF-8
   // object: a dataset's name, or "/" for the root.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
@@ -40,11 +56,19 @@ private:
   std::unique_ptr<Data> data_;
 };
 
+// How a dataset was found to lie in a file.
+struct Hdf5Layout {
+  std::vector<std::size_t> chunk;   // shape of a chunk; empty: in one piece
+  std::vector<std::string> filters; // "shuffle", "deflate 4", "fletcher32", ...
+  std::uint64_t stored_bytes = 0;
+};
+
 // Throws InputError where the file is no HDF5 file, is truncated, or lacks what is asked for.
 class Hdf5Reader {
 public:
-  // `named` is how messages call the file.
-  Hdf5Reader(const std::filesystem::path& file, std::string named);
+  // `named` is how messages call the file. large = false: for who leaves values of large datasets
+  // alone, so that they need not be looked at before.
+  Hdf5Reader(const std::filesystem::path& file, std::string named, bool large = true);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
@@ -55,6 +79,13 @@ public:
   std::vector<std::size_t> shape(const std::string& dataset) const;
   std::vector<double> values(const std::string& dataset) const;     // any numeric type
   std::vector<std::string> texts(const std::string& dataset) const; // fixed or variable length
+  // All values in ascending order, at most `most` at a time.
+  void blocks(const std::string& dataset, std::size_t most,
+              const std::function<void(std::size_t first, std::span<const double>)>& take) const;
+  Hdf5Layout layout(const std::string& dataset) const;
+  // The byte of the file at which the dataset lies as plain little-endian doubles; nullopt where it
+  // does not.
+  std::optional<std::uint64_t> raw_offset(const std::string& dataset) const;
   // Names of all attributes of an object ("/" = root) that hold one text or one number.
   std::vector<std::string> attributes(const std::string& object) const;
   std::optional<std::string> text_attribute(const std::string& object,
@@ -67,8 +98,8 @@ private:
   struct Data;
   struct Unchecked {};
   Hdf5Reader(const std::filesystem::path& file, std::string named, Unchecked);
-  static void read_all(const std::filesystem::path& file);
-  static bool survives_reading(const std::filesystem::path& file);
+  static void read_all(const std::filesystem::path& file, bool large);
+  static bool survives_reading(const std::filesystem::path& file, bool large);
   std::unique_ptr<Data> data_;
 };
 

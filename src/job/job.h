@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/hdf5.h"
 
 namespace frictab {
 
@@ -85,6 +86,8 @@ struct TableOptions {
   std::optional<std::size_t> nodes;         // the closest table of so many nodes ...
   std::optional<std::size_t> max_bytes;     // ... or so large, instead of one to a tolerance
   std::map<std::string, AxisOptions> axes;  // by canonical name
+  double memory_limit_MiB = 256;            // of values; a larger table stays on disk
+  Hdf5Storage hdf5;
   Place place;
 };
 

@@ -190,6 +190,24 @@ std::vector<KeyRule> table_keys() {
           "the state is no axis of a law's table, the formula takes it as it is",
           "clamp", "[\"clamp\", \"law\"]") |
           Allowed{"", sides} | outside_problem,
+      key<double>(
+          "table.memory_limit_MiB", [](Job & job) -> auto& { return job.table.memory_limit_MiB; },
+          "values of one table that are held in memory; a larger linear table of which every axis "
+          "has its nodes is sampled to disk in chunks (a killed run goes on where it was) and "
+          "looked up there") |
+          above(0),
+      key<std::size_t>(
+          "table.hdf5.chunk", [](Job & job) -> auto& { return job.table.hdf5.chunk; },
+          "values per HDF5 chunk, whole along the last axes; 0 = in one piece, or 65536 where "
+          "compress or fletcher32 is on") |
+          at_least(0, 1 << 24),
+      key<std::size_t>(
+          "table.hdf5.compress", [](Job & job) -> auto& { return job.table.hdf5.compress; },
+          "deflate level of each chunk, behind a shuffle of bytes; 0 = none") |
+          at_least(0, 9),
+      key<bool>(
+          "table.hdf5.fletcher32", [](Job & job) -> auto& { return job.table.hdf5.fletcher32; },
+          "a checksum per chunk: readers refuse a damaged file"),
   };
 }
 

@@ -91,6 +91,8 @@ const std::vector<SectionRule>& section_rules() {
        schema::state_names, nullptr},
       {"table.axes.*", "one axis", "range = [5, 500]\nnodes = 17\nspacing = \"log\"", nullptr,
        axis_place},
+      {"table.hdf5", "how the values lie in the table's file; every HDF5 reader undoes it", "",
+       nullptr, nullptr},
       {"export", "the friction routines", "", nullptr, export_place},
       {"export.inputs", "where states come from that the solver does not give",
        "psi = \"constant:1.0\"", schema::state_names, nullptr},

@@ -200,6 +200,11 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
       stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash), path);
 }
 
+void Plot::label(double x, double y, std::string_view text, std::string_view colour) {
+  body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"end\" style=\"fill:{}\">{}</text>",
+                       pixel(place_x(x) - 3), pixel(place_y(y) - 3), colour, escape(text));
+}
+
 std::string Plot::axes() const {
   std::string grid, labels;
   for (const double tick : x_.ticks) {
@@ -228,6 +233,22 @@ std::string Plot::text(std::string_view title, std::string_view description) con
                      "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></svg>",
                      pixel(left), pixel(top), pixel(width_), pixel(height_), body_, pixel(left),
                      pixel(top), pixel(width_), pixel(height_));
+}
+
+std::string Plot::file(std::string_view title, std::string_view caption) const {
+  constexpr std::string_view style =
+      "text{font:11px sans-serif;fill:#2b333d}.label{font-size:12px;fill:#111}.sub{font-size:9px}"
+      ".grid{stroke:#dfe4e9;stroke-width:1;fill:none}"
+      ".frame{stroke:#6b7580;stroke-width:1;fill:none}";
+  constexpr double above = 22; // the caption
+  const std::string width = pixel(left + width_ + right);
+  const double height = top + height_ + bottom;
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+                     "style=\"background:#fff\">\n<style>{2}</style>\n"
+                     "<text x=\"8\" y=\"15\">{3}</text>\n<svg y=\"{4}\" width=\"{0}\" "
+                     "height=\"{5}\"{6}</svg>\n",
+                     width, pixel(height + above), style, escape(caption), pixel(above),
+                     pixel(height), text(title, caption).substr(4));
 }
 
 std::string bar(const Bar& b, const Axis& axis, double width, double height) {

@@ -71,8 +71,13 @@ public:
   // finite interrupt the line.
   void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
 
+  // A short text that ends at a point of the drawing area, above it.
+  void label(double x, double y, std::string_view text, std::string_view colour);
+
   // A figure with <title> and <desc> for those who cannot see it.
   std::string text(std::string_view title, std::string_view description) const;
+  // The same as a file of its own: name space, looks, white ground, the caption above it.
+  std::string file(std::string_view title, std::string_view caption) const;
 
 private:
   double place_x(double value) const;

@@ -8,6 +8,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/folds.h"
 #include "codegen/exporter.h"
+#include "codegen/fill.h"
 #include "codegen/recipe.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -17,6 +18,7 @@
 #include "report/report.h"
 #include "table/build.h"
 #include "table/direct.h"
+#include "table/stream.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
 
@@ -64,8 +66,7 @@ void Pipeline::need_calibration() {
   calibration_ = parse_calibration(read_file(file), file.string());
 }
 
-void Pipeline::need_tables() {
-  if (have_tables_) return;
+std::vector<fs::path> Pipeline::table_files() const {
   const fs::path directory = fs::path(job_.directory) / "tables";
   std::vector<fs::path> files;
   if (fs::is_directory(directory))
@@ -75,8 +76,14 @@ void Pipeline::need_tables() {
     throw InputError({directory.string(), 0, 0}, "there are no tables yet",
                      "run `frictab tabulate " + job_.file + "` first");
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files)
-    tables_.push_back(read_table(file));
+  return files;
+}
+
+void Pipeline::need_tables() {
+  if (have_tables_) return;
+  const auto in_memory = static_cast<std::size_t>(job_.table.memory_limit_MiB * (1 << 20));
+  for (const fs::path& file : table_files())
+    tables_.push_back(read_table(file, in_memory));
   have_tables_ = true;
 }
 
@@ -153,20 +160,52 @@ void Pipeline::calibrate() {
     output_.write("models/" + fit.model.law->name + ".json", model_json(fit, *calibration_));
 }
 
-void Pipeline::tabulate() {
-  need_data();
-  need_calibration();
-  for (const std::string& name : table_names())
-    output_.remove_old("tables/" + name + ".h5");
-  tables_.clear();
+std::vector<Model> Pipeline::chosen_models() {
   std::vector<Model> models;
   for (const ModelFit* fit : chosen_fits())
     for (const double quantile : job_.table.quantile)
       models.push_back(at_quantile(fit->model, quantile, job_.table.place));
+  return models;
+}
+
+void Pipeline::check_sizes() {
+  need_data();
+  need_calibration();
+  if (job_.exports.targets.empty()) return;
+  for (const Model& model : chosen_models()) {
+    const auto ranges = state_ranges(model, *training_, job_.table);
+    if (!is_streamed(model, ranges, job_.table)) continue;
+    Table table;
+    table.model = model.name();
+    table.axes = *fixed_axes(model, ranges, job_.table);
+    check_table_size(table);
+  }
+}
+
+Table Pipeline::sample_table(const Model& model) {
+  const auto ranges = state_ranges(model, *training_, job_.table);
+  if (!is_streamed(model, ranges, job_.table)) return build_table(model, ranges, job_.table);
+  const fs::path file = fs::path(job_.directory) / "tables" / (model.name() + ".h5");
+  StreamedTable streamed = stream_table(model, ranges, job_.table, file);
+  if (streamed.kept > 0)
+    notes_.push_back(fmt::format("{}: {} of {} chunks kept from an interrupted run", model.name(),
+                                 thousands(streamed.kept), thousands(streamed.chunks)));
+  return std::move(streamed.table);
+}
+
+void Pipeline::tabulate() {
+  need_data();
+  need_calibration();
+  for (const std::string& name : table_names()) {
+    output_.remove_old("tables/" + name + ".h5");
+    for (const std::string& file : work_files(name + ".h5"))
+      output_.remove_old("tables/" + file);
+  }
+  tables_.clear();
+  const std::vector<Model> models = chosen_models();
   Progress progress("tabulating", models.size());
   for (const Model& model : models) {
-    const auto ranges = state_ranges(model, *training_, job_.table);
-    Table table = build_table(model, ranges, job_.table);
+    Table table = sample_table(model);
     table.text_attributes["tool_version"] = FRICTAB_VERSION;
     table.text_attributes["data_hash"] = calibration_->data_hash;
     table.text_attributes["data_origin"] = calibration_->synthetic ? "synthetic" : "measured";
@@ -184,7 +223,11 @@ void Pipeline::tabulate() {
     if (drift.proven_MPa) table.number_attributes["proven_drift_MPa"] = *drift.proven_MPa;
     for (const auto& [name, value] : drift.worst_state)
       table.number_attributes["worst_case_at_" + name] = value;
-    write_table(table, output_.stage("tables/" + table.model + ".h5"));
+    const std::string name = "tables/" + table.model + ".h5";
+    if (table.stored)
+      output_.adopt(name, finish_stream(table, job_.table.hdf5, fs::path(job_.directory) / name));
+    else
+      write_table(table, output_.stage(name), job_.table.hdf5);
     tables_.push_back(std::move(table));
     progress.tick();
   }
@@ -226,6 +269,9 @@ void Pipeline::remove_old_sources() {
 }
 
 void Pipeline::generate() {
+  if (!have_tables_ && !job_.exports.targets.empty())
+    for (const fs::path& file : table_files()) // before anything large is read
+      check_table_size(read_description(file).table);
   need_tables();
   remove_old_sources();
   for (const Table& table : tables_)

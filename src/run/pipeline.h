@@ -23,6 +23,9 @@ public:
 
   // Stages; each stages its files in the output directory. Nothing appears there before commit().
   void calibrate();
+  // Throws InputError where a table that tabulate() would stream to disk is too large for the
+  // sources that are asked for: before hours of sampling.
+  void check_sizes();
   void tabulate();
   void generate(); // sources
   void verify();
@@ -41,12 +44,16 @@ public:
   // Tables made in this run that drift further than allowed, in words.
   const std::vector<std::string>& missed() const { return missed_; }
   const std::vector<FormComparison>& forms() const { return forms_; }
+  const std::vector<std::string>& notes() const { return notes_; } // what a user should know
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
   void need_data();
   void need_calibration();
+  std::vector<std::filesystem::path> table_files() const;
   void need_tables();
+  std::vector<Model> chosen_models();
+  Table sample_table(const Model& model); // and its place among the output files
   void remove_old_sources();
   double drift_allowed() const; // MPa
   Model model_of(const Table& table);
@@ -67,6 +74,7 @@ private:
   std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
   std::optional<Verification> verification_;
   std::vector<FormComparison> forms_;
+  std::vector<std::string> notes_;
 };
 
 // The summary of what a pipeline holds, as text that is read in ten seconds, or as JSON.

@@ -14,6 +14,7 @@
 #include "table/direct.h"
 #include "table/drift.h"
 #include "table/grid.h"
+#include "table/sampling.h"
 
 namespace frictab {
 
@@ -63,15 +64,6 @@ AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& 
   return plan;
 }
 
-std::size_t count_nodes(const std::vector<TableAxis>& axes) {
-  std::size_t nodes = 1;
-  for (const TableAxis& axis : axes) {
-    if (nodes > SIZE_MAX / 16 / axis.nodes.size()) return SIZE_MAX / 16;
-    nodes *= axis.nodes.size();
-  }
-  return nodes;
-}
-
 void check_memory(const std::vector<TableAxis>& axes, const TableOptions& options) {
   const double bytes = 8.0 * static_cast<double>(count_nodes(axes));
   const double memory =
@@ -85,67 +77,30 @@ void check_memory(const std::vector<TableAxis>& axes, const TableOptions& option
       fmt::format("the table needs {} ({} nodes: {}), more than half of this machine's "
                   "memory",
                   human_bytes(bytes), thousands(count_nodes(axes)), join(counts, ", ")),
-      "fewer nodes in [table.axes], a larger tolerance_MPa, or narrower ranges");
+      "fewer nodes in [table.axes], a larger tolerance_MPa, or narrower ranges; a linear table of "
+      "which every axis has its nodes in the job is written in chunks");
 }
 
-// Values at all nodes, row-major, last axis fastest. Inputs that are no axis do not matter to the
-// piece; they are held at the lower end of their range.
+// Values at all nodes.
 std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& ranges,
                            const std::vector<TableAxis>& axes) {
   std::vector<double> values(count_nodes(axes));
-  constexpr std::size_t chunk = 4096;
-  parallel_for((values.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    const std::size_t first = c * chunk, count = std::min(chunk, values.size() - first);
-    std::vector<std::vector<double>> states;
-    std::vector<const double*> columns;
-    for (const StateRange& range : ranges) {
-      std::size_t stride = 1; // nodes behind the axis of this state
-      const TableAxis* axis = nullptr;
-      for (std::size_t a = axes.size(); a-- > 0 && !axis;) {
-        if (axes[a].name == range.name) axis = &axes[a];
-        if (!axis) stride *= axes[a].nodes.size();
-      }
-      states.emplace_back(count, range.low);
-      for (std::size_t i = 0; axis && i < count; ++i)
-        states.back()[i] = axis->nodes[(first + i) / stride % axis->nodes.size()];
-      columns.push_back(states.back().data());
-    }
-    pieces.value.evaluate(count, columns, pieces.parameters, values.data() + first);
+  parallel_for((values.size() + sample_block - 1) / sample_block, [&](std::size_t c) {
+    const std::size_t first = c * sample_block;
+    sample_nodes(pieces, ranges, axes, first,
+                 std::span(values).subspan(first, std::min(sample_block, values.size() - first)));
   });
   return values;
 }
 
 Table assemble(const Model& model, const Pieces& pieces, const std::vector<StateRange>& ranges,
                std::vector<TableAxis> axes, const std::string& interpolation, bool log_value) {
-  Table table;
-  table.model = model.name();
-  table.quantity = model.law->quantity;
-  table.log_value = log_value;
-  table.interpolation = interpolation;
-  table.value = sample(pieces, ranges, axes);
-  table.axes = std::move(axes);
+  std::vector<double> values = sample(pieces, ranges, axes);
   if (log_value)
-    for (double& value : table.value)
+    for (double& value : values)
       value = std::log(value);
-  table.combine = limited_combine(model);
-  const auto used = symbols(table.combine);
-  for (std::size_t p = 0; p < model.parameters.size(); ++p)
-    if (used.count(model.law->parameters[p].name))
-      table.constants[model.law->parameters[p].name] = model.parameters[p];
-  if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
-        return axis.below == Outside::law || axis.above == Outside::law;
-      }))
-    add_extension(table, model);
-  for (const StateRange& range : ranges) {
-    table.number_attributes["range_low_" + range.name] = range.low;
-    table.number_attributes["range_high_" + range.name] = range.high;
-    table.text_attributes["range_from_" + range.name] = range.why;
-  }
-  table.text_attributes["model"] = model.name();
-  table.number_attributes["quantile"] = model.quantile;
-  table.number_attributes["gain"] = model.gain;
-  table.text_attributes["formula"] = model.law->formula;
-  table.text_attributes["shear_yield"] = model.conventions.shear_yield;
+  Table table = describe_table(model, ranges, std::move(axes), interpolation, log_value);
+  table.value = std::move(values);
   return table;
 }
 
@@ -434,6 +389,19 @@ private:
 Table build_table(const Model& model, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
   return Builder(model, ranges, options).build();
+}
+
+std::optional<std::vector<TableAxis>>
+fixed_axes(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options) {
+  const auto used = symbols(model.law->build(model.conventions).value);
+  std::vector<TableAxis> axes;
+  for (const StateRange& range : ranges) {
+    if (!used.count(range.name)) continue;
+    const AxisPlan plan = plan_axis(*model.law, range, options);
+    if (!plan.by_user) return std::nullopt;
+    axes.push_back(axis_with(plan, plan.cells));
+  }
+  return axes;
 }
 
 } // namespace frictab

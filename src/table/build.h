@@ -1,6 +1,8 @@
 // Samples a calibrated law onto a grid that is made to a tolerance.
 #pragma once
 
+#include <optional>
+
 #include "calibrate/calibration.h"
 #include "table/table.h"
 
@@ -26,6 +28,10 @@ std::vector<StateRange> state_ranges(const Model& model, const Dataset& training
 // InputError where the grid does not fit into memory.
 Table build_table(const Model& model, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
+
+// The axes of the model's table where the job gives every one its number of nodes; else nullopt.
+std::optional<std::vector<TableAxis>>
+fixed_axes(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options);
 
 // Ranges that a table carries in its attributes; for a foreign table its axes' own and, for other
 // inputs, those of `data` where it has the column. Throws InputError where there is neither.

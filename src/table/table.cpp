@@ -38,8 +38,34 @@ std::vector<std::string> Table::inputs() const {
   return names;
 }
 
+std::optional<std::pair<double, double>> Table::range(const std::string& name) const {
+  for (const TableAxis& axis : axes)
+    if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
+  const auto low = number_attributes.find("range_low_" + name);
+  const auto high = number_attributes.find("range_high_" + name);
+  if (low == number_attributes.end() || high == number_attributes.end() ||
+      !std::isfinite(low->second) || !std::isfinite(high->second))
+    return std::nullopt;
+  return {{low->second, high->second}};
+}
+
+std::vector<std::size_t> Table::shape() const {
+  std::vector<std::size_t> shape;
+  for (const TableAxis& axis : axes)
+    shape.push_back(axis.nodes.size());
+  return shape;
+}
+
+std::size_t Table::nodes() const {
+  if (is_direct()) return 0;
+  std::size_t count = 1;
+  for (const TableAxis& axis : axes)
+    count *= axis.nodes.size();
+  return count;
+}
+
 std::size_t Table::bytes() const {
-  std::size_t count = value.size() + constants.size();
+  std::size_t count = nodes() + constants.size();
   for (const TableAxis& axis : axes)
     count += axis.nodes.size();
   return count * sizeof(double);
@@ -57,7 +83,8 @@ struct TableFunction::Data {
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
   bool is_cubic = false;
-  std::vector<double> value; // at the nodes, or coefficients
+  std::vector<double> value;                  // at the nodes, or coefficients
+  std::shared_ptr<const StoredValues> stored; // instead of `value`
   bool log_value = false;
   std::unique_ptr<OutsideRule> rule;  // where clamping is not all there is to it
   std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
@@ -70,15 +97,63 @@ struct TableFunction::Data {
       u[a] = axes[a].log ? ft_log(x) : x;
     }
   }
-  // The tabulated piece, or its logarithm.
-  double raw(const double* u, unsigned* outside) const {
-    const int n = static_cast<int>(axes.size());
-    return is_cubic ? interpolate(n, cubic.data(), value.data(), u, outside)
-                    : interpolate(n, linear.data(), value.data(), u, outside);
-  }
+  // The tabulated piece, or its logarithm; with its derivatives where by_u is given.
+  double raw(const double* u, double* by_u, unsigned* outside) const;
   void pieces(std::span<const double* const> columns, std::size_t first, std::size_t count,
               double* value, unsigned* outside) const;
 };
+
+namespace {
+
+// The cell of u as a grid of two nodes per axis: the kernel gives there, bit for bit, what it gives
+// on the whole grid, however many nodes that has.
+struct StoredCell {
+  ft_axis axis[FT_MAX_AXES];
+  double value[1 << FT_MAX_AXES];
+
+  StoredCell(const StoredValues& stored, const std::vector<ft_axis>& grid, const double* u) {
+    std::size_t stride[FT_MAX_AXES], first = 0, size = 1;
+    const std::size_t axes = grid.size();
+    for (std::size_t d = axes; d-- > 0;) {
+      int cell = 0;
+      double weight = 0;
+      ft_locate(&grid[d], u[d], &cell, &weight);
+      axis[d] = {2, 1L << (axes - 1 - d), grid[d].u + cell, grid[d].per_cell + cell, 0, 0, nullptr};
+      stride[d] = size;
+      first += static_cast<std::size_t>(cell) * size;
+      size *= static_cast<std::size_t>(grid[d].n);
+    }
+    // Neighbours along the last axis in one go, and those along the last but one where they are
+    // near.
+    constexpr std::size_t near = 512; // copying them takes less time than another call
+    const bool four = axes > 1 && stride[axes - 2] <= near;
+    double row[near + 2];
+    for (std::size_t corner = 0; corner < (std::size_t{1} << axes); corner += four ? 4 : 2) {
+      std::size_t at = first;
+      for (std::size_t d = 0; d + 1 < axes; ++d)
+        if (corner >> (axes - 1 - d) & 1) at += stride[d];
+      const std::size_t step = four ? stride[axes - 2] : 0;
+      stored.read(at, {row, step + 2});
+      for (std::size_t i = 0; i < (four ? 4U : 2U); ++i)
+        value[corner + i] = row[(i / 2) * step + i % 2];
+    }
+  }
+};
+
+} // namespace
+
+double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside) const {
+  const int n = static_cast<int>(axes.size());
+  const auto at = [&](const auto* axis, const double* values) {
+    return by_u ? interpolate(n, axis, values, u, by_u, outside)
+                : interpolate(n, axis, values, u, outside);
+  };
+  if (stored) {
+    const StoredCell cell(*stored, linear, u);
+    return at(cell.axis, cell.value);
+  }
+  return is_cubic ? at(cubic.data(), value.data()) : at(linear.data(), value.data());
+}
 
 void TableFunction::Data::add_axes(const Table& table) {
   is_cubic = table.interpolation == "cubic";
@@ -88,14 +163,15 @@ void TableFunction::Data::add_axes(const Table& table) {
     searches.push_back(axis_search(axis.coordinates()));
     if (is_cubic) splines.push_back(spline_axis(axis));
   }
-  long stride = static_cast<long>(table.value.size());
+  long stride = static_cast<long>(table.nodes());
   for (std::size_t a = 0; a < searches.size(); ++a) { // pointers only when nothing moves any more
     stride /= static_cast<long>(searches[a].u.size());
     linear.push_back(searches[a].axis(stride));
     if (is_cubic)
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
-  value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
+  stored = table.stored;
+  if (!stored) value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
 }
 
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {
@@ -126,7 +202,7 @@ double TableFunction::operator()(std::span<const double> state, unsigned* outsid
     if (const auto tau = d.rule->tau(state, outside)) return *tau;
   double u[FT_MAX_AXES];
   d.coordinates(state.data(), u);
-  const double raw = d.raw(u, outside), value = d.log_value ? std::exp(raw) : raw;
+  const double raw = d.raw(u, nullptr, outside), value = d.log_value ? std::exp(raw) : raw;
   return (*d.of_inputs)(state, {&value, 1});
 }
 
@@ -137,10 +213,7 @@ double TableFunction::gradient(std::span<const double> state, std::span<double> 
     if (const auto tau = d.rule->gradient(state, derivative, outside)) return *tau;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
   d.coordinates(state.data(), u);
-  const int axes = static_cast<int>(d.axes.size());
-  const double raw = d.is_cubic
-                         ? interpolate(axes, d.cubic.data(), d.value.data(), u, by_u, outside)
-                         : interpolate(axes, d.linear.data(), d.value.data(), u, by_u, outside);
+  const double raw = d.raw(u, by_u, outside);
   row[0] = d.log_value ? std::exp(raw) : raw;
   std::copy(state.begin(), state.end(), row + 1);
   const double tau =
@@ -167,7 +240,7 @@ void TableFunction::Data::pieces(std::span<const double* const> columns, std::si
       u[i][a] = axes[a].log ? ft_log(x[i]) : x[i];
   }
   for (std::size_t i = 0; i < count; ++i)
-    out[i] = raw(u[i], outside ? outside + i : nullptr);
+    out[i] = raw(u[i], nullptr, outside ? outside + i : nullptr);
   for (std::size_t i = 0; log_value && i < count; ++i)
     out[i] = std::exp(out[i]);
 }

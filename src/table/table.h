@@ -8,9 +8,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "expr/expr.h"
+#include "io/stored_values.h"
 
 namespace frictab {
 
@@ -51,6 +53,8 @@ struct Table {
   std::vector<TableAxis> axes; // none: the value is one constant
   std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value. Empty:
                                // the direct form, whose axes say only over which range it holds
+  // Set: the values of a linear table that is too large for memory, and `value` is empty.
+  std::shared_ptr<const StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
   std::string interpolation = "linear"; // linear | cubic: the spline of table/spline.h
@@ -65,14 +69,18 @@ struct Table {
 
   // States the table needs, canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;
+  // Of an input: its axis', else what the attributes range_low_<name> and range_high_<name> say;
+  // nullopt where neither is there.
+  std::optional<std::pair<double, double>> range(const std::string& name) const;
   // Of the experiments; 0.5 is the law itself.
   double quantile() const {
     const auto found = number_attributes.find("quantile");
     return found == number_attributes.end() ? 0.5 : found->second;
   }
-  bool is_direct() const { return value.empty(); }
-  std::size_t nodes() const { return value.size(); }
-  std::size_t bytes() const; // values, nodes and constants as doubles
+  bool is_direct() const { return value.empty() && !stored; }
+  std::vector<std::size_t> shape() const; // nodes per axis
+  std::size_t nodes() const;              // their product; 0 in the direct form
+  std::size_t bytes() const;              // values, nodes and constants as doubles
 };
 
 // Evaluates a table by the kernel that the generated sources contain.

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "data/quantity.h"
-#include "io/hdf5.h"
 #include "io/number.h"
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
@@ -50,12 +51,11 @@ void write_outside(Hdf5Writer& out, const TableAxis& axis) { // absent: clamp
 
 } // namespace
 
-void write_table(const Table& table, const std::filesystem::path& file, int compress) {
-  Hdf5Writer out(file);
-  std::vector<std::size_t> shape;
+namespace {
+
+void write_axes(Hdf5Writer& out, const Table& table) {
   for (const TableAxis& axis : table.axes) {
     const std::size_t size = axis.nodes.size();
-    shape.push_back(size);
     out.dataset(axis.name, {&size, 1}, axis.nodes);
     out.attribute(axis.name, "units", axis.unit);
     out.attribute(axis.name, "long_name", axis.long_name);
@@ -64,7 +64,9 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
       out.attribute(axis.name, "kinks", numbers_text(axis.kinks));
     write_outside(out, axis);
   }
-  out.dataset("value", shape, table.value, compress);
+}
+
+void write_attributes(Hdf5Writer& out, const Table& table) {
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     out.dimension_scale("value", a, table.axes[a].name);
   out.attribute("value", "quantity", table.quantity);
@@ -85,6 +87,27 @@ void write_table(const Table& table, const std::filesystem::path& file, int comp
     out.attribute("/", name, text);
   for (const auto& [name, value] : table.number_attributes)
     out.attribute("/", name, value);
+}
+
+} // namespace
+
+void write_description(Hdf5Writer& out, const Table& table) {
+  write_axes(out, table);
+  write_attributes(out, table);
+}
+
+void write_table(const Table& table, const std::filesystem::path& file,
+                 const Hdf5Storage& storage) {
+  Hdf5Writer out(file);
+  write_axes(out, table);
+  if (table.stored)
+    out.dataset(
+        "value", table.shape(),
+        [&](std::size_t first, std::span<double> values) { table.stored->read(first, values); },
+        storage);
+  else
+    out.dataset("value", table.shape(), table.value, storage);
+  write_attributes(out, table);
   out.close();
 }
 
@@ -92,10 +115,19 @@ namespace {
 
 class TableReader {
 public:
-  explicit TableReader(const std::filesystem::path& file)
-      : named_(file.string()), in_(file, file.string()) {}
+  explicit TableReader(const std::filesystem::path& file, bool values = true)
+      : file_(file), named_(file.string()), in_(file, file.string(), values) {}
 
-  Table read() {
+  Table read(std::size_t in_memory) {
+    Table table = describe();
+    read_numbers(table, in_memory);
+    faults_.throw_if_any();
+    return table;
+  }
+
+  Hdf5Layout layout() const { return in_.layout("value"); }
+
+  Table describe() {
     if (!in_.has("value")) {
       fault("there is no dataset 'value': this is no friction table",
             "a table has one dataset 'value' and one dimension scale per axis");
@@ -117,6 +149,8 @@ public:
     if (const auto found = table_.text_attributes.find("model");
         found != table_.text_attributes.end())
       table_.model = checked_name(found->second);
+    else
+      table_.model = "foreign"; // as in file names and comments
     return std::move(table_);
   }
 
@@ -159,16 +193,53 @@ private:
             fmt::format("a table has at most {}", FT_MAX_AXES));
       faults_.throw_if_any();
     }
-    table_.value = in_.values("value");
     table_.quantity = text("value", "quantity", {"mu", "tau_R"});
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
     table_.interpolation = text("value", "interpolation", {"linear", "cubic"});
     if (table_.interpolation == "cubic") text("value", "spline", {spline_name});
-    for (std::size_t i = 0; i < table_.value.size(); ++i)
-      if (!std::isfinite(table_.value[i])) {
-        fault(fmt::format("value {} of {} is not finite", i, table_.value.size()));
-        break;
-      }
+  }
+
+  void read_numbers(Table& table, std::size_t in_memory) {
+    std::size_t bad = 0;
+    if (table.interpolation == "linear" && !table.axes.empty() &&
+        table.nodes() > in_memory / sizeof(double)) {
+      table.stored = stored(table.nodes());
+      bad = table.stored->first_not_finite();
+    } else {
+      table.value = in_.values("value");
+      bad = static_cast<std::size_t>(
+          std::find_if(table.value.begin(), table.value.end(),
+                       [](double value) { return !std::isfinite(value); }) -
+          table.value.begin());
+    }
+    if (bad < table.nodes()) fault(fmt::format("value {} of {} is not finite", bad, table.nodes()));
+  }
+
+  // Where they lie, or a copy in a file without a name, gone with its last reader.
+  std::shared_ptr<const StoredValues> stored(std::size_t nodes) {
+    if (const auto offset = in_.raw_offset("value"))
+      return std::make_shared<const StoredValues>(file_, named_, *offset, nodes);
+    const auto directory = std::filesystem::absolute(file_).parent_path();
+    check_disk_space(directory, nodes * sizeof(double), "unpacking " + named_,
+                     "its values are in chunks, and states are looked up in a copy that is not");
+    std::string name = (directory / ".frictab-unpacked-XXXXXX").string();
+    const int file = ::mkstemp(name.data());
+    if (file < 0)
+      throw InputError({named_, 0, 0}, "there is no place to unpack it: " + directory.string(),
+                       "copy it to a directory that can be written");
+    ::close(file);
+    std::shared_ptr<const StoredValues> copy;
+    try {
+      const ValuesFile out(name, 0, nodes);
+      in_.blocks("value", std::size_t{1} << 22,
+                 [&](std::size_t first, std::span<const double> part) { out.write(first, part); });
+      copy = std::make_shared<const StoredValues>(name, named_, 0, nodes);
+    } catch (...) {
+      ::unlink(name.c_str());
+      throw;
+    }
+    ::unlink(name.c_str());
+    return copy;
   }
 
   void read_axes() {
@@ -280,6 +351,7 @@ private:
     }
   }
 
+  std::filesystem::path file_;
   std::string named_;
   Hdf5Reader in_;
   FaultList faults_;
@@ -289,8 +361,17 @@ private:
 
 } // namespace
 
-Table read_table(const std::filesystem::path& file) {
-  return TableReader(file).read();
+Table read_table(const std::filesystem::path& file, std::size_t in_memory) {
+  return TableReader(file).read(in_memory);
+}
+
+TableDescription read_description(const std::filesystem::path& file) {
+  TableReader reader(file, false);
+  TableDescription out;
+  out.table = reader.describe();
+  out.layout = reader.layout();
+  out.file_bytes = std::filesystem::file_size(file);
+  return out;
 }
 
 } // namespace frictab

@@ -1,6 +1,8 @@
 // The main job as a user runs it: files, exit codes, output, bad input, determinism.
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -275,9 +277,13 @@ TEST(CommandLine, UnknownCommandNamesTheNearest) {
 }
 
 TEST(CommandLine, EveryHelpPageNamesTheExitCodes) {
-  for (const char* command : {"run", "calibrate", "tabulate", "export", "verify", "report", "twin",
-                              "init", "list", "explain", "doctor"}) {
-    const auto result = run_frictab({command, "--help"});
+  for (const char* command :
+       {"run", "calibrate", "tabulate", "export", "verify", "report", "twin", "init", "list",
+        "explain", "doctor", "table", "table info", "table slice", "table diff", "table convert"}) {
+    std::istringstream words(command);
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+    arguments.push_back("--help");
+    const auto result = run_frictab(arguments);
     EXPECT_EQ(result.exit_code, 0) << command;
     EXPECT_EQ(result.err, "") << command;
     EXPECT_NE(result.out.find("Exit codes: 0 done; 1 a target was missed"), std::string::npos)

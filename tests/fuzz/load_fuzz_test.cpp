@@ -138,7 +138,7 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
     const std::size_t rows[] = {4};
     Hdf5Writer out(file_);
     for (const char* name : {"sigma_n_MPa", "tau_R_MPa", "v_rel_mm_s", "room_C"})
-      out.dataset(name, rows, values, name[0] == 'r' ? 4 : 0);
+      out.dataset(name, rows, values, name[0] == 'r' ? Hdf5Storage{0, 4, true} : Hdf5Storage{});
     out.attribute("sigma_n_MPa", "units", "MPa");
     out.dataset("experiment", std::vector<std::string>{"a", "a", "b", "b"});
     out.close();

@@ -1,0 +1,90 @@
+// frictab export: the sources of a job's tables, or of one table file alone.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/job_commands.h"
+#include "codegen/exporter.h"
+#include "codegen/fill.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "table/table_file.h"
+
+namespace frictab {
+
+namespace {
+
+struct Options {
+  std::string job;
+  std::string table;
+  std::vector<std::string> targets{"c", "abaqus_vfric"};
+  std::string units = "mm-t-s";
+};
+
+std::vector<const Exporter*> exporters_of(const std::vector<std::string>& names) {
+  std::vector<std::string> known{"all"};
+  for (const Exporter& exporter : all_exporters())
+    known.push_back(exporter.name);
+  std::vector<const Exporter*> chosen;
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({}, fmt::format("there is no target '{}'", name), suggest(name, known));
+    for (const Exporter& exporter : all_exporters())
+      if ((name == "all" || name == exporter.name) &&
+          std::find(chosen.begin(), chosen.end(), &exporter) == chosen.end())
+        chosen.push_back(&exporter);
+  }
+  return chosen;
+}
+
+int export_alone(const Options& options, const CommonOptions& common) {
+  if (common.output.empty())
+    throw InputError({}, "nowhere to write the sources to", "give -o DIR with --table FILE");
+  const auto exporters = exporters_of(options.targets);
+  check_table_size(read_description(options.table).table);
+  const Table table = read_table(options.table);
+  OutputFiles output(common.output);
+  for (const Exporter* exporter : exporters)
+    for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
+      output.write(exporter->name + "/" + path, text);
+  if (!common.force && output.would_change())
+    throw InputError({common.output, 0, 0}, "has other files of these names already",
+                     "name another directory, or --force to replace them");
+  const std::vector<std::string> files = output.paths();
+  output.commit();
+  for (const std::string& file : files)
+    fmt::print("{}\n", (std::filesystem::path(common.output) / file).string());
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("JOB", options->job, "Job file; the sources of its tables are written");
+  app.add_option("--table", options->table, "A table file, without a job; needs -o DIR")
+      ->type_name("FILE");
+  app.add_option("--targets", options->targets,
+                 "With --table: FE codes, a list or all (frictab list targets)")
+      ->delimiter(',')
+      ->type_name("NAMES");
+  app.add_option("--units", options->units, "With --table: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
+      ->type_name("SYSTEM");
+  return [options, &common]() -> int {
+    if (options->table.empty() == options->job.empty())
+      throw InputError({},
+                       options->job.empty() ? "nothing to export"
+                                            : "JOB and --table exclude "
+                                              "each other",
+                       "give a JOB file, or --table FILE -o DIR [--targets c,abaqus_vfric]");
+    if (!options->table.empty()) return export_alone(*options, common);
+    return run_stages(options->job, common, [](Pipeline& p) { p.generate(); });
+  };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"export", 5, "Generate the friction subroutines from the tables", declare};
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,54 @@
+// frictab table: the group of commands that look into table files.
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/table_command.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace frictab {
+
+namespace fs = std::filesystem;
+
+void output_is_a_file(CLI::App& app) {
+  app.get_option("--output")->description("Output file, instead of stdout")->type_name("FILE");
+}
+
+void write_result(const CommonOptions& common, const std::function<void(std::ostream&)>& write) {
+  if (common.output.empty()) {
+    write(std::cout);
+    std::cout.flush();
+    return;
+  }
+  const fs::path file(common.output);
+  OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  const std::string name = file.filename().string();
+  std::ofstream out(output.stage(name), std::ios::binary);
+  write(out);
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+  if (!common.force && output.would_change())
+    throw InputError({file.string(), 0, 0}, "is there already",
+                     "name another file, or --force to replace it");
+  output.commit();
+}
+
+void add_held(CLI::App& app, std::vector<std::string>& at) {
+  app.add_option("--at", at, "A state that is held, in its canonical unit; once per state")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+namespace {
+
+const Registered<Command> registered{[] {
+  return Command{"table", 10, "Look into table files: info, slice, diff, convert", nullptr};
+}};
+
+} // namespace
+
+} // namespace frictab

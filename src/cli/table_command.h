@@ -1,0 +1,25 @@
+// What the commands below `frictab table` share.
+#pragma once
+
+#include <functional>
+#include <ostream>
+
+#include "cli/command.h"
+
+namespace CLI {
+class Option;
+}
+
+namespace frictab {
+
+// Makes -o the name of one file, which `frictab table` commands write instead of stdout.
+void output_is_a_file(CLI::App& app);
+
+// Writes to -o FILE, complete or not at all, or to stdout where there is none. Throws InputError
+// where the file is there with other content and --force is not given.
+void write_result(const CommonOptions& common, const std::function<void(std::ostream&)>& write);
+
+// --at NAME=VALUE, as often as needed.
+void add_held(CLI::App& app, std::vector<std::string>& at);
+
+} // namespace frictab

@@ -1,0 +1,36 @@
+// frictab table info FILE: what a table file holds.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/table_command.h"
+#include "table/info.h"
+
+namespace frictab {
+
+namespace {
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto file = std::make_shared<std::string>();
+  app.add_option("FILE", *file,
+                 "Table file (HDF5); `frictab explain table-layout` says what is in "
+                 "one")
+      ->required();
+  output_is_a_file(app);
+  return [file, &common] {
+    const TableDescription table = read_description(*file);
+    write_result(common, [&](std::ostream& out) {
+      out << (common.json ? info_json(table, *file) : info_text(table, *file));
+    });
+    return 0;
+  };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"table info", 11, "Describe a table: axes, formula, drift, storage", declare};
+}};
+
+} // namespace
+
+} // namespace frictab

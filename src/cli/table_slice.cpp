@@ -1,0 +1,66 @@
+// frictab table slice FILE: tau_R along one or two states.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/table_command.h"
+#include "core/error.h"
+#include "report/slice_plot.h"
+#include "table/slice.h"
+#include "table/table_file.h"
+
+namespace frictab {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<std::string> at;
+  std::vector<std::string> along;
+  std::size_t points = 0;
+  bool csv = false;
+  bool svg = false;
+};
+
+int run(const Options& options, const CommonOptions& common) {
+  if (options.along.size() > 2)
+    throw InputError({}, "--along is given more than twice", "hold the other states by --at");
+  const Table table = read_table(options.file);
+  const HeldStates held = held_states(options.at, table.inputs());
+  const std::size_t points = options.points ? options.points : options.along.size() == 2 ? 41 : 101;
+  const Slice result = slice(table, held, options.along, points);
+  for (const std::string& line : check_held(table, held))
+    note(common, "note: " + line);
+  write_result(common, [&](std::ostream& out) {
+    out << (options.svg ? slice_svg(result) : slice_csv(result));
+  });
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("FILE", options->file, "Table file (HDF5)")->required();
+  add_held(app, options->at);
+  app.add_option("--along", options->along, "A state that runs over its range; twice for two")
+      ->type_name("NAME")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--points", options->points,
+                 "Places per state, evenly in the axis' coordinate [101; 41 for two]")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100000));
+  CLI::Option* csv = app.add_flag("--csv", options->csv, "States and tau_R_MPa (default)");
+  app.add_flag("--svg", options->svg, "A plot")->excludes(csv);
+  output_is_a_file(app);
+  return [options, &common] { return run(*options, common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"table slice", 12, "tau_R along one or two states, as CSV or SVG", declare};
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,187 @@
+// Writes HDF5 files through the C API.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include "io/hdf5.h"
+#include "io/hdf5_handle.h"
+
+namespace frictab {
+
+using namespace hdf5;
+
+namespace {
+
+void must(bool ok, const std::string& what) {
+  if (!ok) throw std::runtime_error("HDF5: cannot " + what);
+}
+
+std::vector<hsize_t> dimensions(std::span<const std::size_t> shape) {
+  return {shape.begin(), shape.end()};
+}
+
+// Creation without time stamps, so that the same content gives the same bytes.
+hid_t without_times() {
+  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_obj_track_times(list, false);
+  return list;
+}
+
+hid_t text_type(std::size_t size) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, size);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+} // namespace
+
+struct Hdf5Writer::Data {
+  explicit Data(hid_t id) : file(id, H5Fclose) {}
+  std::unique_lock<std::recursive_mutex> lock{library()};
+  Handle file;
+};
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::size_t aligned) {
+  const std::lock_guard lock(library());
+  silence();
+  // Headers with checksums, which the library's earliest format has not.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  if (aligned > 0) H5Pset_alignment(access, aligned, aligned);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false); // of the root group
+  data_ = std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, creation, access));
+  must(data_->file.ok(), "create " + file.string());
+}
+
+Hdf5Writer::~Hdf5Writer() = default;
+
+namespace {
+
+constexpr std::size_t usual_chunk = 65536;
+
+Handle space_of(const std::vector<hsize_t>& dims) {
+  return {dims.empty() ? H5Screate(H5S_SCALAR)
+                       : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+          H5Sclose};
+}
+
+// `list` says how it lies in the file.
+Handle create(hid_t file, const std::string& name, hid_t space, hid_t list) {
+  const hid_t set =
+      H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+  must(set >= 0, "create the dataset " + name);
+  return {set, H5Dclose};
+}
+
+bool set_storage(hid_t list, const std::vector<hsize_t>& dims, const Hdf5Storage& storage) {
+  const bool empty = std::find(dims.begin(), dims.end(), hsize_t{0}) != dims.end();
+  if (!storage.chunked() || dims.empty() || empty) return false;
+  const auto chunk = block_shape(dims, storage.chunk > 0 ? storage.chunk : usual_chunk);
+  H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+  if (storage.compress > 0) {
+    H5Pset_shuffle(list);
+    H5Pset_deflate(list, static_cast<unsigned>(storage.compress));
+  }
+  if (storage.fletcher32) H5Pset_fletcher32(list);
+  return true;
+}
+
+} // namespace
+
+void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
+                         std::span<const double> values, const Hdf5Storage& storage) {
+  const auto dims = dimensions(shape);
+  const Handle space = space_of(dims), list(without_times(), H5Pclose);
+  set_storage(list, dims, storage);
+  const Handle set = create(data_->file, name, space, list);
+  must(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+       "write the dataset " + name);
+}
+
+void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
+                         const Fill& fill, const Hdf5Storage& storage) {
+  const auto dims = dimensions(shape);
+  const Handle space = space_of(dims), list(without_times(), H5Pclose);
+  std::vector<hsize_t> block(dims.size());
+  if (set_storage(list, dims, storage)) // whole chunks: each is filtered once
+    H5Pget_chunk(list, static_cast<int>(block.size()), block.data());
+  else
+    block = block_shape(dims, std::size_t{1} << 20);
+  const Handle set = create(data_->file, name, space, list);
+  std::vector<double> values;
+  std::size_t first = 0;
+  for_blocks(dims, block, [&](const auto& start, const auto& count, std::size_t n) {
+    values.resize(n);
+    fill(first, values);
+    const Handle memory = space_of({n});
+    if (!dims.empty())
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    must(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0,
+         "write the dataset " + name);
+    first += n;
+  });
+}
+
+void Hdf5Writer::reserve(const std::string& name, std::span<const std::size_t> shape) {
+  const Handle space = space_of(dimensions(shape)), list(without_times(), H5Pclose);
+  H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
+  create(data_->file, name, space, list);
+}
+
+void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> values) {
+  std::size_t width = 1;
+  for (const std::string& value : values)
+    width = std::max(width, value.size());
+  std::string packed(width * values.size(), '\0');
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i].copy(&packed[i * width], width);
+  Handle type(text_type(width), H5Tclose);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  const hsize_t count = values.size();
+  Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  Handle list(without_times(), H5Pclose);
+  Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT),
+             H5Dclose);
+  must(set.ok(), "create the dataset " + name);
+  must(values.empty() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) >= 0,
+       "write the dataset " + name);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name,
+                           const std::string& text) {
+  // H5LT writes no empty text.
+  const std::string written = text.empty() ? " " : text;
+  must(H5LTset_attribute_string(data_->file, object.c_str(), name.c_str(), written.c_str()) >= 0,
+       "write the attribute " + name);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+  attribute(object, name, std::span<const double>(&value, 1));
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name,
+                           std::span<const double> values) {
+  must(H5LTset_attribute_double(data_->file, object.c_str(), name.c_str(), values.data(),
+                                values.size()) >= 0,
+       "write the attribute " + name);
+}
+
+void Hdf5Writer::dimension_scale(const std::string& dataset, std::size_t axis,
+                                 const std::string& scale) {
+  Handle set(H5Dopen2(data_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  Handle ruler(H5Dopen2(data_->file, scale.c_str(), H5P_DEFAULT), H5Dclose);
+  must(set.ok() && ruler.ok(), "find " + dataset + " and " + scale);
+  if (H5DSis_scale(ruler) <= 0)
+    must(H5DSset_scale(ruler, scale.c_str()) >= 0, "make a dimension scale of " + scale);
+  must(H5DSattach_scale(set, ruler, static_cast<unsigned>(axis)) >= 0, "attach " + scale);
+}
+
+void Hdf5Writer::close() {
+  data_->file.close();
+}
+
+} // namespace frictab

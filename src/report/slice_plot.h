@@ -1,0 +1,13 @@
+// A slice of a table as a figure of its own.
+#pragma once
+
+#include <string>
+
+#include "table/slice.h"
+
+namespace frictab {
+
+// One line of tau_R; for two states lines along the first one, at up to seven places of the second.
+std::string slice_svg(const Slice& slice);
+
+} // namespace frictab

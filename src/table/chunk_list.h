@@ -1,0 +1,31 @@
+// Which chunks of a work file are finished, on disk, so that a killed run can go on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace frictab {
+
+// One line per finished chunk: its number and the hash of its bytes, below one line that says what
+// the chunks belong to.
+class ChunkList {
+public:
+  // Opens or creates it. A list of another job (another first line) is emptied; a last line that
+  // was cut by a kill is dropped. Throws InputError where another process has it open.
+  ChunkList(const std::filesystem::path& file, const std::string& job);
+  ~ChunkList();
+  ChunkList(const ChunkList&) = delete;
+  ChunkList& operator=(const ChunkList&) = delete;
+
+  const std::map<std::size_t, std::uint64_t>& found() const { return found_; }
+  void add(std::size_t chunk, std::uint64_t hash) const; // from any thread
+
+private:
+  std::filesystem::path name_;
+  int file_;
+  std::map<std::size_t, std::uint64_t> found_;
+};
+
+} // namespace frictab

@@ -1,0 +1,214 @@
+// Compares two tables at their nodes, in the middle of their cells, and on points that fill the
+// common range.
+#include "table/difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/json.h"
+#include "table/drift.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t most_states = 200000; // of each kind
+
+std::vector<std::string> inputs_of(const Table& a, const Table& b) {
+  std::vector<std::string> names = a.inputs();
+  for (const std::string& name : b.inputs())
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+bool needs(const Table& table, const std::string& name) {
+  const auto inputs = table.inputs();
+  return std::find(inputs.begin(), inputs.end(), name) != inputs.end();
+}
+
+StateRange common_range(const Table& a, const Table& b, const std::string& name) {
+  StateRange range{name, -HUGE_VAL, HUGE_VAL, ""};
+  for (const Table* table : {&a, &b}) {
+    if (!needs(*table, name)) continue;
+    const auto own = table->range(name);
+    if (!own) continue;
+    range.low = std::max(range.low, own->first);
+    range.high = std::min(range.high, own->second);
+  }
+  if (!std::isfinite(range.low))
+    throw InputError({}, fmt::format("the range of {} is not known", name),
+                     fmt::format("--at {}=NUMBER", name));
+  if (range.low > range.high) {
+    const auto one = *a.range(name), two = *b.range(name);
+    throw InputError({}, fmt::format("the tables have no {} in common: {:g} .. {:g} and {:g} .. "
+                                     "{:g}",
+                                     name, one.first, one.second, two.first, two.second));
+  }
+  return range;
+}
+
+// Per input an axis with the nodes of both tables within the common range; ends alone where it is
+// an axis of neither, or held.
+std::vector<TableAxis> joint_axes(const Table& a, const Table& b,
+                                  const std::vector<StateRange>& ranges) {
+  std::vector<TableAxis> axes;
+  for (const StateRange& range : ranges) {
+    TableAxis joint;
+    joint.name = range.name;
+    std::set<double> nodes{range.low, range.high};
+    for (const Table* table : {&a, &b})
+      if (const TableAxis* axis = find_axis(*table, range.name)) {
+        joint.log = axis->log;
+        for (const double x : axis->nodes)
+          if (x > range.low && x < range.high) nodes.insert(x);
+      }
+    joint.nodes.assign(nodes.begin(), nodes.end());
+    axes.push_back(std::move(joint));
+  }
+  return axes;
+}
+
+// All nodes of the grid, or every so-many-th by a stride that shares no factor with the axes.
+States node_points(const std::vector<TableAxis>& axes) {
+  double count = 1;
+  for (const TableAxis& axis : axes)
+    count *= static_cast<double>(axis.nodes.size());
+  auto stride = static_cast<std::size_t>(count / most_states) + 1;
+  while (stride > 1 && std::any_of(axes.begin(), axes.end(), [&](const TableAxis& axis) {
+           return axis.nodes.size() % stride == 0;
+         }))
+    ++stride;
+  States points(axes.size());
+  for (std::size_t i = 0; static_cast<double>(i) < count; i += stride) {
+    std::size_t rest = i;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+      points[d].push_back(axes[d].nodes[rest % axes[d].nodes.size()]);
+      rest /= axes[d].nodes.size();
+    }
+  }
+  return points;
+}
+
+// Middles of cells, along axes that have any.
+States middle_points(const std::vector<TableAxis>& axes) {
+  std::vector<TableAxis> middles = axes;
+  for (TableAxis& axis : middles) {
+    const std::vector<double> x = axis.nodes;
+    if (x.size() < 2) continue;
+    axis.nodes.clear();
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      axis.nodes.push_back(axis.log ? std::sqrt(x[i] * x[i + 1]) : 0.5 * (x[i] + x[i + 1]));
+  }
+  return node_points(middles);
+}
+
+std::vector<double> answers(const Table& table, const std::vector<StateRange>& ranges,
+                            const States& states) {
+  const TableFunction function(table);
+  std::vector<const double*> columns;
+  for (const std::string& name : function.inputs())
+    for (std::size_t d = 0; d < ranges.size(); ++d)
+      if (ranges[d].name == name) columns.push_back(states[d].data());
+  std::vector<double> tau(states.empty() ? 1 : states.front().size());
+  function.evaluate(tau.size(), columns, tau);
+  return tau;
+}
+
+double share_outside(const Table& table, const std::vector<StateRange>& ranges) {
+  double inside = 1;
+  for (const TableAxis& axis : table.axes)
+    for (const StateRange& range : ranges) {
+      if (range.name != axis.name || range.why == "held") continue;
+      const auto u = [&](double x) { return axis.log ? std::log(x) : x; };
+      inside *= (u(range.high) - u(range.low)) / (u(axis.nodes.back()) - u(axis.nodes.front()));
+    }
+  return 1 - inside;
+}
+
+} // namespace
+
+TableDifference difference(const Table& a, const Table& b, const HeldStates& held) {
+  TableDifference out;
+  for (const std::string& name : inputs_of(a, b)) {
+    const auto at = held.find(name);
+    out.ranges.push_back(at == held.end() ? common_range(a, b, name)
+                                          : StateRange{name, at->second, at->second, "held"});
+  }
+  const auto axes = joint_axes(a, b, out.ranges);
+  States states = node_points(axes);
+  for (const States& more : {middle_points(axes), box_points(out.ranges, most_states)})
+    for (std::size_t d = 0; d < states.size(); ++d)
+      states[d].insert(states[d].end(), more[d].begin(), more[d].end());
+  const std::vector<double> one = answers(a, out.ranges, states),
+                            two = answers(b, out.ranges, states);
+  out.states = one.size();
+  std::vector<double> apart(one.size());
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    apart[i] = std::abs(one[i] - two[i]);
+    sum += apart[i];
+    squares += apart[i] * apart[i];
+  }
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
+  out.drift.max_abs = apart[worst];
+  out.drift.mean_abs = sum / static_cast<double>(apart.size());
+  out.drift.rms = std::sqrt(squares / static_cast<double>(apart.size()));
+  out.tau_MPa = {one[worst], two[worst]};
+  for (const auto& column : states)
+    out.worst.push_back(column[worst]);
+  const auto p99 = static_cast<long>(std::ceil(0.99 * static_cast<double>(apart.size()))) - 1;
+  std::nth_element(apart.begin(), apart.begin() + p99, apart.end());
+  out.drift.p99 = apart[static_cast<std::size_t>(p99)];
+  out.outside = {share_outside(a, out.ranges), share_outside(b, out.ranges)};
+  return out;
+}
+
+std::string difference_text(const TableDifference& d, const std::array<std::string, 2>& names) {
+  std::string place, range;
+  for (std::size_t i = 0; i < d.ranges.size(); ++i) {
+    place += fmt::format("{}{}={}", i ? " " : "", d.ranges[i].name, shortest(d.worst[i]));
+    range += d.ranges[i].why == "held"
+                 ? fmt::format("  {:<14}{:g}, held\n", d.ranges[i].name, d.ranges[i].low)
+                 : fmt::format("  {:<14}{:g} .. {:g}\n", d.ranges[i].name, d.ranges[i].low,
+                               d.ranges[i].high);
+  }
+  std::string text = fmt::format("Difference of tau_R at {} states of the common range, MPa:\n",
+                                 thousands(d.states));
+  text += fmt::format("  max   {:.4g} ({:.6g} and {:.6g}){}\n", d.drift.max_abs, d.tau_MPa[0],
+                      d.tau_MPa[1], place.empty() ? "" : " at " + place);
+  text += fmt::format("  p99   {:.4g}\n  rms   {:.4g}\n  mean  {:.4g}\n", d.drift.p99, d.drift.rms,
+                      d.drift.mean_abs);
+  if (!range.empty()) text += "Common range:\n" + range;
+  for (std::size_t i = 0; i < 2; ++i)
+    text += fmt::format("Only in {}: {:.2f} % of its range\n", names[i], 100 * d.outside[i]);
+  return text;
+}
+
+std::string difference_json(const TableDifference& d, const std::array<std::string, 2>& names) {
+  nlohmann::ordered_json j = {{"schema", "frictab/difference/1"},
+                              {"tables", names},
+                              {"states", d.states},
+                              {"max_abs_MPa", d.drift.max_abs},
+                              {"p99_MPa", d.drift.p99},
+                              {"rms_MPa", d.drift.rms},
+                              {"mean_abs_MPa", d.drift.mean_abs},
+                              {"tau_R_MPa", d.tau_MPa},
+                              {"at", nlohmann::ordered_json::object()},
+                              {"range", nlohmann::ordered_json::object()},
+                              {"share_outside", d.outside}};
+  for (std::size_t i = 0; i < d.ranges.size(); ++i) {
+    j["at"][d.ranges[i].name] = d.worst[i];
+    j["range"][d.ranges[i].name] = {d.ranges[i].low, d.ranges[i].high};
+  }
+  return json_text(j);
+}
+
+} // namespace frictab

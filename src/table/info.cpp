@@ -1,0 +1,139 @@
+// Reads a table's own words: axes, formula, drift, and how it lies in its file.
+#include "table/info.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/json.h"
+#include "table/states.h"
+
+namespace frictab {
+
+namespace {
+
+// Even in the coordinate to 1e-9 of a step, as the kernel sees it.
+std::string spacing_of(const TableAxis& axis) {
+  return axis.per_step() > 0 ? "even" : "graded";
+}
+
+std::string storage_text(const Hdf5Layout& layout) {
+  if (layout.chunk.empty()) return "in one piece";
+  std::vector<std::string> sizes;
+  for (const std::size_t size : layout.chunk)
+    sizes.push_back(std::to_string(size));
+  std::string text = "chunks of " + join(sizes, " x ");
+  if (!layout.filters.empty()) text += ", " + join(layout.filters, ", ");
+  return text;
+}
+
+std::string attribute(const Table& table, const std::string& name) {
+  const auto found = table.text_attributes.find(name);
+  return found == table.text_attributes.end() ? "" : found->second;
+}
+double number(const Table& table, const std::string& name) {
+  const auto found = table.number_attributes.find(name);
+  return found == table.number_attributes.end() ? std::nan("") : found->second;
+}
+
+std::string worst_place(const Table& table) {
+  std::string place;
+  for (const std::string& name : table.inputs())
+    if (const double at = number(table, "worst_case_at_" + name); !std::isnan(at))
+      place += fmt::format("{}{}={:g}", place.empty() ? "" : " ", name, at);
+  return place;
+}
+
+void add_axes(std::string& out, const Table& table) {
+  out += table.axes.empty() ? "Axes: none, the value is a constant\n" : "Axes:\n";
+  for (const TableAxis& axis : table.axes) {
+    const Quantity* known = find_quantity(axis.name);
+    out +=
+        fmt::format("  {:<14}{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.name, axis.nodes.front(),
+                    axis.nodes.back(), axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(),
+                    spacing_of(axis), axis.log ? "ln " : "", known ? known->symbol : axis.name);
+    for (std::size_t i = 0; i < axis.kinks.size(); ++i)
+      out += fmt::format("{} {:g}", i ? "," : "; kinks at", axis.kinks[i]);
+    const std::string outside = attribute(table, "outside_" + axis.name);
+    out += (outside.empty() ? "" : "; outside: " + outside) + "\n";
+  }
+  for (const std::string& name : table.inputs())
+    if (!find_axis(table, name)) {
+      const auto range = table.range(name);
+      out += fmt::format(
+          "  {:<14}no axis{}\n", name,
+          range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "");
+    }
+}
+
+void add_drift(std::string& out, const Table& table) {
+  const double tolerance = number(table, "tolerance_MPa"), worst = number(table, "worst_case_MPa");
+  const std::string place = worst_place(table);
+  if (!std::isnan(tolerance)) out += fmt::format("Tolerance: {:g} MPa\n", tolerance);
+  if (!std::isnan(worst))
+    out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", worst,
+                       place.empty() ? "" : ", at " + place);
+}
+
+} // namespace
+
+std::string info_text(const TableDescription& description, const std::string& file) {
+  const Table& table = description.table;
+  const std::string formula = attribute(table, "formula"), origin = attribute(table, "data_origin");
+  std::string out =
+      fmt::format("{}: table of {}{}\n", file, table.model, formula.empty() ? "" : ", " + formula);
+  add_axes(out, table);
+  out += fmt::format(
+      "Value: {}{}, {}{}\n", table.log_value ? "ln " : "", table.quantity, table.interpolation,
+      table.quantile() == 0.5 ? std::string() : fmt::format(", quantile {:g}", table.quantile()));
+  out += "tau_R_MPa = " + to_text(table.combine) + "\n";
+  for (const auto& [name, value] : table.constants)
+    out += fmt::format("  {} = {}\n", name, shortest(value));
+  add_drift(out, table);
+  out += fmt::format("Nodes: {}, {} of values; {} in the file, {}\n", thousands(table.nodes()),
+                     human_bytes(8.0 * static_cast<double>(table.nodes())),
+                     human_bytes(static_cast<double>(description.layout.stored_bytes)),
+                     storage_text(description.layout));
+  if (!origin.empty()) out += "Data: " + origin + ", hash " + attribute(table, "data_hash") + "\n";
+  if (const std::string tool = attribute(table, "tool_version"); !tool.empty())
+    out += "Made by: frictab " + tool + "\n";
+  return out;
+}
+
+std::string info_json(const TableDescription& description, const std::string& file) {
+  const Table& table = description.table;
+  auto axes = nlohmann::ordered_json::array();
+  for (const TableAxis& axis : table.axes)
+    axes.push_back({{"name", axis.name},
+                    {"unit", axis.unit},
+                    {"long_name", axis.long_name},
+                    {"transform", axis.log ? "log" : "linear"},
+                    {"spacing", spacing_of(axis)},
+                    {"kinks", axis.kinks},
+                    {"nodes", axis.nodes}});
+  nlohmann::ordered_json j = {{"schema", "frictab/table_info/1"},
+                              {"file", file},
+                              {"model", table.model},
+                              {"inputs", table.inputs()},
+                              {"axes", axes},
+                              {"quantity", table.quantity},
+                              {"transform", table.log_value ? "log" : "linear"},
+                              {"interpolation", table.interpolation},
+                              {"combine", to_text(table.combine)},
+                              {"constants", table.constants},
+                              {"nodes", table.nodes()},
+                              {"value_bytes", 8 * table.nodes()},
+                              {"stored_bytes", description.layout.stored_bytes},
+                              {"file_bytes", description.file_bytes},
+                              {"chunk", description.layout.chunk},
+                              {"filters", description.layout.filters},
+                              {"attributes", table.text_attributes}};
+  for (const auto& [name, value] : table.number_attributes)
+    j["attributes"][name] = value;
+  return json_text(j);
+}
+
+} // namespace frictab

@@ -1,0 +1,167 @@
+// What the plain-text formats share, and the two that hold the table as it is.
+#include "table/plain_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace frictab {
+
+const PlainFormat& plain_format(const std::string& name) {
+  const PlainFormat* format = Registry<PlainFormat>::instance().find(name);
+  if (format) return *format;
+  std::vector<std::string> names;
+  for (const PlainFormat& one : Registry<PlainFormat>::instance().all())
+    names.push_back(one.name);
+  throw InputError({}, fmt::format("there is no format '{}'", name), suggest(name, names));
+}
+
+namespace {
+
+std::vector<double> deck_places(const PlainRequest& request, const std::string& name) {
+  const auto inputs = request.table.inputs();
+  if (request.held.count(name) || std::find(inputs.begin(), inputs.end(), name) == inputs.end())
+    return {};
+  if (const TableAxis* axis = find_axis(request.table, name)) return axis->nodes;
+  return even_places(request.table, name, 9);
+}
+
+} // namespace
+
+DeckGrid deck_grid(const PlainRequest& request) {
+  check_all_known(request.table, request.held, {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"});
+  const DeckGrid grid{deck_places(request, "sigma_n_MPa"), deck_places(request, "v_rel_mm_s"),
+                      deck_places(request, "T_contact_C")};
+  double places = 1;
+  for (const auto* axis : {&grid.pressure, &grid.speed, &grid.temperature})
+    places *= static_cast<double>(std::max<std::size_t>(axis->size(), 1));
+  if (places > 100000)
+    throw InputError({},
+                     fmt::format("the grid has {:.0f} places; an input deck holds 100,000", places),
+                     "hold a state: --at T_contact_C=100");
+  return grid;
+}
+
+DeckValue::DeckValue(const PlainRequest& request) : function_(request.table), held_(request.held) {}
+
+double DeckValue::operator()(double pressure, double speed, double temperature) const {
+  std::vector<double> state;
+  double sigma_n = pressure;
+  for (const std::string& name : function_.inputs()) {
+    const auto held = held_.find(name);
+    const double value = held != held_.end()     ? held->second
+                         : name == "sigma_n_MPa" ? pressure
+                         : name == "v_rel_mm_s"  ? speed
+                                                 : temperature;
+    if (name == "sigma_n_MPa") sigma_n = value;
+    state.push_back(value);
+  }
+  return function_(state) / sigma_n;
+}
+
+std::string deck_head(const PlainRequest& request, const PlainFormat& format,
+                      const std::string& comment) {
+  std::string text = comment + " friction coefficient tau_R/sigma_N of " + request.table.model +
+                     "; MPa, mm/s, degC\n" + comment + " format " + format.source + "\n";
+  for (const auto& [name, value] : request.held)
+    text += fmt::format("{} held: {} = {}\n", comment, name, shortest(value));
+  return text;
+}
+
+namespace {
+
+constexpr std::size_t rows_at_once = 4096;
+
+// The values as they are tabulated, a block at a time.
+template <class Body> void for_values(const Table& table, const Body& body) {
+  std::vector<double> block;
+  for (std::size_t first = 0; first < table.nodes(); first += rows_at_once) {
+    block.resize(std::min(rows_at_once, table.nodes() - first));
+    if (table.stored)
+      table.stored->read(first, block);
+    else
+      std::copy_n(table.value.begin() + static_cast<long>(first), block.size(), block.begin());
+    body(first, block);
+  }
+}
+
+// One line per node: axes, the tabulated quantity; tau_R as well where every state is known.
+void write_csv(const PlainRequest& request, std::ostream& out) {
+  const Table& table = request.table;
+  const auto inputs = table.inputs();
+  std::vector<std::string> held, row;
+  for (const std::string& name : inputs)
+    if (!find_axis(table, name) && request.held.count(name)) held.push_back(name);
+  const bool known = held.size() + table.axes.size() == inputs.size();
+  for (const TableAxis& axis : table.axes)
+    row.push_back(axis.name);
+  for (const std::string& name : held)
+    row.push_back(name);
+  row.push_back(table.quantity == "mu" ? "mu" : "value_MPa");
+  if (known) row.push_back("tau_R_MPa");
+  out << join(row, ",") << '\n';
+  const TableFunction function(table);
+  std::vector<double> state(inputs.size());
+  for_values(table, [&](std::size_t first, const std::vector<double>& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      row.clear();
+      std::size_t rest = first + i;
+      for (std::size_t a = table.axes.size(); a-- > 0;) {
+        const std::vector<double>& nodes = table.axes[a].nodes;
+        const double x = nodes[rest % nodes.size()];
+        rest /= nodes.size();
+        row.insert(row.begin(), shortest(x));
+        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), table.axes[a].name) -
+                                       inputs.begin())] = x;
+      }
+      for (const std::string& name : held) {
+        const double x = request.held.at(name);
+        row.push_back(shortest(x));
+        state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), name) -
+                                       inputs.begin())] = x;
+      }
+      row.push_back(shortest(table.log_value ? std::exp(block[i]) : block[i]));
+      if (known) row.push_back(shortest(function(state)));
+      out << join(row, ",") << '\n';
+    }
+  });
+}
+
+// Axes, then all values row-major: a line per run of the last axis.
+void write_txt(const PlainRequest& request, std::ostream& out) {
+  const Table& table = request.table;
+  out << "# " << table.model << ": " << table.quantity << " on a grid, " << table.interpolation
+      << "; tau_R_MPa = " << to_text(table.combine) << '\n';
+  for (const auto& [name, value] : table.constants)
+    out << "# constant " << name << ' ' << shortest(value) << '\n';
+  for (const TableAxis& axis : table.axes) {
+    out << "axis " << axis.name << ' ' << axis.unit << ' ' << (axis.log ? "log" : "linear") << ' '
+        << axis.nodes.size() << '\n';
+    for (const double x : axis.nodes)
+      out << shortest(x) << '\n';
+  }
+  out << "value " << table.nodes() << '\n';
+  const std::size_t last = table.axes.empty() ? 1 : table.axes.back().nodes.size();
+  for_values(table, [&](std::size_t first, const std::vector<double>& block) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      out << shortest(table.log_value ? std::exp(block[i]) : block[i])
+          << ((first + i + 1) % last == 0 ? '\n' : ' ');
+  });
+}
+
+const Registered<PlainFormat> csv{[] {
+  return PlainFormat{"csv", 1, "a line per node: axes, value; tau_R where --at holds the rest",
+                     "ours", write_csv};
+}};
+const Registered<PlainFormat> txt{[] {
+  return PlainFormat{"txt", 2, "axes, then the values row-major, last axis fastest", "ours",
+                     write_txt};
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,83 @@
+// States of grid nodes, the law's piece there, and the attributes of a table.
+#include "table/sampling.h"
+
+#include <algorithm>
+
+#include "table/direct.h"
+
+namespace frictab {
+
+std::size_t count_nodes(const std::vector<TableAxis>& axes) {
+  std::size_t nodes = 1;
+  for (const TableAxis& axis : axes) {
+    if (nodes > SIZE_MAX / 16 / axis.nodes.size()) return SIZE_MAX / 16;
+    nodes *= axis.nodes.size();
+  }
+  return nodes;
+}
+
+namespace {
+
+// The coordinate of one axis at consecutive nodes of the grid; `stride` nodes share one.
+void fill_states(const std::vector<double>& nodes, std::size_t stride, std::size_t first,
+                 std::vector<double>& states) {
+  std::size_t node = first / stride % nodes.size(), same = stride - first % stride;
+  for (std::size_t i = 0; i < states.size();) {
+    const std::size_t end = i + std::min(same, states.size() - i);
+    for (; i < end; ++i)
+      states[i] = nodes[node];
+    node = node + 1 == nodes.size() ? 0 : node + 1;
+    same = stride;
+  }
+}
+
+} // namespace
+
+void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
+                  const std::vector<TableAxis>& axes, std::size_t first, std::span<double> values) {
+  std::vector<std::vector<double>> states;
+  std::vector<const double*> columns;
+  for (const StateRange& range : ranges) {
+    states.emplace_back(values.size(), range.low);
+    std::size_t stride = 1; // nodes behind the axis of this state
+    for (std::size_t a = axes.size(); a-- > 0;) {
+      if (axes[a].name == range.name) fill_states(axes[a].nodes, stride, first, states.back());
+      stride *= axes[a].nodes.size();
+    }
+    columns.push_back(states.back().data());
+  }
+  pieces.value.evaluate(values.size(), columns, pieces.parameters, values.data());
+}
+
+Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
+                     std::vector<TableAxis> axes, const std::string& interpolation,
+                     bool log_value) {
+  Table table;
+  table.model = model.name();
+  table.quantity = model.law->quantity;
+  table.log_value = log_value;
+  table.interpolation = interpolation;
+  table.axes = std::move(axes);
+  table.combine = limited_combine(model);
+  const auto used = symbols(table.combine);
+  for (std::size_t p = 0; p < model.parameters.size(); ++p)
+    if (used.count(model.law->parameters[p].name))
+      table.constants[model.law->parameters[p].name] = model.parameters[p];
+  if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+        return axis.below == Outside::law || axis.above == Outside::law;
+      }))
+    add_extension(table, model);
+  for (const StateRange& range : ranges) {
+    table.number_attributes["range_low_" + range.name] = range.low;
+    table.number_attributes["range_high_" + range.name] = range.high;
+    table.text_attributes["range_from_" + range.name] = range.why;
+  }
+  table.text_attributes["model"] = model.name();
+  table.number_attributes["quantile"] = model.quantile;
+  table.number_attributes["gain"] = model.gain;
+  table.text_attributes["formula"] = model.law->formula;
+  table.text_attributes["shear_yield"] = model.conventions.shear_yield;
+  return table;
+}
+
+} // namespace frictab

@@ -1,0 +1,26 @@
+// What every way to make a table shares: the law's piece at the nodes, and what a table says about
+// itself.
+#pragma once
+
+#include <span>
+
+#include "table/grid.h"
+
+namespace frictab {
+
+// Nodes of a grid; SIZE_MAX / 16 where they are more.
+std::size_t count_nodes(const std::vector<TableAxis>& axes);
+
+// Nodes sampled at a time: states and results stay in a core's cache.
+inline constexpr std::size_t sample_block = 4096;
+
+// The piece at nodes first, first + 1, ..., row-major, last axis fastest. Inputs that are no axis
+// do not matter to the piece; they are held at the lower end of their range.
+void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
+                  const std::vector<TableAxis>& axes, std::size_t first, std::span<double> values);
+
+// A table without its values.
+Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
+                     std::vector<TableAxis> axes, const std::string& interpolation, bool log_value);
+
+} // namespace frictab

@@ -1,0 +1,75 @@
+// Evaluates a table on one or two of its states.
+#include "table/slice.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+
+namespace frictab {
+
+namespace {
+
+std::string unit_of(const Table& table, const std::string& name) {
+  if (const TableAxis* axis = find_axis(table, name)) return axis->unit;
+  const Quantity* quantity = find_quantity(name);
+  return quantity ? quantity->unit : "1";
+}
+
+void check_along(const Table& table, const HeldStates& held,
+                 const std::vector<std::string>& along) {
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    check_input(table, along[i]);
+    if (held.count(along[i]))
+      throw InputError({}, fmt::format("{} is both held and run along", along[i]),
+                       "keep --at or --along");
+    if (std::count(along.begin(), along.end(), along[i]) > 1)
+      throw InputError({}, fmt::format("{} is named twice by --along", along[i]));
+  }
+}
+
+} // namespace
+
+Slice slice(const Table& table, const HeldStates& held, const std::vector<std::string>& along,
+            std::size_t points) {
+  check_along(table, held, along);
+  check_held(table, held);
+  check_all_known(table, held, along);
+  Slice out{table.model, table.inputs(), along, {}, held, {}, {}, {}};
+  std::size_t rows = 1;
+  for (const std::string& name : along) {
+    out.units.push_back(unit_of(table, name));
+    out.places.push_back(even_places(table, name, points));
+    rows *= points;
+  }
+  std::vector<const double*> columns;
+  for (const std::string& name : out.inputs) {
+    std::vector<double> column(rows);
+    const auto at = std::find(along.begin(), along.end(), name) - along.begin();
+    const auto a = static_cast<std::size_t>(at);
+    const std::size_t inner = a + 1 == along.size() ? 1 : points;
+    for (std::size_t i = 0; i < rows; ++i)
+      column[i] = a < along.size() ? out.places[a][i / inner % points] : held.at(name);
+    out.states.push_back(std::move(column));
+  }
+  for (const auto& column : out.states)
+    columns.push_back(column.data());
+  out.tau_MPa.resize(rows);
+  TableFunction(table).evaluate(rows, columns, out.tau_MPa);
+  return out;
+}
+
+std::string slice_csv(const Slice& slice) {
+  std::string text = join(slice.inputs, ",") + ",tau_R_MPa\n";
+  for (std::size_t i = 0; i < slice.tau_MPa.size(); ++i) {
+    for (const auto& column : slice.states)
+      text += shortest(column[i]) + ",";
+    text += shortest(slice.tau_MPa[i]) + "\n";
+  }
+  return text;
+}
+
+} // namespace frictab

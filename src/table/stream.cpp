@@ -1,0 +1,273 @@
+// Samples chunks in parallel into a work file whose head becomes that of an HDF5 file at the end.
+#include "table/stream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "table/chunk_list.h"
+#include "table/sampling.h"
+#include "table/table_file.h"
+
+namespace frictab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t chunk_nodes = std::size_t{1} << 20;
+constexpr std::uint64_t values_at = std::uint64_t{1} << 20; // byte; what is before belongs to HDF5
+
+fs::path beside(const fs::path& file, const char* ending) {
+  return file.parent_path() / ("." + file.filename().string() + ending);
+}
+
+std::string hex_hash(const std::string& text) {
+  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+std::uint64_t hash_of(std::span<const double> values) {
+  return XXH3_64bits(values.data(), values.size_bytes());
+}
+
+// Everything the bytes of the values depend on.
+std::string job_line(const Model& model, const Table& table) {
+  std::string text = FRICTAB_VERSION + to_text(model.law->build(model.conventions).value);
+  for (const double parameter : model.parameters)
+    text += " " + shortest(parameter);
+  for (const TableAxis& axis : table.axes) {
+    text += "\n" + axis.name + (axis.log ? " log" : "");
+    for (const double node : axis.nodes)
+      text += " " + shortest(node);
+  }
+  text += table.log_value ? "\nlog" : "";
+  return fmt::format("frictab/partial/1 {} {} nodes, {} per chunk", hex_hash(text), table.nodes(),
+                     chunk_nodes);
+}
+
+// Positive on a coarse grid of the same range: ends, kinks of coarse axes, some between.
+bool is_positive(const Pieces& pieces, const std::vector<StateRange>& ranges,
+                 std::vector<TableAxis> axes) {
+  for (TableAxis& axis : axes) {
+    const std::vector<double> nodes = axis.nodes;
+    const std::size_t most = std::min<std::size_t>(5, nodes.size());
+    axis.nodes.resize(most);
+    for (std::size_t i = 0; i < most; ++i)
+      axis.nodes[i] = nodes[i * (nodes.size() - 1) / (most - 1)];
+  }
+  std::vector<double> values(count_nodes(axes));
+  sample_nodes(pieces, ranges, axes, 0, values);
+  return *std::min_element(values.begin(), values.end()) > 0;
+}
+
+std::string place_of(const Table& table, std::size_t node) {
+  std::string text;
+  for (std::size_t a = table.axes.size(); a-- > 0;) {
+    const TableAxis& axis = table.axes[a];
+    const double x = axis.nodes[node % axis.nodes.size()];
+    text = fmt::format("{} = {:g}{}{}", axis.name, x, text.empty() ? "" : ", ", text);
+    node /= axis.nodes.size();
+  }
+  return text;
+}
+
+class Sampler {
+public:
+  Sampler(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options)
+      : ranges_(ranges), pieces_(model, ranges), place_(options.place) {
+    auto axes = fixed_axes(model, ranges, options).value();
+    const bool log_value = model.law->log_value && is_positive(pieces_, ranges, axes);
+    table = describe_table(model, ranges, std::move(axes), "linear", log_value);
+    table.number_attributes["tolerance_MPa"] = options.tolerance_MPa;
+    table.text_attributes["refinement"] = "every axis has the number of nodes that the job says";
+  }
+
+  std::size_t chunks() const { return (table.nodes() + chunk_nodes - 1) / chunk_nodes; }
+  std::size_t first(std::size_t chunk) const { return chunk * chunk_nodes; }
+  std::size_t size(std::size_t chunk) const {
+    return std::min(chunk_nodes, table.nodes() - first(chunk));
+  }
+
+  std::vector<double> values(std::size_t chunk) const {
+    std::vector<double> out(size(chunk));
+    for (std::size_t i = 0; i < out.size(); i += sample_block) {
+      const auto block = std::span(out).subspan(i, std::min(sample_block, out.size() - i));
+      sample_nodes(pieces_, ranges_, table.axes, first(chunk) + i, block);
+      for (double& value : block) {
+        if (table.log_value) value = std::log(value);
+        if (std::isfinite(value)) continue;
+        const auto node = first(chunk) + static_cast<std::size_t>(&value - out.data());
+        throw InputError(place_,
+                         fmt::format("{}{} is not finite at {}", table.log_value ? "ln " : "",
+                                     table.quantity, place_of(table, node)),
+                         "narrower ranges in [table.axes]");
+      }
+    }
+    return out;
+  }
+
+  Table table;
+
+private:
+  const std::vector<StateRange>& ranges_;
+  Pieces pieces_;
+  Place place_;
+};
+
+// Chunks whose bytes in the file still have the hash that was listed for them.
+std::vector<char> kept_chunks(const Sampler& sampler, const ChunkList& list,
+                              const StoredValues& stored) {
+  std::vector<char> kept(sampler.chunks(), 0);
+  const std::vector<std::pair<std::size_t, std::uint64_t>> found(list.found().begin(),
+                                                                 list.found().end());
+  const Progress progress("checking what is there", found.size());
+  parallel_for(found.size(), [&](std::size_t i) {
+    const auto [chunk, hash] = found[i];
+    if (chunk >= kept.size()) return;
+    std::vector<double> values(sampler.size(chunk));
+    stored.read(sampler.first(chunk), values);
+    kept[chunk] = hash_of(values) == hash;
+    progress.tick();
+  });
+  return kept;
+}
+
+std::uint64_t bytes_on_disk(const fs::path& file) {
+  struct stat status = {};
+  return ::stat(file.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_blocks) * 512
+                                            : 0;
+}
+
+std::string grid_text(const Table& table) {
+  std::vector<std::string> counts;
+  for (const TableAxis& axis : table.axes)
+    counts.push_back(fmt::format("{} {}", axis.name, axis.nodes.size()));
+  return fmt::format("{} nodes: {}", thousands(table.nodes()), join(counts, ", "));
+}
+
+void check_room(const Table& table, const Hdf5Storage& storage, const fs::path& file) {
+  const std::uint64_t values = sizeof(double) * std::uint64_t{table.nodes()};
+  const std::uint64_t packed = storage.chunked() ? values : 0; // beside the work file
+  const std::uint64_t wanted = values_at + values + packed;
+  const std::uint64_t there = bytes_on_disk(beside(file, ".partial"));
+  check_disk_space(file.parent_path(), wanted - std::min(there, wanted),
+                   fmt::format("the table of {} ({})", table.model, grid_text(table)),
+                   "fewer nodes in [table.axes], or another disk with -o DIR");
+}
+
+} // namespace
+
+bool is_streamed(const Model& model, const std::vector<StateRange>& ranges,
+                 const TableOptions& options) {
+  const auto axes = fixed_axes(model, ranges, options);
+  if (!axes || axes->empty()) return false;
+  const double bytes = 8.0 * static_cast<double>(count_nodes(*axes));
+  if (bytes <= options.memory_limit_MiB * (1 << 20)) return false;
+  if (options.interpolation.value_or("linear") == "cubic")
+    throw InputError(options.place,
+                     fmt::format("a cubic table of {} nodes ({}) is larger than "
+                                 "table.memory_limit_MiB = {}: the coefficients of a spline "
+                                 "follow from all values at once",
+                                 thousands(count_nodes(*axes)), human_bytes(bytes),
+                                 shortest(options.memory_limit_MiB)),
+                     "table.interpolation = \"linear\", fewer nodes, or a larger "
+                     "table.memory_limit_MiB");
+  return true;
+}
+
+StreamedTable stream_table(const Model& model, const std::vector<StateRange>& ranges,
+                           const TableOptions& options, const fs::path& file) {
+  Sampler sampler(model, ranges, options);
+  check_room(sampler.table, options.hdf5, file);
+  fs::create_directories(file.parent_path());
+  const fs::path work = beside(file, ".partial");
+  const ChunkList list(beside(file, ".chunks"), job_line(model, sampler.table));
+  if (list.found().empty()) fs::remove(work); // of another job
+  const ValuesFile out(work, values_at, sampler.table.nodes());
+  const auto stored =
+      std::make_shared<const StoredValues>(work, work.string(), values_at, sampler.table.nodes());
+  const std::vector<char> kept = kept_chunks(sampler, list, *stored);
+  std::vector<std::size_t> open;
+  for (std::size_t chunk = 0; chunk < kept.size(); ++chunk)
+    if (!kept[chunk]) open.push_back(chunk);
+  const Progress progress("sampling " + model.name(), kept.size(), kept.size() - open.size());
+  parallel_for(open.size(), [&](std::size_t i) {
+    const std::vector<double> values = sampler.values(open[i]);
+    out.write(sampler.first(open[i]), values);
+    list.add(open[i], hash_of(values));
+    progress.tick();
+  });
+  sampler.table.stored = stored;
+  return {std::move(sampler.table), kept.size(), kept.size() - open.size()};
+}
+
+namespace {
+
+// An HDF5 file with a hole in place of its values, laid over the work file: a kill at any moment
+// leaves values that the list of chunks still fits.
+void write_head(const Table& table, const fs::path& file) {
+  const fs::path head = beside(file, ".head"), work = beside(file, ".partial");
+  {
+    Hdf5Writer out(head, values_at);
+    out.reserve("value", table.shape());
+    write_description(out, table);
+    out.close();
+  }
+  if (Hdf5Reader(head, head.string()).raw_offset("value") != values_at)
+    throw std::runtime_error("HDF5 puts the values of " + head.string() + " elsewhere");
+  const std::uint64_t behind = values_at + sizeof(double) * std::uint64_t{table.nodes()};
+  const std::uint64_t end = fs::file_size(head);
+  const ValuesFile out(work, values_at, table.nodes());
+  std::ifstream in(head, std::ios::binary);
+  const auto copy = [&](std::uint64_t from, std::uint64_t to) {
+    std::vector<char> bytes(to - from);
+    in.seekg(static_cast<std::streamoff>(from));
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+      throw std::runtime_error("cannot read " + head.string());
+    out.write_bytes(from, bytes);
+  };
+  out.resize(end);
+  copy(0, values_at);
+  copy(behind, end);
+  fs::remove(head);
+}
+
+} // namespace
+
+fs::path finish_stream(const Table& table, const Hdf5Storage& storage, const fs::path& file) {
+  if (!storage.chunked()) {
+    write_head(table, file);
+    return beside(file, ".partial");
+  }
+  const fs::path packed = beside(file, ".packed");
+  Hdf5Writer out(packed);
+  Progress progress("packing " + table.model, table.nodes());
+  out.dataset(
+      "value", table.shape(),
+      [&](std::size_t first, std::span<double> values) {
+        table.stored->read(first, values);
+        progress.tick(values.size());
+      },
+      storage);
+  write_description(out, table);
+  out.close();
+  return packed;
+}
+
+std::vector<std::string> work_files(const std::string& file_name) {
+  std::vector<std::string> names;
+  for (const char* ending : {".partial", ".chunks", ".head", ".packed"})
+    names.push_back(beside(file_name, ending).string());
+  return names;
+}
+
+} // namespace frictab

@@ -1,0 +1,117 @@
+// Jobs whose tables are sampled to disk: killed and run again, verified, refused where too large.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/run_command.h"
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using test::run_command;
+using test::run_frictab;
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+
+// 12,000,000 nodes in 12 chunks, 92 MiB.
+const char* const job_text = R"([data]
+training = "data/training.csv"
+[models]
+use = ["log_coulomb"]
+[table]
+memory_limit_MiB = 1.0
+[table.axes]
+sigma_n_MPa = { nodes = 50 }
+psi = { nodes = 40 }
+v_rel_mm_s = { nodes = 60 }
+T_contact_C = { nodes = 100 }
+[export]
+targets = []
+)";
+
+class LargeTable : public testing::Test {
+protected:
+  void SetUp() override {
+    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
+                           "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=6"})
+                  .exit_code,
+              0);
+    directory.write("job.toml", job_text);
+    ASSERT_EQ(run("calibrate").exit_code, 0);
+  }
+  CommandResult run(const char* command, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {command, "job.toml"});
+    return run_frictab(more, directory.path());
+  }
+  // Every file below tables/, hidden ones too.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory.path("out/tables")))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+  TemporaryDirectory directory;
+};
+
+TEST_F(LargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
+  const std::string script = std::string("'") + FRICTAB_BINARY +
+                             "' tabulate job.toml -q > /dev/null & pid=$!\n"
+                             "while [ \"$(cat out/tables/.log_coulomb.h5.chunks 2> /dev/null | wc "
+                             "-l)\" -lt 4 ]; do sleep 0.01; done\n"
+                             "kill -9 $pid; wait $pid";
+  const CommandResult killed = run_command({"sh", "-c", script}, directory.path());
+  EXPECT_EQ(killed.exit_code, 137);
+  EXPECT_FALSE(fs::exists(directory.path("out/tables/log_coulomb.h5")));
+  const CommandResult resumed = run("tabulate");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr(" of 12 chunks kept from an interrupted run\n"));
+  EXPECT_THAT(resumed.out, HasSubstr("log_coulomb    12,000,000 nodes, 91.6 MiB: "));
+  EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
+  fs::rename(directory.path("out/tables/log_coulomb.h5"), directory.path("first.h5"));
+  const CommandResult anew = run("tabulate", {"-j", "1"});
+  EXPECT_EQ(anew.err, "");
+  EXPECT_EQ(run_command({"cmp", "first.h5", "out/tables/log_coulomb.h5"}, directory.path()).out,
+            "");
+}
+
+TEST_F(LargeTable, IsVerifiedByTheJobAndAlone) {
+  ASSERT_EQ(run("run", {"--set", "table.hdf5.fletcher32=true"}).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
+  EXPECT_EQ(run("verify").exit_code, 0);
+  const CommandResult alone = run_frictab(
+      {"verify", "--table", "out/tables/log_coulomb.h5", "--model", "out/models/log_coulomb.json"},
+      directory.path());
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_THAT(run_frictab({"table", "info", "out/tables/log_coulomb.h5"}, directory.path()).out,
+              HasSubstr("91.6 MiB of values; 91.6 MiB in the file, chunks of 1 x 10 x 60 x 100, "
+                        "fletcher32\n"));
+}
+
+TEST_F(LargeTable, SourcesThatCannotHoldItAreRefusedBeforeItIsSampled) {
+  const std::string what =
+      "error: the table of log_coulomb needs 12,000,250 numbers in the source; "
+      "a compiler takes 300,000 in reasonable time and memory\n";
+  const CommandResult whole = run("run", {"--set", "export.targets=\"c\""});
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_THAT(whole.err, testing::StartsWith(what));
+  EXPECT_FALSE(fs::exists(directory.path("out/tables")));
+  ASSERT_EQ(run("tabulate").exit_code, 0);
+  const CommandResult sources = run("export", {"--set", "export.targets=\"c\""});
+  EXPECT_EQ(sources.exit_code, 2);
+  EXPECT_THAT(sources.err, testing::StartsWith(what));
+}
+
+TEST_F(LargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
+  EXPECT_EQ(run("tabulate", {"-q", "--progress"}).err, "");
+  const CommandResult shown =
+      run("tabulate", {"--progress", "-j", "1", "--set", "table.axes.psi.nodes=200"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.err, testing::ContainsRegex("sampling log_coulomb \\[#*\\.*\\] [0-9]+/58, "
+                                                "[0-9]+ s, [0-9]+ s left"));
+}
+
+} // namespace
+} // namespace frictab

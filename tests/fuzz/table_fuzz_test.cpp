@@ -1,0 +1,113 @@
+// Damaged table files: whatever the bytes, reading gives a sound table or an InputError.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "io/atomic_file.h"
+#include "support/run_command.h"
+#include "support/sample_tables.h"
+#include "table/info.h"
+#include "table/table_file.h"
+
+namespace frictab {
+namespace {
+
+enum Outcome : char { read_well = 'w', refused = 'r', unsound = 'u', other_error = 'o' };
+
+// What read_table promises.
+bool is_sound(const Table& table) {
+  std::vector<double> values(table.nodes());
+  if (table.stored)
+    table.stored->read(0, values);
+  else if (table.value.size() != table.nodes())
+    return false;
+  const TableFunction function(table);
+  std::vector<double> state;
+  for (const std::string& name : function.inputs())
+    state.push_back(table.range(name).value_or(std::pair{1.0, 2.0}).second);
+  function(state);
+  for (const double value : table.stored ? values : table.value)
+    if (!std::isfinite(value)) return false;
+  return true;
+}
+
+Outcome read(const std::string& file, std::size_t in_memory) {
+  try {
+    info_text(read_description(file), file);
+    return is_sound(read_table(file, in_memory)) ? read_well : unsound;
+  } catch (const InputError& error) {
+    return error.faults().empty() ? other_error : refused;
+  } catch (const std::exception&) {
+    return other_error;
+  }
+}
+
+std::string damaged(std::string bytes, Random& random) {
+  for (std::size_t k = 1 + random.below(12); k > 0; --k) {
+    const std::size_t at = random.below(bytes.size());
+    if (random.below(2) == 0)
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+    else
+      bytes[at] = static_cast<char>(random.below(256));
+  }
+  if (random.below(6) == 0) bytes.resize(random.below(bytes.size()));
+  return bytes;
+}
+
+// In a child process, so that a crash names its case and does not end the tests.
+std::string outcomes_in_child(const std::vector<std::string>& cases, const std::string& file,
+                              std::size_t in_memory) {
+  int ends[2] = {};
+  if (pipe(ends) != 0) return "";
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(240); // an endless loop is a fault too
+    for (const std::string& bytes : cases) {
+      std::ofstream(file, std::ios::binary) << bytes;
+      const char outcome = read(file, in_memory);
+      if (::write(ends[1], &outcome, 1) != 1) _exit(1);
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string told;
+  for (char outcome = 0; ::read(ends[0], &outcome, 1) == 1;)
+    told += outcome;
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return told;
+}
+
+TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.path("t.h5");
+  Random random(31);
+  std::size_t well = 0, faults = 0;
+  for (const test::NamedTable& sample : test::sample_tables())
+    for (const Hdf5Storage& storage : {Hdf5Storage{}, Hdf5Storage{12, 3, true}}) {
+      write_table(sample.table, file, storage);
+      const std::string valid = read_file(file);
+      const std::size_t in_memory = storage.chunked() ? 0 : most_bytes_in_memory;
+      std::vector<std::string> cases(60);
+      for (std::string& bytes : cases)
+        bytes = damaged(valid, random);
+      const std::string told = outcomes_in_child(cases, file, in_memory);
+      ASSERT_EQ(told.size(), cases.size()) << sample.name << ": died in case " << told.size();
+      for (std::size_t i = 0; i < told.size(); ++i) {
+        ASSERT_TRUE(told[i] == read_well || told[i] == refused)
+            << sample.name << " case " << i << ": " << told[i];
+        ++(told[i] == read_well ? well : faults);
+      }
+    }
+  EXPECT_GT(well, 40U); // the mutations reach both sides
+  EXPECT_GT(faults, 200U);
+}
+
+} // namespace
+} // namespace frictab

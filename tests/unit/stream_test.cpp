@@ -1,0 +1,264 @@
+// Tables that are sampled to disk in chunks: the bytes of the one in memory, however interrupted.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "support/run_command.h"
+#include "support/sample_data.h"
+#include "table/chunk_list.h"
+#include "table/drift.h"
+#include "table/stream.h"
+#include "table/table_file.h"
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// 3,840,000 nodes: four chunks, the last one not full.
+TableOptions large_grid() {
+  TableOptions options;
+  const std::pair<const char*, std::size_t> nodes[] = {
+      {"sigma_n_MPa", 40}, {"psi", 30}, {"v_rel_mm_s", 40}, {"T_contact_C", 80}};
+  for (const auto& [name, count] : nodes)
+    options.axes[name].nodes = count;
+  options.interpolation = "linear";
+  options.memory_limit_MiB = 16;
+  options.place = {"job.toml", 4, 1};
+  return options;
+}
+
+struct Case {
+  Model model = test::plausible_model(*find_law("log_coulomb"));
+  Dataset data = test::sample_data(model);
+  TableOptions options = large_grid();
+  std::vector<StateRange> ranges = state_ranges(model, data, options);
+};
+
+class StreamedTableFile : public testing::Test {
+protected:
+  StreamedTable stream(const Case& c) { return stream_table(c.model, c.ranges, c.options, file()); }
+  // As the pipeline does: the complete file under its name.
+  Table complete(const Case& c, const StreamedTable& streamed) {
+    fs::rename(finish_stream(streamed.table, c.options.hdf5, file()), file());
+    return read_table(file(), 1 << 20);
+  }
+  fs::path file() const { return directory.path("t/log_coulomb.h5"); }
+  fs::path work(const char* ending) const {
+    return directory.path(std::string("t/.log_coulomb.h5") + ending);
+  }
+  std::vector<double> values_of(const Table& table) {
+    std::vector<double> values(table.nodes());
+    table.stored->read(0, values);
+    return values;
+  }
+  // The list as a kill leaves it: the first `lines` chunks, and half a line.
+  void cut_list(std::size_t lines) {
+    std::ifstream in(work(".chunks"));
+    std::string text, line;
+    for (std::size_t i = 0; i < 1 + lines && std::getline(in, line); ++i)
+      text += line + "\n";
+    std::ofstream(work(".chunks")) << text << "000000000";
+  }
+  test::TemporaryDirectory directory;
+};
+
+TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
+  const Case c;
+  ASSERT_TRUE(is_streamed(c.model, c.ranges, c.options));
+  const Table inside = build_table(c.model, c.ranges, c.options);
+  const StreamedTable streamed = stream(c);
+  EXPECT_EQ(streamed.chunks, 4U);
+  EXPECT_EQ(streamed.kept, 0U);
+  const Table outside = complete(c, streamed);
+  ASSERT_TRUE(outside.stored);
+  EXPECT_EQ(outside.nodes(), inside.nodes());
+  EXPECT_EQ(values_of(outside), inside.value);
+  EXPECT_EQ(to_text(outside.combine), to_text(inside.combine));
+  EXPECT_EQ(read_table(file()).value, inside.value); // small enough for memory by default
+}
+
+TEST_F(StreamedTableFile, AnswersWithTheSameBitsAsTheTableInMemory) {
+  const Case c;
+  const Table inside = build_table(c.model, c.ranges, c.options);
+  const StreamedTable streamed = stream(c);
+  const TableFunction one(inside), two(streamed.table);
+  const auto points = probe_points(c.ranges, inside.axes, 3000);
+  for (std::size_t i = 0; i < points.front().size(); ++i) {
+    std::vector<double> state, slope_one(c.ranges.size()), slope_two(c.ranges.size());
+    for (std::size_t d = 0; d < points.size(); ++d)
+      state.push_back(points[d][i] * (i % 7 == 0 ? 1.5 : 1.0)); // some beyond the axes
+    unsigned outside_one = 0, outside_two = 0;
+    ASSERT_EQ(one(state, &outside_one), two(state, &outside_two)) << i;
+    ASSERT_EQ(outside_one, outside_two) << i;
+    ASSERT_EQ(one.gradient(state, slope_one), two.gradient(state, slope_two)) << i;
+    ASSERT_EQ(slope_one, slope_two) << i;
+  }
+}
+
+TEST_F(StreamedTableFile, IsTheSameFileOnAnyNumberOfThreadsAndHoweverInterrupted) {
+  const Case c;
+  set_threads(1);
+  complete(c, stream(c));
+  const std::string whole = directory.read("t/log_coulomb.h5");
+  set_threads(2);
+  stream(c);
+  cut_list(2);
+  const StreamedTable resumed = stream(c);
+  set_threads(0);
+  EXPECT_EQ(resumed.kept, 2U);
+  complete(c, resumed);
+  EXPECT_TRUE(directory.read("t/log_coulomb.h5") == whole);
+}
+
+TEST_F(StreamedTableFile, ChunkWhoseBytesChangedIsSampledAgain) {
+  const Case c;
+  const std::vector<double> right = values_of(stream(c).table);
+  {
+    std::fstream out(work(".partial"), std::ios::in | std::ios::out | std::ios::binary);
+    out.seekp((1 << 20) + (1 << 23) + 12345); // within the second chunk
+    out.put('x');
+  }
+  const StreamedTable again = stream(c);
+  EXPECT_EQ(again.kept, 3U);
+  EXPECT_EQ(values_of(again.table), right);
+}
+
+TEST_F(StreamedTableFile, AnotherJobStartsAnew) {
+  Case c;
+  stream(c);
+  EXPECT_EQ(stream(c).kept, 4U);
+  Case parameters = c;
+  parameters.model.parameters[0] *= 1.01;
+  EXPECT_EQ(stream(parameters).kept, 0U);
+  Case grid = c;
+  grid.options.axes["psi"].range = {1, 18};
+  grid.ranges = state_ranges(grid.model, grid.data, grid.options);
+  EXPECT_EQ(stream(grid).kept, 0U);
+  Case law = c;
+  law.model = test::plausible_model(*find_law("exp_coulomb"));
+  for (const char* name : {"sigma_n_MPa", "T_contact_C"})
+    law.options.axes[name].nodes = 2000;
+  law.ranges = state_ranges(law.model, law.data, law.options);
+  EXPECT_EQ(stream(law).kept, 0U);
+}
+
+TEST_F(StreamedTableFile, IsPackedInChunksWithChecksumsWhereAsked) {
+  Case c;
+  c.options.hdf5 = {50000, 1, true};
+  const StreamedTable streamed = stream(c);
+  const Table packed = complete(c, streamed); // unpacked again: larger than asked to hold
+  EXPECT_EQ(values_of(packed), values_of(streamed.table));
+  const auto layout = read_description(file()).layout;
+  EXPECT_EQ(layout.chunk, (std::vector<std::size_t>{1, 15, 40, 80}));
+  EXPECT_EQ(layout.filters, (std::vector<std::string>{"shuffle", "deflate 1", "fletcher32"}));
+  EXPECT_LT(layout.stored_bytes, 8 * packed.nodes());
+  std::size_t files = 0; // the unpacked copy has no name
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(directory.path("t")))
+    ++files;
+  EXPECT_EQ(files, 3U); // table, work file, list
+}
+
+TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
+  Case c;
+  c.options.interpolation = "cubic";
+  try {
+    is_streamed(c.model, c.ranges, c.options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("job.toml:4:1: error: a cubic table of 3,840,000 nodes (29.3 MiB) is "
+                          "larger than table.memory_limit_MiB = 16"));
+  }
+}
+
+TEST_F(StreamedTableFile, GridOfTheToleranceIsNotStreamed) {
+  Case c;
+  c.options.axes["psi"].nodes.reset();
+  EXPECT_FALSE(is_streamed(c.model, c.ranges, c.options));
+  EXPECT_FALSE(fixed_axes(c.model, c.ranges, c.options));
+}
+
+TEST_F(StreamedTableFile, TableLargerThanTheDiskIsRefusedBeforeAnythingIsWritten) {
+  Case c;
+  for (auto& [name, axis] : c.options.axes)
+    axis.nodes = 10000;
+  try {
+    stream(c);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("error: the table of log_coulomb (10,000,000,000,000,000 "
+                                        "nodes: sigma_n_MPa 10000, psi 10000, v_rel_mm_s 10000, "
+                                        "T_contact_C 10000) needs 74505806.0 GiB on disk, "));
+  }
+  EXPECT_FALSE(fs::exists(directory.path("t")));
+}
+
+TEST_F(StreamedTableFile, TwoProcessesDoNotWriteTheSameTable) {
+  const Case c;
+  fs::create_directories(directory.path("t"));
+  const ChunkList other(work(".chunks"), "another job");
+  try {
+    stream(c);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(".chunks: error: another frictab is writing this table"));
+  }
+}
+
+TEST(StoredValues, FileThatIsCutShortIsAFaultThatNamesIt) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.write("v", std::string(100, 'x'));
+  const StoredValues values(file, "tables/t.h5", 8, 20);
+  std::vector<double> out(20);
+  try {
+    values.read(0, out);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "tables/t.h5: error: ends at byte 100, within its values\n"
+              "  hint: it was cut short: write it again, or take a copy");
+  }
+}
+
+// One value of the packed table changed by hand.
+TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
+  const test::TemporaryDirectory directory;
+  const Model model = test::plausible_model(*find_law("levanov"));
+  TableOptions options;
+  for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"})
+    options.axes[name].nodes = 60;
+  const Table table =
+      build_table(model, state_ranges(model, test::sample_data(model), options), options);
+  for (const Hdf5Storage& storage : {Hdf5Storage{600, 0, true}, Hdf5Storage{600, 6, true}}) {
+    const std::string file = directory.path("t.h5");
+    write_table(table, file, storage);
+    EXPECT_EQ(read_table(file).value, table.value);
+    EXPECT_EQ(read_table(file, 0).nodes(), table.nodes()); // left on disk, unpacked
+    std::string bytes = directory.read("t.h5");
+    const auto* value = reinterpret_cast<const char*>(&table.value[1234]);
+    const std::size_t at =
+        storage.compress ? 2 * bytes.size() / 3 : bytes.find(std::string(value, sizeof(double)));
+    ASSERT_LT(at, bytes.size());
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    directory.write("t.h5", bytes);
+    for (const std::size_t in_memory : {most_bytes_in_memory, std::size_t{0}})
+      try {
+        read_table(file, in_memory);
+        FAIL() << storage.compress << " " << in_memory;
+      } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  file +
+                      ": error: 'value' cannot be read: a chunk does not fit its checksum or its "
+                      "compression\n  hint: the file is damaged: write it again, or take a copy");
+      }
+  }
+}
+
+} // namespace
+} // namespace frictab
