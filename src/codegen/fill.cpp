@@ -124,7 +124,7 @@ namespace {
 void check_size(const Table& table, FaultList& faults) {
   std::size_t numbers = table.value.size();
   for (const TableAxis& axis : table.axes)
-    numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
+    numbers += axis.nodes.size() * (is_cubic(table) ? 18 : 2); // nodes, 1/width, cell polynomials
   if (numbers <= most_baked_numbers) return;
   const std::string remedy = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
   faults.add({},
