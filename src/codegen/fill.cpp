@@ -116,8 +116,10 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
 
 std::size_t baked_numbers(const Table& table) {
   std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
+  // Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
+  const std::size_t per_node = table.is_direct() ? 1 : is_cubic(table) ? 18 : 2;
   for (const TableAxis& axis : table.axes)
-    numbers += axis.nodes.size() * (is_cubic(table) ? 17 : 1);
+    numbers += axis.nodes.size() * per_node;
   if (!table.extension) return numbers;
   const LayeredFormula law = split_layer(*table.extension);
   return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);

@@ -57,7 +57,7 @@ struct Table {
   std::shared_ptr<const StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
-  std::string interpolation = "linear"; // linear | cubic: the spline of table/spline.h
+  std::string interpolation = "linear"; // linear | cubic: the spline of table/spline.h | none: direct
   Expr combine;                         // tau_R_MPa of "value", state names and constants
   std::optional<Expr>
       extension; // the law's own "value" (never its logarithm) of axes and constants
@@ -77,7 +77,7 @@ struct Table {
     const auto found = number_attributes.find("quantile");
     return found == number_attributes.end() ? 0.5 : found->second;
   }
-  bool is_direct() const { return value.empty() && !stored; }
+  bool is_direct() const { return interpolation == "none"; }
   std::vector<std::size_t> shape() const; // nodes per axis
   std::size_t nodes() const;              // their product; 0 in the direct form
   std::size_t bytes() const;              // values, nodes and constants as doubles

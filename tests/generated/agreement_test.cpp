@@ -62,6 +62,9 @@ TEST_P(Agreement, OfTheRoutineWithFrictabItselfOverAMillionPoints) {
 Table without_formula(Table table) {
   table.combine = Expr::symbol("value");
   table.constants.clear();
+  table.extension.reset();
+  for (TableAxis& axis : table.axes)
+    axis.below = axis.above = Outside::clamp;
   return table;
 }
 
@@ -70,7 +73,7 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
     const Table table = without_formula(sample.table);
-    if (table.axes.empty()) continue;
+    if (table.axes.empty() || table.is_direct()) continue;
     const ExportRequest request{table, "mm-t-s", {}};
     const test::States states(table, 20000, 17, 0.1);
     const std::vector<double> truth = test::expected(table, states);

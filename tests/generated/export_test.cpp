@@ -94,7 +94,7 @@ TEST(Export, RefusesTablesNoCompilerTakesAndNamesTheRemedy) {
   table.value.assign(200000, 1.0);
   for (const Exporter& exporter : all_exporters())
     EXPECT_THAT(refusal({table, "mm-t-s", {}}, exporter.name),
-                testing::AllOf(HasSubstr("needs 400,000 numbers in the source"),
+                testing::AllOf(HasSubstr("needs 600,000 numbers in the source"),
                                HasSubstr("table.interpolation = \"cubic\"")));
 }
 

@@ -3,15 +3,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "support/kernel_variant.h"
-#include "support/kinked_law.h"
 #include "table/axis_search.h"
-#include "table/drift.h"
 #include "table/spline.h"
 
 namespace frictab {
@@ -283,21 +280,6 @@ TEST(Kernels, OfSevenAndEightAxesReproduceMultilinearFunctions) {
         EXPECT_NEAR(by[d], truth / (1.5 * static_cast<double>(d + 3) + u[d]), 1000 * bound);
     }
   }
-}
-
-TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
-  const Model model = test::kinked_model();
-  const auto ranges = test::kinked_ranges();
-  TableOptions options;
-  options.tolerance_MPa = 0.01;
-  options.interpolation = "linear";
-  const Table table = build_table(model, ranges, options);
-  EXPECT_LE(table.nodes(), 300U);
-  const TableFunction function(table);
-  EXPECT_LE(worst_case(LawFunction(model, function.inputs()), function, ranges,
-                       probe_points(ranges, table.axes, 200000))
-                .drift_MPa,
-            0.01);
 }
 
 } // namespace

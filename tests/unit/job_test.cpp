@@ -177,7 +177,7 @@ repeatability = 0.03
 }
 
 TEST(Job, ReportsAllFaultsInTheOrderOfTheFile) {
-  const auto faults = faults_of("[table]\ntolerance_MPa = -1\nnodes = 3\n[data]\nskip_rows = "
+  const auto faults = faults_of("[table]\ntolerance_MPa = -1\nnodez = 3\n[data]\nskip_rows = "
                                 "\"x\"\ncolunms = 1\n[calibration]\nloss = \"L7\"\n");
   ASSERT_EQ(faults.size(), 6u);
   const std::vector<std::pair<std::size_t, std::size_t>> places{{2, 17}, {3, 1}, {4, 1},
