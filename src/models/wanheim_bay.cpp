@@ -19,8 +19,8 @@ Formula build(const Conventions& conventions) {
   const Expr q1 = (1.0 + std::numbers::pi / 2 + acos(f) + root * sqrt(1.0 + f)) /
                   (std::sqrt(3.0) * (1.0 + root));
   const Expr line = t1 / q1 * q;
-  // Below q1 the exponent is held at 1/2, so that the branch not taken stays finite, and smooth near
-  // q1: there its distance from the line is of second order, which bounds of drift live on.
+  // Below q1 the exponent is held at 1/2, so that the branch not taken stays finite, and smooth
+  // near q1: there its distance from the line is of second order, which bounds of drift live on.
   const Expr beyond = minimum(1.0 / root - 1.0 / (q1 * root) * q, 0.5); // (1 - q/q1)/root
   const Expr curve = t1 * (1.0 + root) - t1 * root * exp(beyond);
   const Expr tau = shear_yield_stress(conventions) * where_le(q, q1, line, curve);

@@ -57,8 +57,9 @@ struct Table {
   std::shared_ptr<const StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
-  std::string interpolation = "linear"; // linear | cubic: the spline of table/spline.h | none: direct
-  Expr combine;                         // tau_R_MPa of "value", state names and constants
+  std::string interpolation =
+      "linear"; // linear | cubic: the spline of table/spline.h | none: direct
+  Expr combine; // tau_R_MPa of "value", state names and constants
   std::optional<Expr>
       extension; // the law's own "value" (never its logarithm) of axes and constants
   std::map<std::string, double> constants; // of combine and extension

@@ -91,6 +91,7 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
   std::size_t well = 0, faults = 0;
   for (const test::NamedTable& sample : test::sample_tables())
     for (const Hdf5Storage& storage : {Hdf5Storage{}, Hdf5Storage{12, 3, true}}) {
+      if (sample.table.is_direct()) continue; // is no file
       write_table(sample.table, file, storage);
       const std::string valid = read_file(file);
       const std::size_t in_memory = storage.chunked() ? 0 : most_bytes_in_memory;

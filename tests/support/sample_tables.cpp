@@ -179,6 +179,7 @@ Table sides_table() {
 Table direct_table() {
   Table table = sides_table();
   table.model = "direct";
+  table.interpolation = "none";
   table.value.clear();
   for (TableAxis& a : table.axes)
     a.nodes = {a.nodes.front(), a.nodes.back()};
@@ -190,6 +191,7 @@ Table direct_network() {
   const Model model = test::network_model(3, 4);
   Table table;
   table.model = "network";
+  table.interpolation = "none";
   table.axes = {axis("sigma_n_MPa", false, {500, 2750}), axis("psi", true, {1, 20}),
                 axis("v_rel_mm_s", true, {5, 500}), axis("T_contact_C", false, {20, 200}),
                 axis("s_mm", false, {0, 40})};

@@ -334,28 +334,42 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      integer naxes, nnodes, nvals, ncorn
-      parameter (naxes = 3, nnodes = 10)
-      parameter (nvals = 36, ncorn = 4)
-      double precision u(naxes)
-      integer d, cell, size, base, at, i, corn
-      integer nax(naxes), off(naxes)
-      integer stride(naxes)
-      double precision corner(ncorn), w(naxes), wd
-      double precision ps(naxes), un(nnodes), tv(nvals)
-      save nax, off, ps, un, tv
-C     nodes per axis, where each begins, 1/step where even
-      data (nax(i),i=1,3)/
-     & 3,4,3/
-      data (off(i),i=1,3)/
-     & 1,4,8/
-      data (ps(i),i=1,3)/
-     & 0.0D0,0.6514417228548778D0,0.0D0/
-C     nodes (logarithms on logarithmic axes)
+      double precision u(3), x, t
+      integer i, at
+      double precision sc1, sh1
+      parameter (sc1 = 18.771101810111013D0)
+      parameter (sh1 = 116.65504132542335D0)
+      double precision sc2, sh2
+      parameter (sc2 = 0.6514417228548778D0)
+      parameter (sh2 = 1.048455016504028D0)
+      double precision sc3, sh3
+      parameter (sc3 = 0.17777777777777778D0)
+      parameter (sh3 = 3.555555555555556D0)
+      double precision w1, v1
+      double precision p1a, q1a
+      double precision w2, v2
+      double precision p2a, q2a
+      double precision p2b, q2b
+      double precision w3, v3
+      double precision un(10), pc(7)
+      double precision tv(36)
+      save un, pc, tv
+      integer gd(66)
+      save gd
+C     nodes (logarithms on logarithmic axes), 1/width of cells
       data (un(i),i=1,10)/
      & 6.214608098422191D0,7.003065458786462D0,7.919356190660617D0,
      & 1.6094379124341003D0,3.1444946410967973D0,4.679551369759494D0,
      & 6.214608098422191D0,20.0D0,90.0D0,200.0D0/
+      data (pc(i),i=1,7)/
+     & 1.2682994037090305D0,1.0913566679372915D0,0.6514417228548778D0,
+     & 0.6514417228548779D0,0.6514417228548777D0,0.014285714285714285D0,
+     & 0.00909090909090909D0/
+C     cells by the coordinate's place
+      data (gd(i),i=1,66)/
+     & 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,
+     & 1,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,
+     & 1,1/
 C     ln mu, last axis fastest
       data (tv(i),i=1,36)/
      & -1.2490773765268968D0,-1.6915354295675242D0,
@@ -374,72 +388,70 @@ C     ln mu, last axis fastest
      & -2.5547702785911506D0,-1.8162371500494314D0,
      & -1.6385669219835477D0,-3.0003442743885054D0,
      & -1.9792821142072454D0/
-      base = 1
-      size = 1
-      do d = naxes, 1, -1
-        call ftloc(nax(d), ps(d), un(off(d)), u(d), cell, w(d))
-        stride(d) = size
-        base = base + cell*size
-        size = size*nax(d)
-      end do
-      corn = ncorn
-      wd = w(naxes)
-      do i = 0, corn - 1
-        at = base
-        do d = 1, naxes - 1
-          if (btest(i, naxes-1-d)) at = at + stride(d)
-        end do
-        corner(i+1) = (1.0D0 - wd)*tv(at) + wd*tv(at+1)
-      end do
-      do d = naxes - 1, 1, -1
-        corn = corn/2
-        wd = w(d)
-        do i = 1, corn
-          corner(i) = (1.0D0 - wd)*corner(2*i-1) + wd*corner(2*i)
-        end do
-      end do
-      ftintp = corner(1)
-      return
-      end
-C
-C     The cell (from 0) of u among n nodes, and the weight of its
-C     upper node; at the nearest edge where u lies outside.
-      subroutine ftloc(n, ps, x, u, cell, w)
-      implicit none
-      integer n, cell, low, high, middle
-      double precision ps, x(n), u, w
-      if (u .le. x(1)) then
-        cell = 0
-        w = 0.0D0
-        return
-      end if
-      if (u .ge. x(n)) then
-        cell = n - 2
-        w = 1.0D0
-        return
-      end if
-      if (ps .gt. 0.0D0) then
-        low = int((u - x(1))*ps)
-        if (low .gt. n - 2) low = n - 2
-        if (u .lt. x(low+1)) then
-          low = low - 1
-        else if (u .gt. x(low+2)) then
-          low = low + 1
-        end if
+      at = 1
+C     axis 1: cell i (from 0), weight t of its upper node
+      x = u(1)
+      if (x .le. un(1)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(3)) then
+        i = 1
+        t = 1.0D0
       else
-        low = 0
-        high = n - 1
-        do while (high - low .gt. 1)
-          middle = (low + high)/2
-          if (x(middle+1) .le. u) then
-            low = middle
-          else
-            high = middle
-          end if
+        i = int(x*sc1 - sh1)
+        i = gd(i+1)
+        do while (x .ge. un(i+2))
+          i = i + 1
         end do
+        t = (x - un(i+1))*pc(i+1)
       end if
-      cell = low
-      w = (u - x(low+1))/(x(low+2) - x(low+1))
+      at = at + i*12
+      w1 = t
+      v1 = 1.0D0 - t
+C     axis 2: cell i (from 0), weight t of its upper node
+      x = u(2)
+      if (x .le. un(4)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(7)) then
+        i = 2
+        t = 1.0D0
+      else
+        i = int(x*sc2 - sh2)
+        do while (x .ge. un(i+5))
+          i = i + 1
+        end do
+        t = (x - un(i+4))*pc(i+3)
+      end if
+      at = at + i*3
+      w2 = t
+      v2 = 1.0D0 - t
+C     axis 3: cell i (from 0), weight t of its upper node
+      x = u(3)
+      if (x .le. un(8)) then
+        i = 0
+        t = 0.0D0
+      else if (x .ge. un(10)) then
+        i = 1
+        t = 1.0D0
+      else
+        i = int(x*sc3 - sh3)
+        i = gd(i+34)
+        do while (x .ge. un(i+9))
+          i = i + 1
+        end do
+        t = (x - un(i+8))*pc(i+6)
+      end if
+      at = at + i*1
+      w3 = t
+      v3 = 1.0D0 - t
+      p2a = v2*tv(at) + w2*tv(at+3)
+      q2a = v2*tv(at+1) + w2*tv(at+4)
+      p2b = v2*tv(at+12) + w2*tv(at+15)
+      q2b = v2*tv(at+13) + w2*tv(at+16)
+      p1a = v1*p2a + w1*p2b
+      q1a = v1*q2a + w1*q2b
+      ftintp = v3*p1a + w3*q1a
       return
       end
 C

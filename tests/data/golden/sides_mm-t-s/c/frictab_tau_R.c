@@ -6,118 +6,248 @@
 /* Multilinear interpolation on a rectangular grid, C99, no allocation, no state, thread-safe.
  *
  * This one text is compiled into frictab and copied into every generated C source, so that what
- * was verified is what runs. Outside the grid the nearest edge is used (clamped) and reported;
- * NaN in gives NaN out. Compile without -ffast-math and with -ffp-contract=off. */
+ * was verified is what runs. Everything is inlined: where the axes are constants, sizes, strides
+ * and searches become constants of the code. Corners are read as pairs of neighbours on the last
+ * axis, in vectors where the compiler has them; the bits are the same without (FT_PLAIN).
+ * Outside the grid the nearest edge is used (clamped) and reported; NaN in gives NaN out. Compile
+ * without -ffast-math and with -ffp-contract=off. */
 #ifndef FRICTAB_KERNEL_H
 #define FRICTAB_KERNEL_H
 
 #include <math.h>
+#if defined(__AVX__) && !defined(FT_PLAIN)
+#include <immintrin.h>
+#elif defined(__SSE2__) && !defined(FT_PLAIN)
+#include <emmintrin.h>
+#endif
 
 #define FT_MAX_AXES 8
 
+#if defined(__GNUC__)
+#define FT_INLINE static inline __attribute__((always_inline, unused))
+#else
+#define FT_INLINE static inline
+#endif
+
 /* One axis: n >= 2 ascending nodes u in the axis coordinate (x, or ln x where the axis is
- * logarithmic). per_step > 0: the nodes are evenly spaced, 1/step, and are found without search. */
+ * logarithmic), and per cell 1/(u[i + 1] - u[i]). How a cell is found (the same one each way):
+ * scale > 0: (int)(u * scale - shift) is the cell or one below it, or where there is a guide, the
+ * place in it of such a cell; scale = 0: by bisection. */
 typedef struct {
   int n;
-  double per_step;
+  long stride; /* of the values along this axis */
   const double* u;
+  const double* per_cell;
+  double scale, shift;
+  const unsigned short* guide;
 } ft_axis;
 
-/* NaN in either operand gives NaN. */
-static inline double ft_min(double a, double b) {
-  return (b < a || b != b) ? b : a;
+/* Values, row-major, last axis fastest; one of the two is null. Arithmetic is double in either. */
+typedef struct {
+  const double* f64;
+  const float* f32;
+} ft_values;
+
+/* NaN in either operand gives NaN. The comparison stands alone, so that it becomes an instruction
+ * instead of a branch: which side of a kink a state lies on is hard to predict. */
+FT_INLINE double ft_min(double a, double b) {
+  const double least = b < a ? b : a;
+  return b != b ? b : least;
 }
-static inline double ft_max(double a, double b) {
-  return (b > a || b != b) ? b : a;
+FT_INLINE double ft_max(double a, double b) {
+  const double most = b > a ? b : a;
+  return b != b ? b : most;
 }
-static inline double ft_where_le(double a, double b, double x, double y) {
+FT_INLINE double ft_where_le(double a, double b, double x, double y) {
   if (a != a) return a;
   if (b != b) return b;
   return a <= b ? x : y;
 }
 
 /* Coordinate of a logarithmic axis; zero and negative values lie below every axis. */
-static inline double ft_log(double x) {
-  return x > 0.0 ? log(x) : (x == x ? -HUGE_VAL : x);
+FT_INLINE double ft_log(double x) {
+  return isgreater(x, 0.0) ? log(x) : (x == x ? -HUGE_VAL : x);
+}
+
+/* Two numbers. */
+#if defined(__GNUC__) && !defined(FT_PLAIN)
+typedef double ft_pair __attribute__((vector_size(16)));
+FT_INLINE ft_pair ft_pair_of(double a, double b) {
+  const ft_pair p = {a, b};
+  return p;
+}
+FT_INLINE double ft_get(ft_pair p, int i) {
+  return p[i];
+}
+FT_INLINE ft_pair ft_plus(ft_pair a, ft_pair b) {
+  return a + b;
+}
+FT_INLINE ft_pair ft_minus(ft_pair a, ft_pair b) {
+  return a - b;
+}
+FT_INLINE ft_pair ft_times(double w, ft_pair a) {
+  return w * a;
+}
+#else
+typedef struct {
+  double of[2];
+} ft_pair;
+FT_INLINE ft_pair ft_pair_of(double a, double b) {
+  ft_pair p;
+  p.of[0] = a;
+  p.of[1] = b;
+  return p;
+}
+FT_INLINE double ft_get(ft_pair p, int i) {
+  return p.of[i];
+}
+FT_INLINE ft_pair ft_plus(ft_pair a, ft_pair b) {
+  return ft_pair_of(a.of[0] + b.of[0], a.of[1] + b.of[1]);
+}
+FT_INLINE ft_pair ft_minus(ft_pair a, ft_pair b) {
+  return ft_pair_of(a.of[0] - b.of[0], a.of[1] - b.of[1]);
+}
+FT_INLINE ft_pair ft_times(double w, ft_pair a) {
+  return ft_pair_of(w * a.of[0], w * a.of[1]);
+}
+#endif
+
+FT_INLINE ft_pair ft_load(ft_values v, long at) {
+  if (!v.f32) return ft_pair_of(v.f64[at], v.f64[at + 1]);
+#if defined(__SSE2__) && !defined(FT_PLAIN)
+  return (ft_pair)_mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64((const __m128i*)(v.f32 + at))));
+#else
+  return ft_pair_of(v.f32[at], v.f32[at + 1]);
+#endif
+}
+
+/* Between a and b, exact at both. */
+FT_INLINE double ft_between(double w, double a, double b) {
+  return (1.0 - w) * a + w * b;
+}
+FT_INLINE ft_pair ft_mix(double w, ft_pair a, ft_pair b) {
+  return ft_plus(ft_times(1.0 - w, a), ft_times(w, b));
+}
+
+/* The cell of u, u[0] < u < u[n - 1]. */
+FT_INLINE int ft_cell(const ft_axis* axis, double u) {
+  const double* x = axis->u;
+  int i = 0, high = axis->n - 1;
+  if (axis->n == 2) return 0;
+  if (axis->scale > 0.0) {
+    i = (int)(u * axis->scale - axis->shift);
+    if (axis->guide) i = axis->guide[i];
+    while (u >= x[i + 1])
+      ++i;
+    return i;
+  }
+  while (high - i > 1) {
+    const int middle = (i + high) / 2;
+    if (x[middle] <= u)
+      i = middle;
+    else
+      high = middle;
+  }
+  return i;
 }
 
 /* The cell of u and the weight of its upper node. Returns 1 where u lies outside the axis. */
-static inline int ft_locate(const ft_axis* axis, double u, int* cell, double* weight) {
+FT_INLINE int ft_locate(const ft_axis* axis, double u, int* cell, double* weight) {
   const double* x = axis->u;
   const int last = axis->n - 1;
-  int i = 0;
-  *cell = 0;
-  if (u != u) {
-    *weight = u;
+  if (isgreater(u, x[0]) && isless(u, x[last])) {
+    const int i = ft_cell(axis, u);
+    *cell = i;
+    *weight = (u - x[i]) * axis->per_cell[i];
     return 0;
   }
-  if (u <= x[0]) {
-    *weight = 0.0;
-    return u < x[0];
-  }
-  if (u >= x[last]) {
-    *cell = last - 1;
-    *weight = 1.0;
-    return u > x[last];
-  }
-  if (axis->per_step > 0.0) {
-    i = (int)((u - x[0]) * axis->per_step);
-    if (i > last - 1) i = last - 1;
-    if (u < x[i])
-      --i; /* rounding at a node */
-    else if (u > x[i + 1])
-      ++i;
-  } else {
-    int high = last;
-    while (high - i > 1) {
-      const int middle = (i + high) / 2;
-      if (x[middle] <= u)
-        i = middle;
-      else
-        high = middle;
-    }
-  }
-  *cell = i;
-  *weight = (u - x[i]) / (x[i + 1] - x[i]);
-  return 0;
+  *cell = 0;
+  *weight = u;
+  if (u != u) return 0;
+  *weight = 0.0;
+  if (u <= x[0]) return u < x[0];
+  *cell = last - 1;
+  *weight = 1.0;
+  return u > x[last];
 }
 
-/* value: row-major, last axis fastest; u: one coordinate per axis. Bit d of *outside is set where
- * axis d was clamped (outside may be NULL). Zero axes: value[0]. */
-static inline double ft_interpolate(int axes, const ft_axis* axis, const double* value,
-                                    const double* u, unsigned* outside) {
-  double corner[1 << (FT_MAX_AXES - 1)];
-  double weight[FT_MAX_AXES];
-  int stride[FT_MAX_AXES];
-  long base = 0;
-  unsigned flags = 0u;
-  int d, size = 1, corners, i;
-  if (axes == 0) {
-    if (outside) *outside = 0u;
-    return value[0];
-  }
-  for (d = axes - 1; d >= 0; --d) {
-    int cell;
-    if (ft_locate(&axis[d], u[d], &cell, &weight[d])) flags |= 1u << d;
-    stride[d] = size;
-    base += (long)cell * size;
-    size *= axis[d].n;
-  }
-  if (outside) *outside = flags;
-  corners = 1 << (axes - 1);
-  for (i = 0; i < corners; ++i) { /* along the last axis first: its nodes are neighbours */
-    long at = base;
-    for (d = 0; d < axes - 1; ++d)
-      if (i & (1 << (axes - 2 - d))) at += stride[d];
-    corner[i] = (1.0 - weight[axes - 1]) * value[at] + weight[axes - 1] * value[at + 1];
-  }
-  for (d = axes - 2; d >= 0; --d) {
-    corners /= 2;
-    for (i = 0; i < corners; ++i)
-      corner[i] = (1.0 - weight[d]) * corner[2 * i] + weight[d] * corner[2 * i + 1];
-  }
-  return corner[0];
+/* Where n axes are read: first corner, cells and weights, bits of clamped axes. */
+typedef struct {
+  double w[FT_MAX_AXES];
+  int cell[FT_MAX_AXES];
+  long at;
+  unsigned outside;
+} ft_place;
+
+FT_INLINE void ft_place_0(const ft_axis* axis, const double* u, ft_place* place) {
+  (void)axis;
+  (void)u;
+  place->at = 0;
+  place->outside = 0u;
 }
+#define FT_PLACE(N, D)                                                                             \
+  FT_INLINE void ft_place_##N(const ft_axis* axis, const double* u, ft_place* place) {             \
+    ft_place_##D(axis, u, place);                                                                  \
+    if (ft_locate(axis + D, u[D], &place->cell[D], &place->w[D])) place->outside |= 1u << D;       \
+    place->at += place->cell[D] * axis[D].stride;                                                  \
+  }
+FT_PLACE(1, 0)
+FT_PLACE(2, 1)
+FT_PLACE(3, 2)
+FT_PLACE(4, 3)
+FT_PLACE(5, 4)
+FT_PLACE(6, 5)
+FT_PLACE(7, 6)
+FT_PLACE(8, 7)
+
+/* Along all of N axes but the last: the pair that is left on that one. Up to 5 axes, 16 pairs, are
+ * unrolled; further ones are loops, so that the code stays small. */
+FT_INLINE ft_pair ft_corners_1(const ft_axis* axis, const double* w, ft_values v, long at) {
+  (void)axis;
+  (void)w;
+  return ft_load(v, at);
+}
+#define FT_CORNERS(N, D)                                                                           \
+  FT_INLINE ft_pair ft_corners_##N(const ft_axis* axis, const double* w, ft_values v, long at) {   \
+    return ft_mix(w[0], ft_corners_##D(axis + 1, w + 1, v, at),                                    \
+                  ft_corners_##D(axis + 1, w + 1, v, at + axis->stride));                          \
+  }
+FT_CORNERS(2, 1)
+FT_CORNERS(3, 2)
+FT_CORNERS(4, 3)
+FT_CORNERS(5, 4)
+#define FT_CORNERS_LOOP(N, D)                                                                      \
+  FT_INLINE ft_pair ft_corners_##N(const ft_axis* axis, const double* w, ft_values v, long at) {   \
+    ft_pair end[2];                                                                                \
+    int j;                                                                                         \
+    for (j = 0; j < 2; ++j)                                                                        \
+      end[j] = ft_corners_##D(axis + 1, w + 1, v, at + j * axis->stride);                          \
+    return ft_mix(w[0], end[0], end[1]);                                                           \
+  }
+FT_CORNERS_LOOP(6, 5)
+FT_CORNERS_LOOP(7, 6)
+FT_CORNERS_LOOP(8, 7)
+
+/* ft_linear_N: the value at u, one coordinate per axis. Bit d of *outside is set where axis d was
+ * clamped (outside may be null). */
+#define FT_LINEAR(N, LAST)                                                                         \
+  FT_INLINE double ft_linear_##N(const ft_axis* axis, ft_values v, const double* u,                \
+                                 unsigned* outside) {                                              \
+    ft_place place;                                                                                \
+    ft_pair ends;                                                                                  \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ends = ft_corners_##N(axis, place.w, v, place.at);                                             \
+    return ft_between(place.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
+  }
+FT_LINEAR(1, 0)
+FT_LINEAR(2, 1)
+FT_LINEAR(3, 2)
+FT_LINEAR(4, 3)
+FT_LINEAR(5, 4)
+FT_LINEAR(6, 5)
+FT_LINEAR(7, 6)
+FT_LINEAR(8, 7)
 
 #endif
 
@@ -125,21 +255,41 @@ static inline double ft_interpolate(int axes, const ft_axis* axis, const double*
 static const double ft_u0[3] = {
     6.214608098422191, 7.003065458786462, 7.919356190660617
 };
+static const double ft_per_cell0[2] = {
+    1.2682994037090305, 1.0913566679372915
+};
+static const unsigned short ft_guide0[33] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+    1, 1
+};
 
 /* axis 1: ln v_rel_mm_s */
 static const double ft_u1[4] = {
     1.6094379124341003, 3.1444946410967973, 4.679551369759494, 6.214608098422191
+};
+static const double ft_per_cell1[3] = {
+    0.6514417228548778, 0.6514417228548779, 0.6514417228548777
 };
 
 /* axis 2: T_contact_C */
 static const double ft_u2[3] = {
     20.0, 90.0, 200.0
 };
+static const double ft_per_cell2[2] = {
+    0.014285714285714285, 0.00909090909090909
+};
+static const unsigned short ft_guide2[33] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+    1, 1
+};
 
 static const ft_axis ft_axes[3] = {
-    {3, 0.0, ft_u0},
-    {4, 0.6514417228548778, ft_u1},
-    {3, 0.0, ft_u2},
+    {3, 12, ft_u0, ft_per_cell0,
+     18.771101810111013, 116.65504132542335, ft_guide0},
+    {4, 3, ft_u1, ft_per_cell1,
+     0.6514417228548778, 1.048455016504028, 0},
+    {3, 1, ft_u2, ft_per_cell2,
+     0.17777777777777778, 3.555555555555556, ft_guide2},
 };
 
 /* ln mu, last axis fastest */
@@ -154,6 +304,7 @@ static const double ft_value[36] = {
     -2.1629320605487634, -1.4101322801601113, -2.2153899458851645, -2.5547702785911506,
     -1.8162371500494314, -1.6385669219835477, -3.0003442743885054, -1.9792821142072454
 };
+static const ft_values ft_table = {ft_value, 0};
 
 /* The law's own mu, by its formula; held at the ends of the range on sides that clamp */
 static double ft_piece(
@@ -181,7 +332,7 @@ static double ft_piece(
   return t16;
 }
 
-static double ft_tau(
+FT_INLINE double ft_tau(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa,
     unsigned* outside) {
@@ -195,14 +346,12 @@ static double ft_tau(
   (void)psi;
   (void)s_mm;
   *outside = 0u;
-  if (x1 != x1) return x1; /* NaN in, NaN out */
-  if (x3 != x3) return x3; /* NaN in, NaN out */
-  if (x4 != x4) return x4; /* NaN in, NaN out */
   if (x6 != x6) return x6; /* NaN in, NaN out */
   u[0] = ft_log(x1);
   u[1] = ft_log(x3);
   u[2] = x4;
-  value = ft_interpolate(3, ft_axes, ft_value, u, outside);
+  value = ft_linear_3(ft_axes, ft_table, u, outside);
+  if (value != value) return value; /* NaN in one of the axes */
   value = exp(value);
   if (x3 > 500.0005) return (double)NAN; /* outside = error */
   if (x4 < 19.99998) return (double)NAN; /* outside = error */
