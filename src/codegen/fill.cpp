@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "data/quantity.h"
+#include "table/bound.h"
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
 
@@ -266,7 +267,7 @@ std::string drift_text(const Table& table) {
       fmt::format("{:.3g} MPa, the largest found over the whole range", worst->second);
   if (const auto proven = table.number_attributes.find("proven_drift_MPa");
       proven != table.number_attributes.end())
-    text += fmt::format("; proven: nowhere above {:.3g} MPa", proven->second);
+    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(proven->second));
   return text;
 }
 

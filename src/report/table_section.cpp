@@ -9,6 +9,7 @@
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
+#include "table/bound.h"
 #include "verify/beyond.h"
 
 namespace frictab {
@@ -89,7 +90,7 @@ std::string drift_figures(double value) {
 }
 
 std::string proven_text(const DriftRecord& r) {
-  if (r.proven_MPa) return drift_figures(*r.proven_MPa);
+  if (r.proven_MPa) return drift_figures(rounded_up(*r.proven_MPa));
   return r.not_proven.empty() ? "\u2013" : "not available: " + svg::escape(r.not_proven);
 }
 

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "io/json.h"
 #include "run/pipeline.h"
+#include "table/bound.h"
 #include "verify/beyond.h"
 #include "verify/verify.h"
 
@@ -168,7 +169,7 @@ void add_drift_line(std::string& out, const Verification& verification, const st
       out += fmt::format("{:>{}.3g}", r.worst_case_MPa, width);
       on_rows = std::max(on_rows, r.rows.max_abs);
       if (r.proven_MPa)
-        proven = *r.proven_MPa < 1e-9 ? "<1e-9" : fmt::format("{:.3g}", *r.proven_MPa);
+        proven = *r.proven_MPa < 1e-9 ? "<1e-9" : fmt::format("{:.3g}", rounded_up(*r.proven_MPa));
       if (!r.not_proven.empty())
         not_run += fmt::format("  {} not proven: {}\n", model, r.not_proven);
       if (r.n_rows > 0)

@@ -400,6 +400,12 @@ DriftBound bound_drift(const Model& model, const Table& table,
   return out;
 }
 
+double rounded_up(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return std::ceil(value / unit * (1 - 1e-12)) * unit;
+}
+
 ProvenDrift prove_drift(const Model& model, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found,
                         double allowed_MPa) {

@@ -39,4 +39,7 @@ struct ProvenDrift {
 ProvenDrift prove_drift(const Model& model, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa);
 
+// Three significant digits, never below the value: how a bound is shown.
+double rounded_up(double value);
+
 } // namespace frictab

@@ -104,6 +104,13 @@ TEST(Bound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
   EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
 }
 
+TEST(Bound, IsShownRoundedUpNeverDown) {
+  EXPECT_DOUBLE_EQ(rounded_up(0.50241), 0.503);
+  EXPECT_DOUBLE_EQ(rounded_up(0.5), 0.5);
+  EXPECT_DOUBLE_EQ(rounded_up(1.0001e-7), 1.01e-7);
+  EXPECT_EQ(rounded_up(0), 0);
+}
+
 TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
   const Case one = of_law("wanheim_bay", "cubic");
   BoundOptions options;
