@@ -140,13 +140,14 @@ Explanation about_table_layout() {
       {},
       "datasets and attributes",
       {}};
-  out.fields = {{"tau_R", "the formula `combine` of the interpolated value (exp of it where its "
-                          "transform is log), the states and the constants"},
-                {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used"},
-                {"not needed",
-                 "all other attributes; frictab writes model, data_hash, "
-                 "data_origin, tool_version, tolerance_MPa, worst_case_MPa, refinement "
-                 "and others to the root"}};
+  out.fields = {
+      {"tau_R", "the formula `combine` of the interpolated value (exp of it where its "
+                "transform is log), the states and the constants"},
+      {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used, or what "
+               "outside_low and outside_high say"},
+      {"not needed", "all other attributes; frictab writes model, data_hash, "
+                     "data_origin, tool_version, tolerance_MPa, worst_case_MPa, refinement "
+                     "and others to the root"}};
   out.items = {
       {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
       {"value: quantity", "mu or tau_R: what is tabulated", {}},
@@ -165,6 +166,13 @@ Explanation about_table_layout() {
       {"AXIS: units", "the canonical unit of that quantity, 1 for a number", {}},
       {"AXIS: transform", "linear, or log where it is interpolated in ln", {}},
       {"AXIS: kinks", "optional, cubic only: nodes at which the spline bends, in one text", {}},
+      {"AXIS: outside_low, outside_high",
+       "optional, what a query beyond that end gets: clamp (as without), error or law",
+       {}},
+      {"value: extension",
+       "where a side says law: the law's own `value` (never its ln) as an expression of the axes "
+       "and constants; a long one goes on in extension_2, extension_3, ...",
+       {}},
       {"/: range_low_STATE, range_high_STATE",
        "optional: range of a state of combine that is no axis, for verify",
        {}},

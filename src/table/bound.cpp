@@ -14,6 +14,7 @@
 #include "expr/taylor_model.h"
 #include "table/cell_polynomial.h"
 #include "table/drift.h"
+#include "table/grid.h"
 
 namespace frictab {
 
@@ -49,13 +50,6 @@ std::vector<std::string> axis_names(const Table& table) {
   std::vector<std::string> names;
   for (const TableAxis& axis : table.axes)
     names.push_back(axis.name);
-  return names;
-}
-
-std::vector<std::string> with_value(const std::vector<StateRange>& ranges) {
-  std::vector<std::string> names{"value"};
-  for (const StateRange& range : ranges)
-    names.push_back(range.name);
   return names;
 }
 
@@ -153,13 +147,6 @@ public:
   }
 
 private:
-  static std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
-    std::vector<std::string> names;
-    for (const StateRange& range : ranges)
-      names.push_back(range.name);
-    return names;
-  }
-
   std::size_t axis_of(std::size_t range) const {
     const auto found = std::find(range_of_axis_.begin(), range_of_axis_.end(), range);
     return static_cast<std::size_t>(found - range_of_axis_.begin());

@@ -30,6 +30,15 @@ double straight(const std::vector<double>& from, const std::vector<double>& to, 
   return to[i - 1] + (to[i] - to[i - 1]) * std::clamp(w, 0.0, 1.0);
 }
 
+std::vector<const double*> pointers(const std::vector<std::vector<double>>& columns) {
+  std::vector<const double*> out;
+  for (const auto& column : columns)
+    out.push_back(column.data());
+  return out;
+}
+
+} // namespace
+
 std::vector<std::string> with_value(const std::vector<StateRange>& ranges) {
   std::vector<std::string> row{"value"};
   for (const StateRange& range : ranges)
@@ -42,15 +51,6 @@ std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
   row.erase(row.begin());
   return row;
 }
-
-std::vector<const double*> pointers(const std::vector<std::vector<double>>& columns) {
-  std::vector<const double*> out;
-  for (const auto& column : columns)
-    out.push_back(column.data());
-  return out;
-}
-
-} // namespace
 
 Pieces::Pieces(const Model& model, const std::vector<StateRange>& ranges)
     : names(names_of(ranges)),

@@ -11,6 +11,10 @@
 
 namespace frictab {
 
+// Names of the ranges, and the same behind "value": the columns of the two programs below.
+std::vector<std::string> names_of(const std::vector<StateRange>& ranges);
+std::vector<std::string> with_value(const std::vector<StateRange>& ranges);
+
 // The tabulated piece of a law, and tau_R from it, as functions of all states of its ranges.
 struct Pieces {
   Pieces(const Model& model, const std::vector<StateRange>& ranges);

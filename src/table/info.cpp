@@ -9,6 +9,8 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/json.h"
+#include "table/bound.h"
+#include "table/outside.h"
 #include "table/states.h"
 
 namespace frictab {
@@ -57,8 +59,10 @@ void add_axes(std::string& out, const Table& table) {
                     spacing_of(axis), axis.log ? "ln " : "", known ? known->symbol : axis.name);
     for (std::size_t i = 0; i < axis.kinks.size(); ++i)
       out += fmt::format("{} {:g}", i ? "," : "; kinks at", axis.kinks[i]);
-    const std::string outside = attribute(table, "outside_" + axis.name);
-    out += (outside.empty() ? "" : "; outside: " + outside) + "\n";
+    if (axis.below != Outside::clamp || axis.above != Outside::clamp)
+      out += fmt::format("; outside: {} below, {} above", outside_name(axis.below),
+                         outside_name(axis.above));
+    out += "\n";
   }
   for (const std::string& name : table.inputs())
     if (!find_axis(table, name)) {
@@ -76,6 +80,8 @@ void add_drift(std::string& out, const Table& table) {
   if (!std::isnan(worst))
     out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", worst,
                        place.empty() ? "" : ", at " + place);
+  if (const double proven = number(table, "proven_drift_MPa"); !std::isnan(proven))
+    out += fmt::format("Proven: nowhere above {:.3g} MPa\n", rounded_up(proven));
 }
 
 } // namespace
@@ -113,6 +119,7 @@ std::string info_json(const TableDescription& description, const std::string& fi
                     {"transform", axis.log ? "log" : "linear"},
                     {"spacing", spacing_of(axis)},
                     {"kinks", axis.kinks},
+                    {"outside", {outside_name(axis.below), outside_name(axis.above)}},
                     {"nodes", axis.nodes}});
   nlohmann::ordered_json j = {{"schema", "frictab/table_info/1"},
                               {"file", file},

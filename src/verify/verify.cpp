@@ -56,12 +56,10 @@ Subjects prepare(const VerifyInput& input) {
   const auto ranges = table_ranges(input.table, input.rows, input.table_name);
   s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
   s.worst = worst_case(law, table, ranges, s.range);
-  if (input.prove) {
-    ProvenDrift proven =
-        prove_drift(input.model, input.table, ranges, std::move(s.worst), input.max_drift_MPa);
-    s.worst = std::move(proven.worst);
-    s.bound = std::move(proven.bound);
-  }
+  ProvenDrift proven =
+      prove_drift(input.model, input.table, ranges, std::move(s.worst), input.max_drift_MPa);
+  s.worst = std::move(proven.worst);
+  s.bound = std::move(proven.bound);
   States worst;
   for (const double x : s.worst.state)
     worst.push_back({x});

@@ -17,7 +17,6 @@ struct VerifyInput {
   const Dataset* rows = nullptr; // validation rows; may be absent
   double max_drift_MPa = 0.5;
   std::size_t samples = 200000; // points over the whole range
-  bool prove = true;            // a guaranteed bound of the table's drift besides the largest found
 };
 
 // Compares the table, then each variant of each bundle. A variant whose compiler is absent is
