@@ -212,7 +212,7 @@ void Pipeline::tabulate() {
     // The drift a user can rely on is measured before the file is written.
     const VerifyInput input{model,         table,           "the new table",
                             &*validation_, drift_allowed(), job_.verify.samples};
-    const DriftRecord drift = frictab::verify(input, {}).front();
+    const DriftRecord& drift = compared_[table.model] = frictab::verify(input, {}).front();
     table.number_attributes["worst_case_MPa"] = drift.worst_case_MPa;
     if (!drift.passed && !job_.table.nodes && !job_.table.max_bytes)
       missed_.push_back(fmt::format(
@@ -323,8 +323,11 @@ void Pipeline::verify() {
       sources.push_back({exporter, {form, job_.exports.units, job_.exports.inputs}, bundle});
     }
     const std::string name = job_.directory + "/tables/" + table.model + ".h5";
+    const auto known = compared_.find(table.model);
     const auto records =
-        frictab::verify({model, table, name, &*validation_, allowed, job_.verify.samples}, sources);
+        frictab::verify({model, table, name, &*validation_, allowed, job_.verify.samples,
+                         known == compared_.end() ? nullptr : &known->second},
+                        sources);
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     progress.tick();
   }

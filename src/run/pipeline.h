@@ -69,6 +69,7 @@ private:
   std::optional<Dataset> validation_;
   std::optional<Calibration> calibration_;
   std::vector<Table> tables_;
+  std::map<std::string, DriftRecord> compared_; // each new table with its law, by name
   std::vector<std::string> missed_;
   bool have_tables_ = false;
   std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory

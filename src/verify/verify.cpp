@@ -31,8 +31,7 @@ struct Subjects {
   Probe rows;
   RowsBeyond beyond;
   Probe range;
-  WorstCase worst;
-  DriftBound bound;
+  ProvenDrift proven; // empty where the table's own record is known
 };
 
 Probe probe(const LawFunction& law, const TableFunction& table, States states) {
@@ -55,14 +54,16 @@ Subjects prepare(const VerifyInput& input) {
   const TableFunction table(input.table);
   const auto ranges = table_ranges(input.table, input.rows, input.table_name);
   s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
-  s.worst = worst_case(law, table, ranges, s.range);
-  ProvenDrift proven =
-      prove_drift(input.model, input.table, ranges, std::move(s.worst), input.max_drift_MPa);
-  s.worst = std::move(proven.worst);
-  s.bound = std::move(proven.bound);
   States worst;
-  for (const double x : s.worst.state)
-    worst.push_back({x});
+  if (input.known) {
+    for (const std::string& name : s.names)
+      worst.push_back({input.known->worst_state.at(name)});
+  } else {
+    s.proven = prove_drift(input.model, input.table, ranges,
+                           worst_case(law, table, ranges, s.range), input.max_drift_MPa);
+    for (const double x : s.proven.worst.state)
+      worst.push_back({x});
+  }
   append(s.range, probe(law, table, worst)); // sources are looked at there as well
   if (input.rows) {
     States states;
@@ -146,6 +147,15 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
   return record;
 }
 
+DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
+  DriftRecord record =
+      compare(input, s, "table", [](const Probe& r, std::vector<double>& tau) { tau = r.table; });
+  record.n_points = s.proven.worst.points;
+  record.proven_MPa = s.proven.bound.MPa;
+  record.not_proven = s.proven.bound.why_not;
+  return record;
+}
+
 // The columns that a source takes: the direct form may need fewer states than the table.
 Columns columns_for(const Table& source, const Subjects& s, const Probe& reference) {
   Columns columns;
@@ -182,11 +192,7 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
                                 const std::vector<GeneratedSource>& sources) {
   const Subjects s = prepare(input);
   std::vector<DriftRecord> records;
-  records.push_back(
-      compare(input, s, "table", [](const Probe& r, std::vector<double>& tau) { tau = r.table; }));
-  records.back().n_points = s.worst.points;
-  records.back().proven_MPa = s.bound.MPa;
-  records.back().not_proven = s.bound.why_not;
+  records.push_back(input.known ? *input.known : compare_table(input, s));
   for (const GeneratedSource& source : sources)
     for (const BuildVariant& variant : source.exporter->variants(source.request))
       records.push_back(verify_variant(input, s, source, variant));

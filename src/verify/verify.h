@@ -16,7 +16,8 @@ struct VerifyInput {
   std::string table_name;        // for messages
   const Dataset* rows = nullptr; // validation rows; may be absent
   double max_drift_MPa = 0.5;
-  std::size_t samples = 200000; // points over the whole range
+  std::size_t samples = 200000;       // points over the whole range
+  const DriftRecord* known = nullptr; // the table's own, where it was compared just before
 };
 
 // Compares the table, then each variant of each bundle. A variant whose compiler is absent is

@@ -53,7 +53,7 @@ Table naive(const Model& model, const std::vector<StateRange>& ranges, std::size
   return build_table(model, ranges, options);
 }
 
-void compare(const std::filesystem::path& directory, const std::filesystem::path& file) {
+void print_row(const std::filesystem::path& directory, const std::filesystem::path& file) {
   const Table table = read_table(file);
   const std::filesystem::path source = directory / "models" / (table.model + ".json");
   if (!std::filesystem::exists(source)) return; // an end of the band has no file of its own
@@ -92,5 +92,5 @@ int main(int argc, char** argv) {
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const auto& file : files)
-    frictab::compare(directory, file);
+    frictab::print_row(directory, file);
 }
