@@ -8,7 +8,7 @@
 
 #include "call.h"
 #include "codegen/compile.h"
-#include "inputs.h"
+#include "source.h"
 
 namespace frictab::abaqus_vfric {
 
@@ -23,7 +23,7 @@ double node_area(std::size_t node) {
 }
 
 // Rows that agree in what is passed as a property can share a call.
-std::vector<std::size_t> by_properties(const std::vector<VfricInput>& inputs, std::size_t rows,
+std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
                                        std::span<const double* const> columns) {
   std::vector<std::size_t> order(rows);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -35,7 +35,7 @@ std::vector<std::size_t> by_properties(const std::vector<VfricInput>& inputs, st
   return order;
 }
 
-bool same_properties(const std::vector<VfricInput>& inputs, std::span<const double* const> columns,
+bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
                      std::size_t a, std::size_t b) {
   for (std::size_t c = 0; c < inputs.size(); ++c)
     if (inputs[c].source == Source::property && columns[c][a] != columns[c][b]) return false;
@@ -45,16 +45,16 @@ bool same_properties(const std::vector<VfricInput>& inputs, std::span<const doub
 template <class Real> class Block {
 public:
   Block(void* function, const ExportRequest& request)
-      : function_(function), inputs_(vfric_inputs(request)),
+      : function_(function), inputs_(solver_inputs(request, gives())),
         stress_(solver_unit("MPa", request.units)) {
     call_.properties.assign(property_count(inputs_), Real(0));
     call_.temperatures = true;
     call_.time_increment = Real(time_increment);
-    for (const VfricInput& input : inputs_)
+    for (const SolverInput& input : inputs_)
       call_.predefined = std::max(call_.predefined, static_cast<int>(input.field));
   }
 
-  const std::vector<VfricInput>& inputs() const { return inputs_; }
+  const std::vector<SolverInput>& inputs() const { return inputs_; }
 
   void run(std::span<const std::size_t> rows, std::span<const double* const> columns,
            std::span<double> tau) {
@@ -77,7 +77,7 @@ public:
 private:
   std::size_t node(std::size_t k) const { return static_cast<std::size_t>(call_.node[k]) - 1; }
 
-  void set(const VfricInput& input, std::size_t k, double value) {
+  void set(const SolverInput& input, std::size_t k, double value) {
     switch (input.source) {
     case Source::pressure:
       call_.normal[k] = static_cast<Real>(value * node_area(node(k)));
@@ -100,14 +100,14 @@ private:
     case Source::property:
       call_.properties[input.property - 1] = static_cast<Real>(value);
       break;
-    case Source::constant:
-      break; // in the source
+    default:
+      break; // constants are in the source
     }
   }
 
   // What was slipped before this increment, and a pressure for laws that do not ask for one.
   void accumulate() {
-    const bool pressed = std::any_of(inputs_.begin(), inputs_.end(), [](const VfricInput& i) {
+    const bool pressed = std::any_of(inputs_.begin(), inputs_.end(), [](const SolverInput& i) {
       return i.source == Source::pressure;
     });
     for (std::size_t k = 0; k < call_.node.size(); ++k) {
@@ -117,7 +117,7 @@ private:
   }
 
   void* function_;
-  std::vector<VfricInput> inputs_;
+  std::vector<SolverInput> inputs_;
   SolverUnit stress_;
   VfricCall<Real> call_;
 };
@@ -139,10 +139,10 @@ void drive_as(void* function, const ExportRequest& request, std::size_t rows,
 
 } // namespace
 
-void drive(void* library, const BuildVariant& variant, const ExportRequest& request,
-           std::size_t rows, std::span<const double* const> columns, std::span<double> tau) {
-  void* function = Library::address(library, "vfric_");
-  if (variant.name == "single")
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  void* function = Library::address(built.library, "vfric_");
+  if (built.variant.name == "single")
     drive_as<float>(function, request, rows, columns, tau);
   else
     drive_as<double>(function, request, rows, columns, tau);

@@ -5,7 +5,7 @@
 
 namespace frictab::abaqus_vfric {
 
-void drive(void* library, const BuildVariant& variant, const ExportRequest& request,
-           std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau);
 
 } // namespace frictab::abaqus_vfric

@@ -10,7 +10,6 @@
 #include "codegen/recipe.h"
 #include "core/text.h"
 #include "driver.h"
-#include "inputs.h"
 #include "io/json.h"
 #include "source.h"
 
@@ -20,21 +19,14 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-std::string value_text(const VfricInput& input) {
-  if (!input.fallback) return "<" + input.argument.argument + ">";
-  return fmt::format("{:.6g}", input.argument.solver.from_canonical(*input.fallback));
-}
-
 // Surface nodes count how often they left the range, where there is one.
 int state_variable_count(const Table& table) {
   return table.axes.empty() ? 3 : 4;
 }
 
 // The lines of the deck, with the values that the routine falls back to.
-std::string input_deck(const Table& table, const std::vector<VfricInput>& inputs) {
-  std::vector<std::string> values;
-  for (const VfricInput& input : inputs)
-    if (input.property) values.push_back(value_text(input));
+std::string input_deck(const Table& table, const std::vector<SolverInput>& inputs) {
+  const std::vector<std::string> values = property_values(inputs);
   std::string deck = fmt::format("*Surface Interaction, name=FRICTAB\n*Friction, user, depvar={}",
                                  state_variable_count(table));
   if (!values.empty()) deck += fmt::format(", properties={}", values.size());
@@ -45,25 +37,25 @@ std::string input_deck(const Table& table, const std::vector<VfricInput>& inputs
   return deck + "*Contact Pair, interaction=FRICTAB, cpset=<name>\n <secondary>, <main>\n";
 }
 
-json argument_list(const std::vector<VfricInput>& inputs) {
+json argument_list(const std::vector<SolverInput>& inputs) {
   json out = json::array();
-  for (const VfricInput& input : inputs)
+  for (const SolverInput& input : inputs)
     out.push_back({{"quantity", input.argument.name},
                    {"unit", input.argument.solver.name},
                    {"meaning", input.argument.meaning},
-                   {"source", source_text(input)}});
+                   {"source", input.text}});
   return out;
 }
 
-json properties(const std::vector<VfricInput>& inputs) {
+json properties(const std::vector<SolverInput>& inputs) {
   json out = json::array();
-  for (const VfricInput& input : inputs) {
+  for (const SolverInput& input : inputs) {
     if (!input.property) continue;
     json one = {{"number", input.property},
                 {"quantity", input.argument.name},
                 {"unit", input.argument.solver.name},
                 {"meaning", input.argument.meaning},
-                {"used_when", input.source == Source::temperature ? "nTemp = 0" : "always"},
+                {"used_when", input.without.empty() ? "always" : input.without},
                 {"where_absent", nullptr}};
     if (input.fallback) one["where_absent"] = input.argument.solver.from_canonical(*input.fallback);
     out.push_back(one);
@@ -84,7 +76,7 @@ json state_variables(const Table& table, std::string_view units) {
   return out;
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<VfricInput>& inputs,
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
                    const SourceBundle& files) {
   json out = recipe_head(*find_exporter("abaqus_vfric"), request, "vfric", files);
   out["arguments"] = argument_list(inputs);
@@ -106,7 +98,7 @@ std::string recipe(const ExportRequest& request, const std::vector<VfricInput>& 
 
 SourceBundle generate(const ExportRequest& request) {
   check_table(request.table);
-  const std::vector<VfricInput> inputs = vfric_inputs(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files["frictab_vfric.f"] = vfric_source(request, inputs);
   files["recipe.json"] = recipe(request, inputs, files);

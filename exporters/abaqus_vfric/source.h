@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "inputs.h"
+#include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus_vfric {
 
-std::string vfric_source(const ExportRequest& request, const std::vector<VfricInput>& inputs);
+// What VFRIC's arguments hold.
+const SolverGives& gives();
+
+std::string vfric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
 } // namespace frictab::abaqus_vfric

@@ -69,13 +69,13 @@ void batch(void* library, const ExportRequest& request, std::size_t rows,
   calls[inputs.size()](Library::address(library, "frictab_tau_R_batch"), rows, x, tau.data());
 }
 
-void drive(void* library, const BuildVariant&, const ExportRequest& request, std::size_t rows,
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
   static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   const std::vector<std::string> needed = request.table.inputs();
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
-  void* function = Library::address(library, "frictab_tau_R");
+  void* function = Library::address(built.library, "frictab_tau_R");
   const SolverUnit stress = solver_unit("MPa", request.units);
   std::vector<double> x(inputs.size(), 0.0);
   std::vector<std::size_t> argument_of(needed.size());

@@ -5,8 +5,8 @@
 
 namespace frictab::c_target {
 
-void drive(void* library, const BuildVariant& variant, const ExportRequest& request,
-           std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau);
 
 // frictab_tau_R_batch with these columns.
 void batch(void* library, const ExportRequest& request, std::size_t rows,

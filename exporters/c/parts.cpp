@@ -11,19 +11,6 @@
 
 namespace frictab::c_target {
 
-TemplateValues item(std::string text) {
-  TemplateValues values;
-  values.text["text"] = std::move(text);
-  return values;
-}
-
-Lines items(const std::vector<std::string>& texts) {
-  Lines lines;
-  for (const std::string& text : texts)
-    lines.push_back(item(text));
-  return lines;
-}
-
 std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
                                     std::string_view type) {
   std::vector<std::string> pieces;

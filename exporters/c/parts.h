@@ -11,11 +11,6 @@
 
 namespace frictab::c_target {
 
-using Lines = std::vector<TemplateValues>;
-
-TemplateValues item(std::string text);
-Lines items(const std::vector<std::string>& texts);
-
 // "double a", "double b", ... one piece per argument.
 std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
                                     std::string_view type);

@@ -73,6 +73,7 @@ int run(const std::vector<std::string>& command, const fs::path& log) {
 } // namespace
 
 bool have_program(const std::string& name) {
+  if (name.empty()) return true;
   if (name.find('/') != std::string::npos) return access(name.c_str(), X_OK) == 0;
   const char* path = std::getenv("PATH");
   std::istringstream directories(path ? path : "/usr/bin:/bin");
@@ -122,6 +123,15 @@ TemporaryDirectory::TemporaryDirectory() {
 TemporaryDirectory::~TemporaryDirectory() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+}
+
+CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& request,
+                               const SourceBundle& bundle, const BuildVariant& variant)
+    : exporter_(exporter), request_(request), variant_(variant) {
+  if (variant.command.empty())
+    write_files(bundle, directory_.path());
+  else
+    library_.emplace(compile_library(bundle, variant, directory_.path()));
 }
 
 } // namespace frictab

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "codegen/exporter.h"
 
 namespace frictab {
 
-// True where a program of this name is on PATH (or is a path that can be executed).
+// True where a program of this name is on PATH (or is a path that can be executed), or none is
+// asked for.
 bool have_program(const std::string& name);
 
 // Writes bundle and extra files below `work_dir`, runs the variant's command there without a shell
@@ -47,6 +49,27 @@ public:
 
 private:
   std::filesystem::path path_;
+};
+
+// One bundle of a target, made ready in a directory of its own and called as its solver would.
+class CompiledTarget {
+public:
+  // Throws std::runtime_error with the compiler's words where it fails.
+  CompiledTarget(const Exporter& exporter, const ExportRequest& request, const SourceBundle& bundle,
+                 const BuildVariant& variant);
+
+  void drive(std::size_t rows, std::span<const double* const> columns,
+             std::span<double> tau) const {
+    exporter_.drive({handle(), directory_.path(), variant_}, request_, rows, columns, tau);
+  }
+  void* handle() const { return library_ ? library_->handle() : nullptr; }
+
+private:
+  const Exporter& exporter_;
+  ExportRequest request_;
+  BuildVariant variant_;
+  TemporaryDirectory directory_;
+  std::optional<Library> library_;
 };
 
 } // namespace frictab

@@ -23,13 +23,25 @@ struct ExportRequest {
   std::map<std::string, std::string> inputs; // job's [export.inputs]; checked by the exporter
 };
 
-// One way to compile a bundle so that it can be driven here: the shared library that results is
-// passed to `drive`.
+// One way to make a bundle ready to be driven here: compiled to a shared library, or run by an
+// interpreter, or only read.
 struct BuildVariant {
   std::string name;                 // "c99", "double", "single"
-  std::vector<std::string> command; // argv; "@{out}" is the library to write, "@{dir}" the bundle
+  std::vector<std::string> command; // argv; "@{out}" is the library to write, "@{dir}" the bundle;
+                                    // empty: nothing is compiled
   SourceBundle extra;               // stand-ins for files of the solver (includes)
   double eps = 0; // unit roundoff of its real type: the drift that precision alone explains
+  std::string interpreter = {}; // the program that runs what is not compiled; empty: none is needed
+
+  // What has to be on this machine: the compiler or the interpreter; empty: nothing.
+  const std::string& program() const { return command.empty() ? interpreter : command.front(); }
+};
+
+// A bundle as it lies ready to be called (codegen/compile.h makes one).
+struct Built {
+  void* library;                   // dlopen handle; null where nothing is compiled
+  std::filesystem::path directory; // holds the bundle's files
+  const BuildVariant& variant;
 };
 
 struct Exporter {
@@ -44,8 +56,8 @@ struct Exporter {
   SourceBundle (*generate)(const ExportRequest&) = nullptr;
   std::vector<BuildVariant> (*variants)(const ExportRequest&) = nullptr;
   // Calls the routine as its solver would, for rows of states in canonical units (columns in the
-  // order of request.table.inputs()), and gives tau_R in MPa. `library` is a dlopen handle.
-  void (*drive)(void* library, const BuildVariant&, const ExportRequest&, std::size_t rows,
+  // order of request.table.inputs()), and gives tau_R in MPa.
+  void (*drive)(const Built&, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
   // Its own entry for many states at once, in the units of the request and without any conversion:
   // what a benchmark calls. Null where the target has none.

@@ -192,4 +192,17 @@ std::string render_template(std::string_view path, const TemplateValues& values)
   return render(embedded_template(path), "templates/" + std::string(path), values);
 }
 
+TemplateValues item(std::string text) {
+  TemplateValues values;
+  values.text["text"] = std::move(text);
+  return values;
+}
+
+Lines items(const std::vector<std::string>& texts) {
+  Lines lines;
+  for (const std::string& text : texts)
+    lines.push_back(item(text));
+  return lines;
+}
+
 } // namespace frictab

@@ -17,6 +17,12 @@ struct TemplateValues {
   std::map<std::string, std::vector<TemplateValues>> lists; // @for x in list: names as @{x.name}
 };
 
+using Lines = std::vector<TemplateValues>;
+
+// A list's entry that is one text: @{x.text}.
+TemplateValues item(std::string text);
+Lines items(const std::vector<std::string>& texts);
+
 // Throws InputError with file:line:col for an unknown name, a name never used, an unclosed block or
 // bad syntax: a template and its values must fit each other exactly.
 std::string render(std::string_view text, std::string_view file, const TemplateValues& values);

@@ -36,8 +36,7 @@ public:
   Subject(const Exporter& exporter, const Table& table, const std::vector<std::string>& names,
           const States& states)
       : exporter_(exporter), request_{table, "mm-t-s", {}},
-        library_(compile_library(exporter.generate(request_), exporter.variants(request_)[0],
-                                 directory_.path())),
+        target_(exporter, request_, exporter.generate(request_), exporter.variants(request_)[0]),
         tau_(states.front().size()) {
     for (const std::string& name : table.inputs()) {
       const auto at = std::find(names.begin(), names.end(), name) - names.begin();
@@ -46,7 +45,7 @@ public:
   }
 
   const std::vector<double>& answer() {
-    exporter_.batch(library_.handle(), request_, tau_.size(), columns_, tau_);
+    exporter_.batch(target_.handle(), request_, tau_.size(), columns_, tau_);
     return tau_;
   }
 
@@ -66,8 +65,7 @@ public:
 private:
   const Exporter& exporter_;
   ExportRequest request_;
-  TemporaryDirectory directory_;
-  Library library_;
+  CompiledTarget target_;
   std::vector<const double*> columns_;
   std::vector<double> tau_;
   std::size_t calls_ = 1;

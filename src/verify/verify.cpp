@@ -170,19 +170,17 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
                            const GeneratedSource& source, const BuildVariant& variant) {
   const std::string form = source.request.table.is_direct() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
-  if (!have_program(variant.command.front())) {
+  if (!have_program(variant.program())) {
     DriftRecord record;
     record.model = input.model.name();
     record.subject = subject;
     record.ran = false;
-    record.why_not = "there is no " + variant.command.front() + " on this machine";
+    record.why_not = "there is no " + variant.program() + " on this machine";
     return record;
   }
-  const TemporaryDirectory directory;
-  const Library library(compile_library(source.bundle, variant, directory.path()));
+  const CompiledTarget target(*source.exporter, source.request, source.bundle, variant);
   return compare(input, s, subject, [&](const Probe& reference, std::vector<double>& tau) {
-    source.exporter->drive(library.handle(), variant, source.request, reference.law.size(),
-                           columns_for(source.request.table, s, reference), tau);
+    target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
   });
 }
 

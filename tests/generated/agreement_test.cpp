@@ -34,12 +34,9 @@ void compare(const Exporter& exporter, const ExportRequest& request, std::size_t
   const std::vector<double> truth = test::expected(request.table, states);
   const SourceBundle bundle = exporter.generate(request);
   for (const BuildVariant& variant : exporter.variants(request)) {
-    if (!have_program(variant.command[0]))
-      GTEST_SKIP() << variant.command[0] << " is not installed";
-    const TemporaryDirectory work;
-    const Library library(compile_library(bundle, variant, work.path()));
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is not installed";
     std::vector<double> tau(rows, -1);
-    exporter.drive(library.handle(), variant, request, rows, states.columns(), tau);
+    CompiledTarget(exporter, request, bundle, variant).drive(rows, states.columns(), tau);
     const double bound = variant.eps < 1e-10 ? double_bound : single_bound;
     EXPECT_LE(test::worst_relative(tau, truth), bound) << exporter.name << "/" << variant.name;
   }
@@ -79,12 +76,12 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
     const std::vector<double> truth = test::expected(table, states);
     for (const std::vector<std::string>& flags :
          {std::vector<std::string>{}, {"-march=native", "-O3"}, {"-DFT_PLAIN", "-O1"}}) {
-      const Library* library = test::compiled(
-          sample.name + " bits " + (flags.empty() ? "" : flags[0]), c, request, "c99", flags);
-      if (!library) GTEST_SKIP() << "gcc is not installed";
+      BuildVariant build = c.variants(request)[0];
+      if (!have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
+      build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
       std::vector<double> tau(states.rows());
-      c.drive(library->handle(), c.variants(request)[0], request, states.rows(), states.columns(),
-              tau);
+      CompiledTarget(c, request, c.generate(request), build)
+          .drive(states.rows(), states.columns(), tau);
       EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
     }
     const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");

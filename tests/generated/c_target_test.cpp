@@ -39,11 +39,10 @@ TEST(CTarget, CompilesWithoutAWarningByGccAndClangAndAgrees) {
       build.command[0] = compiler;
       for (const char* flag : {"-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"})
         build.command.insert(build.command.begin() + 1, flag);
-      const TemporaryDirectory work;
-      const Library library(compile_library(c.generate(request), build, work.path()));
       const test::States states(sample.table, 20000, 3);
       std::vector<double> tau(states.rows());
-      c.drive(library.handle(), build, request, states.rows(), states.columns(), tau);
+      CompiledTarget(c, request, c.generate(request), build)
+          .drive(states.rows(), states.columns(), tau);
       EXPECT_LE(test::worst_relative(tau, test::expected(sample.table, states)), 1e-13);
     }
   }

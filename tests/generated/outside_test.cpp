@@ -57,10 +57,9 @@ void expect_everywhere(const Table& table, const std::vector<double>& pressure,
   for (const Exporter& exporter : all_exporters()) {
     const ExportRequest request{table, "mm-t-s", {}};
     const BuildVariant variant = exporter.variants(request)[0];
-    if (!have_program(variant.command[0])) GTEST_SKIP() << variant.command[0] << " is missing";
-    const TemporaryDirectory work;
-    const Library library(compile_library(exporter.generate(request), variant, work.path()));
-    exporter.drive(library.handle(), variant, request, tau.size(), columns, tau);
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
+    CompiledTarget(exporter, request, exporter.generate(request), variant)
+        .drive(tau.size(), columns, tau);
     EXPECT_LE(test::worst_relative(tau, wanted), 1e-14) << exporter.name;
   }
 }

@@ -36,8 +36,7 @@ C
 C     PROPS (PROPERTIES=3; a property the deck does not give
 C     takes the value in brackets):
 C     1 surface expansion ratio A1/A0, 1 (4.47214)
-C     2 contact temperature, degC (110), reference where the model has
-C       no temperatures
+C     2 contact temperature, degC (110), reference where nTemp = 0
 C     3 flow stress of the workpiece, MPa (not known: NaN until it is
 C       given)
 C     STATEV (DEPVAR=4), by surface node:

@@ -29,8 +29,7 @@ C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=2; a property the deck does not give
 C     takes the value in brackets):
-C     1 contact temperature, degC (110), reference where the model has
-C       no temperatures
+C     1 contact temperature, degC (110), reference where nTemp = 0
 C     2 flow stress of the workpiece, MPa (not known: NaN until it is
 C       given)
 C     STATEV (DEPVAR=4), by surface node:
@@ -189,6 +188,47 @@ C           the force then and the force now, times its slip.
       return
       end
 C
+C     True where x lies beyond a side with outside = error: then the
+C     analysis stops with a message that names the state. By more
+C     than a millionth of the end's value: single precision misses an
+C     end by rounding.
+      logical function ftstop(x)
+      include 'vaba_param.inc'
+      double precision x(4), bad
+      character*500 text
+      character*60 name
+      character*8 charv(1)
+      dimension intv(1), realv(1)
+      logical ftnan
+      external ftnan
+      ftstop = .false.
+      bad = 0.0D0
+      name = ' '
+      do i = 1, 4
+        if (ftnan(x(i))) return
+      end do
+      if (x(2) .gt. 500.0005D0) then
+        ftstop = .true.
+        bad = x(2)
+        name =
+     &  'v_rel_mm_s above 500'
+      end if
+      if (x(3) .lt. 19.99998D0) then
+        ftstop = .true.
+        bad = x(3)
+        name =
+     &  'T_contact_C below 20'
+      end if
+      if (.not. ftstop) return
+      write (text, '(a,1p,e14.6,a,a)') 'friction table: state', bad,
+     &  ' is outside the range: ', name
+      intv(1) = 0
+      realv(1) = 0
+      charv(1) = ' '
+      call xplb_abqerr(-3, text, intv, realv, charv)
+      return
+      end
+C
 C     tau_R in MPa of the state x in canonical units:
 C     x(1) sigma_n_MPa, contact normal stress, compression positive
 C     x(2) v_rel_mm_s, relative sliding speed
@@ -285,47 +325,6 @@ C     True where x lies outside the range of an axis.
      &  x(2) .gt. 500.0D0) ftout = .true.
       if (x(3) .lt. 20.0D0 .or.
      &  x(3) .gt. 200.0D0) ftout = .true.
-      return
-      end
-C
-C     True where x lies beyond a side with outside = error: then the
-C     analysis stops with a message that names the state. By more
-C     than a millionth of the end's value: single precision misses an
-C     end by rounding.
-      logical function ftstop(x)
-      include 'vaba_param.inc'
-      double precision x(4), bad
-      character*500 text
-      character*60 name
-      character*8 charv(1)
-      dimension intv(1), realv(1)
-      logical ftnan
-      external ftnan
-      ftstop = .false.
-      bad = 0.0D0
-      name = ' '
-      do i = 1, 4
-        if (ftnan(x(i))) return
-      end do
-      if (x(2) .gt. 500.0005D0) then
-        ftstop = .true.
-        bad = x(2)
-        name =
-     &  'v_rel_mm_s above 500'
-      end if
-      if (x(3) .lt. 19.99998D0) then
-        ftstop = .true.
-        bad = x(3)
-        name =
-     &  'T_contact_C below 20'
-      end if
-      if (.not. ftstop) return
-      write (text, '(a,1p,e14.6,a,a)') 'friction table: state', bad,
-     &  ' is outside the range: ', name
-      intv(1) = 0
-      realv(1) = 0
-      charv(1) = ' '
-      call xplb_abqerr(-3, text, intv, realv, charv)
       return
       end
 C

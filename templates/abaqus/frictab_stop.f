@@ -3,7 +3,7 @@ C     analysis stops with a message that names the state. By more
 C     than a millionth of the end's value: single precision misses an
 C     end by rounding.
       logical function ftstop(x)
-      include 'vaba_param.inc'
+      include '@{include}'
       double precision x(@{n_x}), bad
       character*500 text
       character*60 name
@@ -31,7 +31,7 @@ C     end by rounding.
       intv(1) = 0
       realv(1) = 0
       charv(1) = ' '
-      call xplb_abqerr(-3, text, intv, realv, charv)
+      call @{routine}(-3, text, intv, realv, charv)
       return
       end
 C

@@ -1,5 +1,5 @@
 // Axes as data and literals; sums over corners as statements in the order of the C kernels.
-#include "interpolation.h"
+#include "codegen/fortran_interpolation.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "table/axis_search.h"
 #include "table/spline.h"
 
-namespace frictab::abaqus_vfric {
+namespace frictab::fortran {
 
 namespace {
 
@@ -208,4 +208,4 @@ void add_interpolation(TemplateValues& values, const Table& table) {
   values.lists["steps"] = statements(cubic ? cubic_steps(table, stride) : linear_steps(stride));
 }
 
-} // namespace frictab::abaqus_vfric
+} // namespace frictab::fortran

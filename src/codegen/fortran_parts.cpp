@@ -1,5 +1,5 @@
-// Parts of VFRIC's source: names, comments, the law's own formula, the sides of the axes.
-#include "parts.h"
+// Names, comments, the law's own formula and the sides of the axes in fixed form.
+#include "codegen/fortran_parts.h"
 
 #include <set>
 
@@ -9,19 +9,13 @@
 #include "core/text.h"
 #include "table/outside.h"
 
-namespace frictab::abaqus_vfric {
+namespace frictab::fortran {
 
 namespace {
 
 constexpr std::size_t comment_width = 66; // columns 7..72
 
 } // namespace
-
-TemplateValues item(std::string text) {
-  TemplateValues values;
-  values.text["text"] = std::move(text);
-  return values;
-}
 
 Lines comments(const std::vector<std::string>& texts) {
   Lines lines;
@@ -83,13 +77,6 @@ std::vector<std::string> helpers_of(const std::string& statements) {
 
 namespace {
 
-Lines items(const std::vector<std::string>& texts) {
-  Lines lines;
-  for (const std::string& text : texts)
-    lines.push_back(item(text));
-  return lines;
-}
-
 // What ftpiec declares and does, gathered while its formula is written.
 struct Body {
   std::map<std::string, std::string> rename;
@@ -150,13 +137,12 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Bo
   values.text["data_offs"] = fixed_form_data("offs", l.offset);
 }
 
-// Template texts end with a line break of their own.
+} // namespace
+
 std::string without_last_break(std::string text) {
   if (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
-
-} // namespace
 
 Piece piece(const Table& table) {
   TemplateValues values;
@@ -178,7 +164,7 @@ Piece piece(const Table& table) {
   Piece out;
   out.helpers = helpers_of(body.all);
   values.lists["helpers"] = items(out.helpers);
-  out.text = without_last_break(render_template("abaqus_vfric/frictab_piece.f", values));
+  out.text = without_last_break(render_template("fortran/frictab_piece.f", values));
   return out;
 }
 
@@ -199,23 +185,4 @@ Lines sides(const Table& table, Outside kind) {
   return lines;
 }
 
-std::string stop(const Table& table) {
-  TemplateValues values;
-  Lines refusing = sides(table, Outside::error);
-  std::size_t side = 0;
-  const auto say = [&](const AxisEnds& axis, const char* where, double end) {
-    std::string name = comment_text(axis.name).substr(0, 30);
-    for (char& c : name)
-      if (c == '\'' || c == '%') c = ' '; // the solver's messages have their own use for %
-    refusing[side++].text["name"] = fmt::format("{} {} {:.6g}", name, where, end);
-  };
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (axis.below == Outside::error) say(axis, "below", axis.low);
-    if (axis.above == Outside::error) say(axis, "above", axis.high);
-  }
-  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
-  values.lists["refusing"] = refusing;
-  return without_last_break(render_template("abaqus_vfric/frictab_stop.f", values));
-}
-
-} // namespace frictab::abaqus_vfric
+} // namespace frictab::fortran

@@ -1,4 +1,4 @@
-// What the parts of VFRIC's source are filled with.
+// What the parts of Fortran sources in fixed form are filled with.
 #pragma once
 
 #include <map>
@@ -8,11 +8,7 @@
 #include "codegen/fill.h"
 #include "codegen/template.h"
 
-namespace frictab::abaqus_vfric {
-
-using Lines = std::vector<TemplateValues>;
-
-TemplateValues item(std::string text);
+namespace frictab::fortran {
 
 // Comment lines; what does not fit goes on, set in by two blanks.
 Lines comments(const std::vector<std::string>& texts);
@@ -42,7 +38,7 @@ Piece piece(const Table& table);
 // "x(index) relation limit" for each side of that kind.
 Lines sides(const Table& table, Outside kind);
 
-// ftstop: the end of an analysis that leaves the range where that is an error.
-std::string stop(const Table& table);
+// A template's text, to be inserted into another one: without the line break at its end.
+std::string without_last_break(std::string text);
 
-} // namespace frictab::abaqus_vfric
+} // namespace frictab::fortran

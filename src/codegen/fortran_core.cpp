@@ -1,0 +1,146 @@
+// Fills templates/fortran/frictab_core.f.
+#include "codegen/fortran_core.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_interpolation.h"
+#include "core/text.h"
+#include "table/outside.h"
+
+namespace frictab::fortran {
+
+namespace {
+
+// The direct form has no nodes.
+std::vector<TableAxis> tabulated(const Table& table) {
+  return table.is_direct() ? std::vector<TableAxis>{} : table.axes;
+}
+
+void add_coordinates(TemplateValues& values, const Table& table) {
+  const auto rename = symbol_names(table);
+  bool logarithm = false;
+  Lines& axes = values.lists["axes"];
+  for (const TableAxis& axis : tabulated(table)) {
+    logarithm = logarithm || axis.log;
+    const std::string& x = rename.at(axis.name);
+    axes.emplace_back();
+    axes.back().text["number"] = std::to_string(axes.size());
+    axes.back().text["coordinate"] = axis.log ? "ftlog(" + x + ")" : x;
+  }
+  values.text["n_axes"] = std::to_string(table.axes.size());
+  values.text["only_value"] = table.is_direct() ? "ftpiec(x)" : fortran_number(table.value[0]);
+  values.text["value_comment"] =
+      clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
+                       table.log_value ? "ln " : "", table.quantity));
+  values.flags["has_axes"] = !table.axes.empty();
+  values.flags["interpolates"] = !axes.empty();
+  values.flags["uses_log"] = logarithm;
+}
+
+// What lies beyond the ends of the axes.
+void add_ends(TemplateValues& values, const Table& table) {
+  for (const AxisEnds& axis : axis_ends(table)) {
+    TemplateValues one;
+    one.text = {{"index", std::to_string(axis.input + 1)},
+                {"low", fortran_number(axis.low)},
+                {"high", fortran_number(axis.high)}};
+    values.lists["ends"].push_back(one);
+  }
+  values.lists["ends"]; // also where there are none
+  values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
+}
+
+void add_formula(TemplateValues& values, const Table& table) {
+  const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
+  Lines statements, helpers;
+  for (const std::string& line : code.lines)
+    statements.push_back(item(fixed_form(line)));
+  const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
+  const Piece law = has_piece ? piece(table) : Piece{};
+  const std::vector<std::string> own = helpers_of(join(code.lines, "\n"));
+  for (const std::string& helper : own)
+    helpers.push_back(item(helper));
+  for (const auto& [helper, flag] :
+       {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}})
+    values.flags[flag] = std::count(own.begin(), own.end(), helper) > 0 ||
+                         std::count(law.helpers.begin(), law.helpers.end(), helper) > 0;
+  values.flags["has_piece"] = has_piece;
+  values.text["piece"] = law.text;
+  values.lists["statements"] = statements;
+  values.lists["constants"] = constant_lines(table, table.combine);
+  values.lists["helpers"] = helpers;
+  values.lists["temporaries"] = declarations(code.temporaries);
+  values.text["result"] = code.result;
+  values.flags["log_value"] = table.log_value;
+}
+
+std::vector<std::string> argument_lines(const Table& table) {
+  std::vector<std::string> lines;
+  const std::vector<InputArgument> arguments = entry_arguments(table, "mm-t-s");
+  for (const std::string& name : table.inputs())
+    for (const InputArgument& argument : arguments)
+      if (argument.name == name)
+        lines.push_back(fmt::format("x({}) {}, {}", lines.size() + 1, name, argument.meaning));
+  if (lines.empty()) lines.push_back("x(1) is not used");
+  return lines;
+}
+
+std::vector<std::string> about(const ExportRequest& request) {
+  const Table& table = request.table;
+  return {fmt::format("Law: {}", table.model), fmt::format("Data: {}", origin_text(table)),
+          fmt::format("Units: {} (stress {}, speed {}, length {}, degC)", request.units,
+                      solver_unit("MPa", request.units).name,
+                      solver_unit("mm/s", request.units).name,
+                      solver_unit("mm", request.units).name),
+          fmt::format("Worst drift from the law: {}", drift_text(table)),
+          fmt::format("tau_R_MPa = {}", to_text(table.combine))};
+}
+
+std::vector<std::string> outside(const Table& table, const std::string& error_action) {
+  std::vector<std::string> lines = outside_lines(table);
+  if (lines.empty())
+    return {"Outside the range the " + std::string(table.is_direct() ? "law" : "table") +
+            "'s value at the nearest edge is used; stress and flow stress enter the formula "
+            "unchanged."};
+  lines.insert(lines.begin(), "Outside the range (error: " + error_action + "):");
+  return lines;
+}
+
+} // namespace
+
+Core core(const Table& table, const CoreOptions& options) {
+  TemplateValues values;
+  Core out;
+  out.n_x = std::max<std::size_t>(table.inputs().size(), 1);
+  values.text["n_x"] = std::to_string(out.n_x);
+  values.flags["uses_unknown"] = options.unknown;
+  values.lists["arguments"] = comments(argument_lines(table));
+  add_coordinates(values, table);
+  add_interpolation(values, table);
+  add_ends(values, table);
+  add_formula(values, table);
+  out.text = without_last_break(render_template("fortran/frictab_core.f", values));
+  return out;
+}
+
+void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
+              const std::vector<SolverInput>& inputs, const std::string& error_action) {
+  const Table& table = request.table;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  values.text["version"] = FRICTAB_VERSION;
+  values.text["from"] = table.is_direct() ? "by the law itself, no table" : "from a table";
+  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.text["stress"] = stress.name;
+  values.text["length"] = solver_unit("mm", request.units).name;
+  values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);
+  values.lists["about"] = comments(about(request));
+  values.lists["states"] = comments(state_lines(request, inputs));
+  values.lists["properties"] = comments(property_lines(inputs));
+  values.lists["source"] = comments({exporter.signature_source});
+  values.lists["outside"] = comments(outside(table, error_action));
+  values.flags["refuses"] = !sides(table, Outside::error).empty();
+}
+
+} // namespace frictab::fortran

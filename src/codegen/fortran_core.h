@@ -1,0 +1,29 @@
+// The part of a Fortran source that is the same for every solver: tau_R of a state, in fixed form.
+#pragma once
+
+#include "codegen/exporter.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab::fortran {
+
+// fttau(x): tau_R in MPa of x(1..n), the table's inputs in canonical units, NaN where one of them
+// is; ftnan(x); where the table has axes, ftout(x), true beyond one of their ends; where asked for,
+// ftqnan(), a quiet NaN. With everything they call, as program units without state.
+struct Core {
+  std::string text; // without the line break at its end
+  std::size_t n_x;  // at least 1
+};
+struct CoreOptions {
+  bool unknown = false; // ftqnan
+};
+Core core(const Table& table, const CoreOptions& options);
+
+// What the head of every source says: version, from ("from a table"), n_x, stress and length (unit
+// names), to_solver ("*1.0D6", from MPa to the solver's unit); lists about, states, properties,
+// source (where the argument list comes from); refuses, where a side has outside = error.
+// `error_action`: what happens there, "XPLB_ABQERR ends the analysis"; list outside.
+void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
+              const std::vector<SolverInput>& inputs, const std::string& error_action);
+
+} // namespace frictab::fortran
