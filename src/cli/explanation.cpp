@@ -86,9 +86,14 @@ Explanation about(const EffectForm& effect) {
 }
 
 Explanation about(const Exporter& target) {
-  return {target.name,  "target",
-          target.title, {{"signature", target.signature_source}, {"notes", target.notes}},
-          "",           {}};
+  Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
+  out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
+  for (const ExportOption& option : target.options)
+    out.items.push_back(
+        {option.name,
+         option.meaning,
+         {{"one of", join(option.allowed, ", ")}, {"default", option.allowed.front()}}});
+  return out;
 }
 
 Explanation about(const Quantity& quantity) {

@@ -1,7 +1,28 @@
 // The registry of targets.
 #include "codegen/exporter.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace frictab {
+
+const std::string& Exporter::option(const ExportRequest& request, const std::string& name) const {
+  if (const auto said = request.options.find(name); said != request.options.end())
+    return said->second;
+  for (const ExportOption& option : options)
+    if (option.name == name) return option.allowed.front();
+  throw std::logic_error("target without the option " + name);
+}
+
+std::vector<ExportOption> all_export_options() {
+  std::vector<ExportOption> all;
+  for (const Exporter& exporter : all_exporters())
+    for (const ExportOption& option : exporter.options)
+      if (std::none_of(all.begin(), all.end(),
+                       [&](const ExportOption& other) { return other.name == option.name; }))
+        all.push_back(option);
+  return all;
+}
 
 const std::vector<Exporter>& all_exporters() {
   return Registry<Exporter>::instance().all();

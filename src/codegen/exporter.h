@@ -21,6 +21,15 @@ struct ExportRequest {
   const Table& table;
   std::string units = "mm-t-s";              // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
   std::map<std::string, std::string> inputs; // job's [export.inputs]; checked by the exporter
+  std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
+};
+
+// A choice that a target offers beyond [export.inputs]. Targets may share one: same name, same
+// words.
+struct ExportOption {
+  std::string name;
+  std::vector<std::string> allowed; // the first is the default
+  std::string meaning;
 };
 
 // One way to make a bundle ready to be driven here: compiled to a shared library, or run by an
@@ -51,6 +60,7 @@ struct Exporter {
   std::string
       signature_source; // where the argument list comes from, "verified: ..." / "recalled: ..."
   std::string notes;    // traps and limits, for `explain`
+  std::vector<ExportOption> options = {};
 
   // All files with recipe.json. Throws InputError where the request cannot be met.
   SourceBundle (*generate)(const ExportRequest&) = nullptr;
@@ -63,7 +73,13 @@ struct Exporter {
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
+
+  // What the request says for one of `options`, or its default.
+  const std::string& option(const ExportRequest& request, const std::string& name) const;
 };
+
+// Those of all targets, each once.
+std::vector<ExportOption> all_export_options();
 
 const std::vector<Exporter>& all_exporters();
 const Exporter* find_exporter(std::string_view name);

@@ -96,8 +96,10 @@ struct ExportOptions {
   std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
   std::string form = "table";                            // table | direct: the law itself
   // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
-  // constant) or "field:2" (predefined field variable). By canonical name.
+  // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
+  // "temperature", "solver"). By canonical name.
   std::map<std::string, std::string> inputs;
+  std::map<std::string, std::string> options; // choices that targets offer, by their names
   Place place;
 };
 

@@ -156,6 +156,7 @@ inline Bounds between(double lower, double upper) {
 std::vector<std::string> quantity_names();
 std::vector<std::string> column_names(); // quantities and the experiment
 std::vector<std::string> state_names();
+std::vector<std::string> option_names();
 std::vector<std::string> constant_names();
 std::vector<std::string> laws_or_all();
 std::vector<std::string> laws_best_or_all();

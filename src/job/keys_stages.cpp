@@ -1,7 +1,10 @@
 // The keys of every section but [data], in the order of the stages.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "codegen/exporter.h"
+#include "core/text.h"
 #include "job/key_builder.h"
 #include "models/law.h"
 
@@ -63,13 +66,27 @@ Problem outside_problem(const std::string&, const KeyValue& value) {
 
 Problem input_problem(const std::string&, const KeyValue& value) {
   const std::string_view text = std::get<std::string>(value);
-  const bool ok = text == "property" ||
+  const bool ok = text == "property" || text == "state" || text == "temperature" ||
+                  text == "solver" || text == "contact" ||
                   (text.starts_with("constant:") && is_number(text.substr(9), false)) ||
                   (text.starts_with("field:") && is_number(text.substr(6), true));
   if (ok) return {};
-  return {"must be \"constant:NUMBER\", \"property\" or \"field:NUMBER\", not the text " +
+  return {"must be \"constant:NUMBER\", \"property\", \"field:NUMBER\" or what the target "
+          "itself gives (\"state\", \"temperature\", \"solver\"), not the text " +
               toml_quoted(text),
           "for example psi = \"constant:1.0\""};
+}
+
+Problem option_problem(const std::string& name, const KeyValue& value) {
+  const std::string& text = std::get<std::string>(value);
+  for (const ExportOption& option : all_export_options()) {
+    if (option.name != name) continue;
+    if (std::find(option.allowed.begin(), option.allowed.end(), text) != option.allowed.end())
+      return {};
+    return {"must be one of " + join(option.allowed, ", ") + ", not the text " + toml_quoted(text),
+            suggest(text, option.allowed)};
+  }
+  return {}; // an unknown name has been reported
 }
 
 // "all" is how a list is left open; the job says it by an empty list.
@@ -234,6 +251,12 @@ std::vector<KeyRule> export_keys() {
           "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field)",
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
+      named<std::string>(
+          "export.options.*",
+          [](Job & job, const std::string& name) -> auto& { return job.exports.options[name]; },
+          "a choice that a target offers; `frictab explain TARGET` lists them",
+          "the first choice of each", "\"2024\"") |
+          option_problem,
   };
 }
 
@@ -298,6 +321,13 @@ std::vector<std::string> targets_or_all() {
   for (const Exporter& exporter : all_exporters())
     names.push_back(exporter.name);
   names.push_back("all");
+  return names;
+}
+
+std::vector<std::string> option_names() {
+  std::vector<std::string> names;
+  for (const ExportOption& option : all_export_options())
+    names.push_back(option.name);
   return names;
 }
 

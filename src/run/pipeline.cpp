@@ -268,6 +268,10 @@ void Pipeline::remove_old_sources() {
   }
 }
 
+ExportRequest Pipeline::request_for(const Table& form) const {
+  return {form, job_.exports.units, job_.exports.inputs, job_.exports.options};
+}
+
 void Pipeline::generate() {
   if (!have_tables_ && !job_.exports.targets.empty())
     for (const fs::path& file : table_files()) // before anything large is read
@@ -279,7 +283,7 @@ void Pipeline::generate() {
       const std::string directory = export_directory(exporter->name, table);
       const Table form =
           job_.exports.form == "direct" ? direct_form(model_of(table), table) : table;
-      sources_[directory] = exporter->generate({form, job_.exports.units, job_.exports.inputs});
+      sources_[directory] = exporter->generate(request_for(form));
       for (const auto& [path, text] : sources_[directory])
         output_.write(directory + "/" + path, text);
     }
@@ -320,7 +324,7 @@ void Pipeline::verify() {
       const SourceBundle& bundle = sources_[directory];
       const Table& form =
           is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json") ? direct : table;
-      sources.push_back({exporter, {form, job_.exports.units, job_.exports.inputs}, bundle});
+      sources.push_back({exporter, request_for(form), bundle});
     }
     const std::string name = job_.directory + "/tables/" + table.model + ".h5";
     const auto known = compared_.find(table.model);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
+#include "codegen/exporter.h"
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "table/table.h"
@@ -55,6 +56,7 @@ private:
   std::vector<Model> chosen_models();
   Table sample_table(const Model& model); // and its place among the output files
   void remove_old_sources();
+  ExportRequest request_for(const Table& form) const;
   double drift_allowed() const; // MPa
   Model model_of(const Table& table);
   std::vector<const ModelFit*> chosen_fits();

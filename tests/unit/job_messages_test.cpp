@@ -184,13 +184,15 @@ TEST(JobMessages, SayTheAllowedWords) {
             "  hint: did you mean \"direct\"?");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"const:1\""),
-            "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\" or "
-            "\"field:NUMBER\", not the text \"const:1\"\n"
+            "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "
+            "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
+            "\"solver\"), not the text \"const:1\"\n"
             "  hint: for example psi = \"constant:1.0\"");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"field:x\""),
-            "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\" or "
-            "\"field:NUMBER\", not the text \"field:x\"\n"
+            "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "
+            "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
+            "\"solver\"), not the text \"field:x\"\n"
             "  hint: for example psi = \"constant:1.0\"");
 }
 
