@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fortran_gradient.h"
 #include "codegen/fortran_interpolation.h"
 #include "core/text.h"
 #include "table/outside.h"
@@ -52,25 +53,33 @@ void add_ends(TemplateValues& values, const Table& table) {
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
 }
 
-void add_formula(TemplateValues& values, const Table& table) {
-  const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
-  Lines statements, helpers;
-  for (const std::string& line : code.lines)
-    statements.push_back(item(fixed_form(line)));
+// The program units of the piece and of the gradient, and the helpers that any unit calls.
+void add_units(TemplateValues& values, const Table& table, bool gradient,
+               std::vector<std::string> helpers) {
   const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
-  const Piece law = has_piece ? piece(table) : Piece{};
-  const std::vector<std::string> own = helpers_of(join(code.lines, "\n"));
-  for (const std::string& helper : own)
-    helpers.push_back(item(helper));
+  const Piece law = has_piece ? piece(table, gradient) : Piece{};
+  const Piece slopes = gradient ? gradient_unit(table, values) : Piece{};
+  for (const Piece& unit : {law, slopes})
+    helpers.insert(helpers.end(), unit.helpers.begin(), unit.helpers.end());
   for (const auto& [helper, flag] :
        {std::pair{"ftmin", "uses_min"}, {"ftmax", "uses_max"}, {"ftwhle", "uses_where"}})
-    values.flags[flag] = std::count(own.begin(), own.end(), helper) > 0 ||
-                         std::count(law.helpers.begin(), law.helpers.end(), helper) > 0;
+    values.flags[flag] = std::count(helpers.begin(), helpers.end(), helper) > 0;
   values.flags["has_piece"] = has_piece;
   values.text["piece"] = law.text;
+  values.text["gradient_text"] = slopes.text;
+  values.flags["gradient"] = gradient;
+}
+
+void add_formula(TemplateValues& values, const Table& table, bool gradient) {
+  const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
+  Lines statements;
+  for (const std::string& line : code.lines)
+    statements.push_back(item(fixed_form(line)));
+  const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
+  add_units(values, table, gradient, helpers);
   values.lists["statements"] = statements;
   values.lists["constants"] = constant_lines(table, table.combine);
-  values.lists["helpers"] = helpers;
+  values.lists["helpers"] = items(helpers);
   values.lists["temporaries"] = declarations(code.temporaries);
   values.text["result"] = code.result;
   values.flags["log_value"] = table.log_value;
@@ -115,12 +124,13 @@ Core core(const Table& table, const CoreOptions& options) {
   Core out;
   out.n_x = std::max<std::size_t>(table.inputs().size(), 1);
   values.text["n_x"] = std::to_string(out.n_x);
-  values.flags["uses_unknown"] = options.unknown;
+  values.flags["uses_unknown"] =
+      options.unknown || (options.gradient && !sides(table, Outside::error).empty());
   values.lists["arguments"] = comments(argument_lines(table));
   add_coordinates(values, table);
-  add_interpolation(values, table);
+  add_interpolation(values, table, options.gradient);
   add_ends(values, table);
-  add_formula(values, table);
+  add_formula(values, table, options.gradient);
   out.text = without_last_break(render_template("fortran/frictab_core.f", values));
   return out;
 }

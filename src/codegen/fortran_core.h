@@ -9,13 +9,17 @@ namespace frictab::fortran {
 
 // fttau(x): tau_R in MPa of x(1..n), the table's inputs in canonical units, NaN where one of them
 // is; ftnan(x); where the table has axes, ftout(x), true beyond one of their ends; where asked for,
-// ftqnan(), a quiet NaN. With everything they call, as program units without state.
+// ftqnan(), a quiet NaN, and the subroutine ftgrad(x, tau, dtau): fttau's value, bit for bit, and
+// its derivatives by x(1..n) in MPa per canonical unit, those of TableFunction::gradient; all NaN
+// where an input is NaN and where a side refuses (tau is then what fttau says). With everything
+// they call, as program units without state.
 struct Core {
   std::string text; // without the line break at its end
   std::size_t n_x;  // at least 1
 };
 struct CoreOptions {
-  bool unknown = false; // ftqnan
+  bool unknown = false;  // ftqnan
+  bool gradient = false; // ftgrad
 };
 Core core(const Table& table, const CoreOptions& options);
 

@@ -46,12 +46,12 @@ void corners(const std::vector<long>& stride, std::size_t axis, long offset, cha
     mix(name, fmt::format("{}{}a", name, number + 1), fmt::format("{}{}b", name, number + 1));
 }
 
-Strings linear_steps(const std::vector<long>& stride) {
+Strings linear_steps(const std::vector<long>& stride, const std::string& result) {
   Strings out;
   const std::size_t axes = stride.size();
-  if (axes == 1) return {"ftintp = v1*tv(at) + w1*tv(at+1)"};
+  if (axes == 1) return {result + " = v1*tv(at) + w1*tv(at+1)"};
   corners(stride, 0, 0, 'a', out);
-  out.push_back(fmt::format("ftintp = v{0}*p1a + w{0}*q1a", axes));
+  out.push_back(fmt::format("{1} = v{0}*p1a + w{0}*q1a", axes, result));
   return out;
 }
 
@@ -105,12 +105,13 @@ void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
   line("end do");
 }
 
-Strings cubic_steps(const Table& table, const std::vector<long>& stride) {
+Strings cubic_steps(const Table& table, const std::vector<long>& stride,
+                    const std::string& result) {
   Strings out;
   sums(table, stride, 0, "at", "", out);
-  out.push_back(fmt::format("ftintp = (w(1,{0})*r(1) + w(2,{0})*r(2)) + (w(3,{0})*r(3) + "
+  out.push_back(fmt::format("{1} = (w(1,{0})*r(1) + w(2,{0})*r(2)) + (w(3,{0})*r(3) + "
                             "w(4,{0})*r(4))",
-                            stride.size()));
+                            stride.size(), result));
   return out;
 }
 
@@ -164,7 +165,7 @@ void add_axis(TemplateValues& axis, const AxisSearch& search, long stride, const
 
 } // namespace
 
-void add_interpolation(TemplateValues& values, const Table& table) {
+void add_interpolation(TemplateValues& values, const Table& table, bool gradient) {
   const std::size_t axes = table.is_direct() ? 0 : table.axes.size(); // the law has no nodes
   const std::vector<long> stride = strides(table);
   const bool cubic = is_cubic(table);
@@ -203,9 +204,18 @@ void add_interpolation(TemplateValues& values, const Table& table) {
   values.flags["uses_bisection"] = bisection;
   values.lists["names"];
   values.lists["steps"];
+  values.lists["slopes"];
   if (axes == 0) return;
-  values.lists["names"] = statements(cubic ? cubic_names(axes) : linear_names(axes));
-  values.lists["steps"] = statements(cubic ? cubic_steps(table, stride) : linear_steps(stride));
+  const std::string result = gradient ? "val" : "ftintp";
+  Strings names = cubic ? cubic_names(axes) : linear_names(axes);
+  if (gradient) {
+    const Slopes slopes = cubic ? cubic_slopes(table, stride) : linear_slopes(stride);
+    names.insert(names.end(), slopes.names.begin(), slopes.names.end());
+    values.lists["slopes"] = statements(slopes.steps);
+  }
+  values.lists["names"] = statements(names);
+  values.lists["steps"] =
+      statements(cubic ? cubic_steps(table, stride, result) : linear_steps(stride, result));
 }
 
 } // namespace frictab::fortran

@@ -7,6 +7,8 @@
 
 #include "codegen/layer.h"
 #include "core/text.h"
+#include "expr/derivative.h"
+#include "expr/several.h"
 #include "table/outside.h"
 
 namespace frictab::fortran {
@@ -137,6 +139,84 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Bo
   values.text["data_offs"] = fixed_form_data("offs", l.offset);
 }
 
+// What the result changes by the weighted sum of feature f's units.
+std::string feature_slope(std::size_t f) {
+  return fmt::format("layer slope {}", f);
+}
+
+// By each input: what the formula behind the layer says, and through the layer's features.
+std::vector<Expr> input_slopes(const Table& table, const LayeredFormula& formula) {
+  std::vector<Expr> slopes;
+  for (const std::string& name : table.inputs()) {
+    Expr slope = derivative(formula.rest, name);
+    for (std::size_t f = 0; formula.layer && f < formula.layer->features.size(); ++f) {
+      const Expr inner = derivative(formula.layer->features[f], name);
+      if (!inner.is_constant(0)) slope = slope + Expr::symbol(feature_slope(f)) * inner;
+    }
+    slopes.push_back(slope);
+  }
+  return slopes;
+}
+
+// Value, adjoints of the layer's outputs and slopes, in this order: the layer's own sums stand
+// between the last two.
+void add_formulas(TemplateValues& values, const Table& table, const LayeredFormula& formula,
+                  bool gradient, Body& body) {
+  std::vector<Expr> formulas{formula.rest};
+  const std::size_t outputs = formula.layer && gradient ? formula.layer->outputs : 0;
+  for (std::size_t m = 0; m < outputs; ++m)
+    formulas.push_back(derivative(formula.rest, layer_output(m)));
+  for (std::size_t f = 0; outputs > 0 && f < formula.layer->features.size(); ++f)
+    body.rename[feature_slope(f)] = fmt::format("b{}", f);
+  if (gradient)
+    for (const Expr& slope : input_slopes(table, formula))
+      formulas.push_back(slope);
+  const SeveralStatements code = to_statements(formulas, Language::fortran, body.rename);
+  body.names.insert(body.names.end(), code.temporaries.begin(), code.temporaries.end());
+  std::vector<std::string> lines;
+  for (const std::string& line : code.lines) {
+    body.all += line + "\n";
+    lines.push_back(fixed_form(line));
+  }
+  const auto part = [&](std::size_t from, std::size_t to) {
+    return items(std::vector<std::string>(lines.begin() + static_cast<std::ptrdiff_t>(from),
+                                          lines.begin() + static_cast<std::ptrdiff_t>(to)));
+  };
+  const std::size_t first = code.first_lines[0], second = code.first_lines[outputs];
+  values.text["result"] = code.results[0];
+  values.lists["statements"] = part(0, first);
+  values.lists["adjoints"] = part(first, second);
+  values.lists["slopes"] = part(second, lines.size());
+  values.lists["by_outputs"];
+  for (std::size_t m = 0; m < outputs; ++m) {
+    TemplateValues output;
+    output.text = {{"index", std::to_string(m + 1)}, {"name", code.results[1 + m]}};
+    values.lists["by_outputs"].push_back(output);
+  }
+  for (std::size_t i = 1 + outputs; i < formulas.size(); ++i)
+    values.lists["slopes"].push_back(
+        item(fixed_form(fmt::format("dv({}) = {}", i - outputs, code.results[i]))));
+}
+
+// Where an axis is held at an end, the formula does not change by it.
+Lines stopped_sides(const Table& table) {
+  Lines lines;
+  for (const Outside kind : {Outside::clamp, Outside::error})
+    for (const AxisEnds& axis : axis_ends(table)) {
+      if (!symbols(*table.extension).count(axis.name)) continue;
+      const auto add = [&](const char* relation, double limit) {
+        TemplateValues side;
+        side.text = {{"index", std::to_string(axis.input + 1)},
+                     {"relation", relation},
+                     {"limit", fortran_number(limit)}};
+        lines.push_back(side);
+      };
+      if (axis.below == kind) add(".lt.", axis.low);
+      if (axis.above == kind) add(".gt.", axis.high);
+    }
+  return lines;
+}
+
 } // namespace
 
 std::string without_last_break(std::string text) {
@@ -144,23 +224,22 @@ std::string without_last_break(std::string text) {
   return text;
 }
 
-Piece piece(const Table& table) {
+Piece piece(const Table& table, bool gradient) {
   TemplateValues values;
   Body body;
   body.rename = symbol_names(table);
   hold(body, table);
   const LayeredFormula formula = split_layer(*table.extension);
   add_layer(values, formula.layer, body);
-  std::vector<std::string> statements;
-  values.text["result"] =
-      body.add(to_statements(formula.rest, Language::fortran, body.rename), statements);
+  add_formulas(values, table, formula, gradient, body);
   values.text["quantity"] = comment_text(table.quantity);
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.flags["gradient"] = gradient;
   values.lists["declarations"] = declarations(body.names);
   values.lists["constants"] = constant_lines(table, *table.extension);
   values.lists["held"] = items(body.held);
   values.lists["before"] = items(body.before);
-  values.lists["statements"] = items(statements);
+  values.lists["stopped"] = gradient ? stopped_sides(table) : Lines{};
   Piece out;
   out.helpers = helpers_of(body.all);
   values.lists["helpers"] = items(out.helpers);

@@ -28,12 +28,13 @@ Lines constant_lines(const Table& table, const Expr& formula);
 // ftmin, ftmax, ftwhle, where these statements call them.
 std::vector<std::string> helpers_of(const std::string& statements);
 
-// The law's own formula, ftpiec, and the helpers that it calls.
+// The law's own formula, ftpiec, and the helpers that it calls; with `gradient` also ftpieg, which
+// gives its derivatives as well.
 struct Piece {
   std::string text;
   std::vector<std::string> helpers;
 };
-Piece piece(const Table& table);
+Piece piece(const Table& table, bool gradient);
 
 // "x(index) relation limit" for each side of that kind.
 Lines sides(const Table& table, Outside kind);

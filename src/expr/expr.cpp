@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "expr/arithmetic.h"
+#include "expr/several.h"
 
 namespace frictab {
 
@@ -193,6 +194,15 @@ Expr shared(const Expr& formula) {
   std::map<NodeKey, Expr> known;
   Replaced done;
   return share(formula, known, done);
+}
+
+std::vector<Expr> shared(const std::vector<Expr>& formulas) {
+  std::map<NodeKey, Expr> known;
+  Replaced done;
+  std::vector<Expr> out;
+  for (const Expr& formula : formulas)
+    out.push_back(share(formula, known, done));
+  return out;
 }
 
 Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacements) {

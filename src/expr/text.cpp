@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "expr/expr.h"
+#include "expr/several.h"
 
 namespace frictab {
 
@@ -192,6 +193,20 @@ Statements to_statements(const Expr& formula, Language language,
   Emitter emitter(language, rename, prefix);
   emitter.out.result = emitter.emit(formula);
   return emitter.out;
+}
+
+SeveralStatements to_statements(const std::vector<Expr>& formulas, Language language,
+                                const std::map<std::string, std::string>& rename,
+                                std::string_view prefix) {
+  Emitter emitter(language, rename, prefix);
+  SeveralStatements out;
+  for (const Expr& formula : shared(formulas)) {
+    out.results.push_back(emitter.emit(formula));
+    out.first_lines.push_back(emitter.out.lines.size());
+  }
+  out.lines = std::move(emitter.out.lines);
+  out.temporaries = std::move(emitter.out.temporaries);
+  return out;
 }
 
 } // namespace frictab

@@ -56,6 +56,9 @@ C     @{constant.comment}
       return
       end
 C
+@if gradient
+@{gradient_text}
+@end
 @if has_piece
 @{piece}
 @end
@@ -83,9 +86,25 @@ C     Multilinear interpolation, the twin of frictab_kernel.h: same
 C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
 @end
+@if gradient
+      double precision function ftintp(u)
+      implicit none
+      double precision u(@{n_axes}), du(@{n_axes})
+      call ftintg(u, ftintp, du, .false.)
+      return
+      end
+C
+C     The same, and where asked for the derivatives du by u: 0 beyond
+C     the ends of an axis.
+      subroutine ftintg(u, val, du, deriv)
+      implicit none
+      logical deriv
+      double precision u(@{n_axes}), val, du(@{n_axes}), x, t
+@else
       double precision function ftintp(u)
       implicit none
       double precision u(@{n_axes}), x, t
+@end
       integer i, at
 @if uses_bisection
       integer high, middle
@@ -165,6 +184,12 @@ C     axis @{axis.number}: cell i (from 0), weight t of its upper node
 @end
         t = (x - un(i+@{axis.node}))*pc(i+@{axis.cell})
       end if
+@if gradient
+      k@{axis.number} = i
+@if cubic
+      t@{axis.number} = t
+@end
+@end
 @if cubic
       at = at + fc(i+@{axis.cell})*@{axis.stride}
       i = 16*(i + @{axis.cell_before})
@@ -177,6 +202,28 @@ C     axis @{axis.number}: cell i (from 0), weight t of its upper node
       w@{axis.number} = t
       v@{axis.number} = 1.0D0 - t
 @end
+@end
+@if gradient
+      if (deriv) then
+@for axis in axes
+        g@{axis.number} = pc(k@{axis.number}+@{axis.cell})
+        if (u(@{axis.number}) .lt. un(@{axis.node}) .or.
+     &    u(@{axis.number}) .gt. un(@{axis.last_node}))
+     &    g@{axis.number} = 0.0D0
+@if cubic
+        i = 16*(k@{axis.number} + @{axis.cell_before})
+        do l = 1, 4
+          sl(l,@{axis.number}) = g@{axis.number}*(tb(i+l+4)
+     &      + t@{axis.number}*(2.0D0*tb(i+l+8)
+     &      + t@{axis.number}*(3.0D0*tb(i+l+12))))
+        end do
+@end
+@end
+@for line in slopes
+@{line.text}
+@end
+        return
+      end if
 @end
 @for line in steps
 @{line.text}

@@ -2,7 +2,21 @@ C     The law's own @{quantity} of the state x, by its formula; held at
 C     the ends of the range on sides that clamp.
       double precision function ftpiec(x)
       implicit none
+@if gradient
+      double precision x(@{n_x}), dv(@{n_x})
+      call ftpieg(x, ftpiec, dv, .false.)
+      return
+      end
+C
+C     The same, and where asked for its derivatives dv by x: 0 where x
+C     is held at an end.
+      subroutine ftpieg(x, val, dv, deriv)
+      implicit none
+      logical deriv
+      double precision x(@{n_x}), val, dv(@{n_x})
+@else
       double precision x(@{n_x})
+@end
 @for line in declarations
 @{line.text}
 @end
@@ -21,6 +35,12 @@ C     1 + mod(i-1, @{outputs}).
       parameter (nunit = @{units}, nout = @{outputs})
       double precision a, b, c, z, y, p, q
       double precision unit(nunit), net(nout)
+@if gradient
+      double precision adj(nout)
+@for feature in features
+      double precision b@{feature.index}
+@end
+@end
 @for feature in features
       double precision wt@{feature.index}(nunit)
 @end
@@ -81,7 +101,43 @@ C     formula twice. Beyond 19.1 tanh is 1 to 5e-17.
 @for line in statements
 @{line.text}
 @end
+@if gradient
+      val = @{result}
+      if (.not. deriv) return
+@for line in adjoints
+@{line.text}
+@end
+@if has_layer
+C     Slopes of the units, times what the result changes by them.
+@for output in by_outputs
+      adj(@{output.index}) = @{output.name}
+@end
+      do i = 0, nunit - 1, nout
+        do j = 1, nout
+          a = unit(i+j)
+          unit(i+j) = adj(j)*gain(i+j)*(1.0D0 - a*a)
+        end do
+      end do
+@for feature in features
+      b@{feature.index} = 0.0D0
+@end
+      do i = 1, nunit
+@for feature in features
+        b@{feature.index} = b@{feature.index}
+     &    + wt@{feature.index}(i)*unit(i)
+@end
+      end do
+@end
+@for line in slopes
+@{line.text}
+@end
+@for side in stopped
+      if (x(@{side.index}) @{side.relation} @{side.limit})
+     &  dv(@{side.index}) = 0.0D0
+@end
+@else
       ftpiec = @{result}
+@end
       return
       end
 C

@@ -1,0 +1,101 @@
+// Fills templates/fortran/frictab_gradient.f.
+#include "codegen/fortran_gradient.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "expr/derivative.h"
+#include "expr/several.h"
+#include "table/outside.h"
+
+namespace frictab::fortran {
+
+namespace {
+
+// Coordinates of the axes that are looked up, and the states behind them.
+Lines axes(const Table& table, const TemplateValues& core) {
+  Lines out;
+  const std::vector<AxisEnds> ends = axis_ends(table);
+  for (const TemplateValues& axis : core.lists.at("axes")) {
+    TemplateValues one;
+    one.text = {{"number", axis.text.at("number")},
+                {"coordinate", axis.text.at("coordinate")},
+                {"input", std::to_string(ends[out.size()].input + 1)}};
+    one.flags["log"] = table.axes[out.size()].log;
+    out.push_back(one);
+  }
+  return out;
+}
+
+// The states by which the value inside the formula may change.
+std::vector<bool> behind_value(const Table& table) {
+  std::vector<bool> out;
+  for (const std::string& name : table.inputs())
+    out.push_back((table.extension && symbols(*table.extension).count(name)) ||
+                  std::any_of(table.axes.begin(), table.axes.end(),
+                              [&](const TableAxis& axis) { return axis.name == name; }));
+  return out;
+}
+
+// tau, then dtau(i) = what the formula says at a fixed value, and through the value.
+void add_formula(TemplateValues& values, const Table& table, std::vector<std::string>& helpers) {
+  const std::vector<std::string> inputs = table.inputs();
+  std::vector<Expr> formulas{table.combine, derivative(table.combine, "value")};
+  for (const std::string& name : inputs)
+    formulas.push_back(derivative(table.combine, name));
+  const SeveralStatements code = to_statements(formulas, Language::fortran, symbol_names(table));
+  const auto value_lines = static_cast<std::ptrdiff_t>(code.first_lines[0]);
+  std::vector<std::string> lines(code.lines.begin() + value_lines, code.lines.end());
+  const std::vector<bool> behind = behind_value(table);
+  const bool by_value = !formulas[1].is_constant(0);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const bool direct = !formulas[2 + i].is_constant(0), through = by_value && behind[i];
+    const std::string chain = formulas[1].is_constant(1)
+                                  ? fmt::format("by({})", i + 1)
+                                  : fmt::format("{}*by({})", code.results[1], i + 1);
+    lines.push_back(fmt::format("dtau({}) = {}{}{}", i + 1,
+                                direct || !through ? code.results[2 + i] : "",
+                                direct && through ? " + " : "", through ? chain : ""));
+  }
+  if (inputs.empty()) lines.push_back("dtau(1) = 0.0D0");
+  values.lists["statements"];
+  values.lists["slopes"];
+  for (std::ptrdiff_t i = 0; i < value_lines; ++i)
+    values.lists["statements"].push_back(item(fixed_form(code.lines[static_cast<std::size_t>(i)])));
+  for (const std::string& line : lines)
+    values.lists["slopes"].push_back(item(fixed_form(line)));
+  values.text["result"] = code.results[0];
+  values.lists["temporaries"] = declarations(code.temporaries);
+  helpers = helpers_of(join(code.lines, "\n"));
+}
+
+} // namespace
+
+Piece gradient_unit(const Table& table, const TemplateValues& core) {
+  TemplateValues values;
+  Piece out;
+  add_formula(values, table, out.helpers);
+  values.lists["axes"] = axes(table, core);
+  values.lists["extending"] = core.lists.at("extending");
+  values.lists["refusing"] = sides(table, Outside::error);
+  values.lists["constants"] = constant_lines(table, table.combine);
+  values.lists["helpers"] = items(out.helpers);
+  for (const char* name : {"n_x", "n_axes", "only_value"})
+    values.text[name] = core.text.at(name);
+  const bool refuses = !values.lists["refusing"].empty();
+  const bool extends = !values.lists["extending"].empty();
+  values.text["refused_text"] = refuses ? " or a side refuses" : "";
+  values.flags = {{"has_by", table.is_direct() || !table.axes.empty()},
+                  {"interpolates", core.flags.at("interpolates")},
+                  {"uses_log", core.flags.at("uses_log")},
+                  {"refuses", refuses},
+                  {"extends", extends},
+                  {"has_piece", table.is_direct()},
+                  {"log_value", table.log_value}};
+  out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
+  return out;
+}
+
+} // namespace frictab::fortran

@@ -1,0 +1,12 @@
+// tau_R with its derivatives, in fixed form.
+#pragma once
+
+#include "codegen/fortran_parts.h"
+
+namespace frictab::fortran {
+
+// The subroutine ftgrad of Core, and the helpers that it calls. `core`: what the values of
+// frictab_core.f say about coordinates and value.
+Piece gradient_unit(const Table& table, const TemplateValues& core);
+
+} // namespace frictab::fortran

@@ -1,0 +1,104 @@
+C     tau as fttau gives it, and its derivatives dtau by x: MPa per
+C     canonical unit. 0 by an axis at whose end the table stops, NaN
+C     where x holds one@{refused_text}.
+      subroutine ftgrad(x, tau, dtau)
+      implicit none
+      double precision x(@{n_x}), tau, dtau(@{n_x})
+      double precision val
+@if has_by
+      double precision by(@{n_x})
+@end
+@if interpolates
+      double precision u(@{n_axes}), du(@{n_axes})
+@end
+@if uses_log
+      double precision ftlog
+@end
+@if refuses
+      double precision ftqnan
+@end
+@for name in helpers
+      double precision @{name.text}
+@end
+@for line in temporaries
+@{line.text}
+@end
+@for constant in constants
+      double precision c@{constant.index}
+C     @{constant.comment}
+      parameter (c@{constant.index} = @{constant.value})
+@end
+@if extends
+      logical beyond
+@end
+      logical ftnan
+      integer i, j
+      do i = 1, @{n_x}
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, @{n_x}
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+C     val and its derivatives by x
+@if has_by
+      do i = 1, @{n_x}
+        by(i) = 0.0D0
+      end do
+@end
+@if interpolates
+@for axis in axes
+      u(@{axis.number}) = @{axis.coordinate}
+@end
+      call ftintg(u, val, du, .true.)
+@if log_value
+      val = exp(val)
+@end
+@for axis in axes
+@if axis.log
+      if (abs(du(@{axis.number})) .gt. 0.0D0)
+     &  by(@{axis.input}) = du(@{axis.number})/x(@{axis.input})
+@else
+      by(@{axis.input}) = du(@{axis.number})
+@end
+@if log_value
+      by(@{axis.input}) = val*by(@{axis.input})
+@end
+@end
+@if extends
+      beyond = .false.
+@for side in extending
+      if (x(@{side.index}) @{side.relation} @{side.limit})
+     &  beyond = .true.
+@end
+      if (beyond) call ftpieg(x, val, by, .true.)
+@end
+@else
+@if has_piece
+      call ftpieg(x, val, by, .true.)
+@else
+      val = @{only_value}
+@if log_value
+      val = exp(val)
+@end
+@end
+@end
+@for line in statements
+@{line.text}
+@end
+      tau = @{result}
+@for line in slopes
+@{line.text}
+@end
+@for side in refusing
+      if (x(@{side.index}) @{side.relation} @{side.limit}) then
+        do i = 1, @{n_x}
+          dtau(i) = ftqnan()
+        end do
+      end if
+@end
+      return
+      end
+C
