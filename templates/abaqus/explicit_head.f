@@ -23,6 +23,7 @@ C
 C     @{line.text}
 @end
 C
+C     Argument list:
 @for line in source
 C     @{line.text}
 @end

@@ -1,7 +1,7 @@
 C     VFRIC for Abaqus/Explicit, contact pairs (*FRICTION, USER):
 @{head}
-C     The argument list of releases 2022 and later; older ones name the
-C     arguments differently but in the same order.
+C     Names are those of releases 2022 and later; older ones differ, in
+C     the same order.
       subroutine vfric(
 C Write only -
      1 fTangential,

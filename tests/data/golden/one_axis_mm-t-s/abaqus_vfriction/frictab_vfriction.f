@@ -30,6 +30,7 @@ C     With a smaller DEPVAR those that it leaves out are not kept.
 C     NaN in gives NaN out; such a point's STATE stay as they were. A
 C       point without area has no pressure to look up, and no friction.
 C
+C     Argument list:
 C     verified: argument list, dimensions and sizes of the arrays in
 C       three public routines that ran in production (RWTH WZL), names
 C       as in the 2017 and v2023 references, keyword lines in the 6.14

@@ -43,6 +43,7 @@ C     With a smaller DEPVAR those that it leaves out are not kept.
 C     NaN in gives NaN out; such a point's STATEV stay as they were. A
 C       point without area has no pressure to look up, and no friction.
 C
+C     Argument list:
 C     verified: full text of the argument list in a public copy of the
 C       manual page, names as in the v2024 reference; order and count
 C       the same in older releases. Recalled, check against your
@@ -51,8 +52,8 @@ C       an analytical rigid surface, negative fStickForce, area 1 of
 C       node-based surfaces, STATEV = 0 at the start. XPLB_ABQERR (only
 C       where outside = error) is called as public routines do
 C
-C     The argument list of releases 2022 and later; older ones name the
-C     arguments differently but in the same order.
+C     Names are those of releases 2022 and later; older ones differ, in
+C     the same order.
       subroutine vfric(
 C Write only -
      1 fTangential,
