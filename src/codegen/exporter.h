@@ -66,7 +66,7 @@ struct Exporter {
   SourceBundle (*generate)(const ExportRequest&) = nullptr;
   std::vector<BuildVariant> (*variants)(const ExportRequest&) = nullptr;
   // Calls the routine as its solver would, for rows of states in canonical units (columns in the
-  // order of request.table.inputs()), and gives tau_R in MPa.
+  // order of request.table.inputs()), and gives tau_R in MPa; rows it cannot pose stay as they are.
   void (*drive)(const Built&, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
   // Its own entry for many states at once, in the units of the request and without any conversion:

@@ -101,10 +101,15 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Agreement,
-                         testing::Values(Case{"c", "mm-t-s"}, Case{"c", "m-kg-s"},
-                                         Case{"abaqus_vfric", "mm-t-s"},
-                                         Case{"abaqus_vfric", "m-kg-s"}),
+std::vector<Case> every_target() {
+  std::vector<Case> cases;
+  for (const Exporter& exporter : all_exporters())
+    for (const char* units : {"mm-t-s", "m-kg-s"})
+      cases.push_back({exporter.name, units});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Agreement, testing::ValuesIn(every_target()),
                          [](const testing::TestParamInfo<Case>& given) {
                            std::string name = given.param.target + "_" + given.param.units;
                            std::replace(name.begin(), name.end(), '-', '_');
