@@ -20,7 +20,6 @@ using fortran::Coefficient;
 
 constexpr const char* main_file = "frictab_usrbcc.f";
 constexpr const char* update_file = "frictab_usrupd.f";
-constexpr const char* stop_file = "frictab_stop.f";
 
 std::string keyword(Coefficient kind) {
   const char* type = kind == Coefficient::shear ? "1" : kind == Coefficient::coulomb ? "2" : "3";
@@ -55,7 +54,6 @@ json build_steps(const SourceBundle& files) {
   if (files.count(update_file))
     steps.push_back("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
                     "that copies USRN1 to USRN2; at least 3 user variables per node");
-  if (files.count(stop_file)) steps.push_back("add frictab_stop.f to usr_bcc.f");
   steps.push_back("build with the Fortran compiler of the release (Intel or Absoft) and name the "
                   "new engine in DEF_SIM_DIR.DAT of the problem's folder");
   return steps;
@@ -92,35 +90,14 @@ SourceBundle generate(const ExportRequest& request) {
   SourceBundle files;
   files[main_file] = usrbcc_source(request, inputs);
   if (takes_history(inputs)) files[update_file] = usrupd_source(request);
-  if (fortran::refuses(request.table))
-    files[stop_file] = std::string(embedded_template("deform_usrbcc/frictab_stop.f"));
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant out;
-  out.name = "double";
-  out.eps = 0x1p-53;
-  out.command = {"gfortran",
-                 "-O2",
-                 "-std=legacy",
-                 "-ffixed-line-length-72",
-                 "-ffp-contract=off",
-                 "-fPIC",
-                 "-shared",
-                 "-o",
-                 "@{out}",
-                 std::string("@{dir}/") + main_file};
-  if (takes_history(inputs_of(request)))
-    out.command.push_back(std::string("@{dir}/") + update_file);
-  if (fortran::refuses(request.table)) {
-    out.command.push_back("@{dir}/ftquit.f");
-    out.extra["ftquit.f"] = "C     Stand-in for frictab_stop.f: comes back.\n"
-                            "      subroutine ftquit\n"
-                            "      end\n";
-  }
-  return {out};
+  std::vector<std::string> sources = {main_file};
+  if (takes_history(inputs_of(request))) sources.push_back(update_file);
+  return {fortran::fortran_variant(request.table, "double", 0x1p-53, sources)};
 }
 
 Exporter exporter() {
@@ -152,7 +129,7 @@ Exporter exporter() {
       "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "
       "side "
       "with outside = error the routine writes state and value to the standard output and stops "
-      "(FTQUIT in frictab_stop.f). There is no USRBCC in DEFORM-3D.";
+      "(FTQUIT). There is no USRBCC in DEFORM-3D.";
   out.options = {{"deform_friction",
                   {"coulomb", "shear", "constant"},
                   "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"}};

@@ -111,11 +111,12 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, kind);
-  values.text["stop"] = refuses ? fortran::stop(table, "call ftquit") : "";
+  values.text["stop"] =
+      refuses ? fortran::stop(table, "stop 'friction table: outside the range'") : "";
   values.text["core"] = fortran::core(table, {refuses}).text;
   values.flags["histories"] = takes_history(inputs);
   values.flags["uses_peak"] = uses(inputs, Source::peak_pressure);
-  values.lists["inputs"] = fortran_inputs(inputs, gives());
+  values.lists["inputs"] = fortran::constant_inputs(inputs, gives());
   return render_template("deform_usrbcc/frictab_usrbcc.f", values);
 }
 

@@ -71,19 +71,14 @@ SourceBundle generate(const ExportRequest& request) {
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant out;
-  out.name = "double";
-  out.eps = 0x1p-53;
-  out.command = {
-      "gfortran", "-O2", "-std=legacy", "-ffixed-line-length-72", "-ffp-contract=off", "-fPIC",
-      "-shared",  "-o",  "@{out}",      "@{dir}/frictab_ufric.f"};
+  BuildVariant out =
+      fortran::fortran_variant(request.table, "double", 0x1p-53, {"frictab_ufric.f"});
   if (!fortran::refuses(request.table)) return {out};
-  out.command.push_back("@{dir}/quit.f");
-  out.extra["quit.f"] =
-      "C     Stand-in for the solver's routine: comes back, where the solver ends the analysis.\n"
-      "      subroutine quit(number)\n"
-      "      integer number\n"
-      "      end\n";
+  out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
+  out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
+                        "      subroutine quit(number)\n"
+                        "      integer number\n"
+                        "      end\n";
   return {out};
 }
 

@@ -83,7 +83,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);
-  values.lists["inputs"] = fortran_inputs(inputs, gives());
+  values.lists["inputs"] = fortran::constant_inputs(inputs, gives());
   return render_template("marc_ufric/frictab_ufric.f", values);
 }
 

@@ -36,4 +36,7 @@ bool same_at_every_pressure(const Table& table, Coefficient kind);
 std::string constants_common(std::size_t n_x);
 std::string constants_data(const std::vector<SolverInput>& inputs);
 
+// fortran_inputs of a solver without properties: what only those need is left out.
+Lines constant_inputs(const std::vector<SolverInput>& inputs, const SolverGives& gives);
+
 } // namespace frictab::fortran

@@ -6,6 +6,7 @@ C     end by rounding.
       implicit none
       double precision x(@{n_x}), bad
       character*60 name
+      character*140 text
       integer i
       logical ftnan
       external ftnan
@@ -24,9 +25,17 @@ C     end by rounding.
       end if
 @end
       if (.not. ftstop) return
-      write (*, '(a,1p,e14.6,a,a)') ' friction table: state', bad,
+      write (text, '(a,1p,e14.6,a,a)') 'friction table: state', bad,
      &  ' is outside the range: ', name
-      @{statement}
+      call ftquit(text)
       return
+      end
+C
+C     Ends the analysis.
+      subroutine ftquit(text)
+      implicit none
+      character*(*) text
+      write (*, '(1x,a)') trim(text)
+      @{statement}
       end
 C
