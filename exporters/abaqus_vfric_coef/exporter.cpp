@@ -44,8 +44,8 @@ std::vector<std::string> remarks(const ExportRequest& request) {
       "states outside the range are not counted.",
       "NaN in gives NaN out."};
   if (abaqus::refuses(request.table))
-    lines.push_back("Points out of contact never end the analysis: where a side refuses them, "
-                    "their fCoef is 0.");
+    lines.push_back("Points out of contact never end the analysis: the value at the end of a side "
+                    "that refuses is taken there.");
   return lines;
 }
 

@@ -128,16 +128,28 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
     record.worst_state[s.names[d]] = s.range.states[d][at];
 }
 
+// What a driver leaves where its solver can never be: tau_R is not negative.
+constexpr double not_posed = -1;
+
+// Such rows say nothing of a source, so they count as the table's own. A source that was asked
+// nothing at all has shown nothing.
+void leave_out_not_posed(std::vector<double>& tau, const std::vector<double>& table) {
+  const auto posed = [](double t) { return t != not_posed; };
+  if (std::none_of(tau.begin(), tau.end(), posed)) return;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    if (!posed(tau[i])) tau[i] = table[i];
+}
+
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
                     const std::function<void(const Probe&, std::vector<double>&)>& answer) {
   DriftRecord record;
   record.model = input.model.name();
   record.subject = subject;
   for (const Probe* reference : {&s.rows, &s.range}) {
-    // A state that a solver never hands over stays the table's: a peak below the present value.
-    std::vector<double> tau = reference->table;
+    std::vector<double> tau(reference->law.size(), not_posed);
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
+    leave_out_not_posed(tau, reference->table);
     if (reference == &s.rows)
       compare_rows(record, *reference, s.beyond, tau);
     else

@@ -54,7 +54,6 @@ C     solver's units, what else x holds comes from the entry.
       logical ftnan
       external fttau, ftnan
 @if refuses
-      integer i
       double precision ftqnan
       logical ftstop
       external ftqnan, ftstop
@@ -80,22 +79,12 @@ C     @{in.comment}
       x(@{in.index}) = abs(speed)@{in.convert}
 @end
 @end
-@if refuses
-C     Out of contact nothing is refused, and no coefficient is known.
-      if (given .gt. 0.0D0) then
-        tau = ftqnan()
-        if (.not. ftstop(x)) tau = fttau(x)
-      else
-        tau = fttau(x)
-        if (ftnan(tau)) then
-          tau = 0.0D0
-          do i = 1, @{n_x}
-            if (ftnan(x(i))) tau = x(i)
-          end do
-        end if
-      end if
-@else
       tau = fttau(x)
+@if refuses
+C     Out of contact nothing is refused.
+      if (given .gt. 0.0D0) then
+        if (ftstop(x)) tau = ftqnan()
+      end if
 @end
       ftcoef = tau
       if (ftnan(tau)) return

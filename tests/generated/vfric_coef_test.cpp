@@ -259,9 +259,9 @@ TYPED_TEST(VfricCoef, RefusesNothingOutOfContact) {
   this->set(c, 3, 0, 600, nan);
   this->run(c, routine);
   EXPECT_TRUE(std::isnan(c.coefficient[0])) << "where the solver's routine comes back";
-  EXPECT_EQ(c.coefficient[1], 0);
-  const double state[] = {1e-3, 50, 100, flow};
-  EXPECT_CLOSE(c.coefficient[2], function(state) / 1e-3);
+  const double at_end[] = {1e-3, 500, 100, flow}, inside[] = {1e-3, 50, 100, flow};
+  EXPECT_CLOSE(c.coefficient[1], function(at_end) / 1e-3);
+  EXPECT_CLOSE(c.coefficient[2], function(inside) / 1e-3);
   EXPECT_TRUE(std::isnan(c.coefficient[3]));
 }
 

@@ -286,7 +286,9 @@ TYPED_TEST(Vfriction, WritesNoStateBeyondDEPVAR) {
       EXPECT_CLOSE(this->force(c, 1), -this->tau(1000, 50, 100));
       for (int i = 6; i < states; ++i)
         EXPECT_EQ(c.state[static_cast<std::size_t>(i)], 0);
-      if (states > 0) EXPECT_EQ(c.state[0], c.slip[0]);
+      if (states > 0) {
+        EXPECT_EQ(c.state[0], c.slip[0]);
+      }
     }
 }
 

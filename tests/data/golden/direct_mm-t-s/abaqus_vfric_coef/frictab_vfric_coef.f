@@ -37,8 +37,8 @@ C     No state variables: sliding distance, work and peak pressure are
 C       properties or fields, and states outside the range are not
 C       counted.
 C     NaN in gives NaN out.
-C     Points out of contact never end the analysis: where a side
-C       refuses them, their fCoef is 0.
+C     Points out of contact never end the analysis: the value at the
+C       end of a side that refuses is taken there.
 C
 C     Argument list:
 C     recalled: no public text of VFRIC_COEF's argument list was
@@ -106,7 +106,6 @@ C     solver's units, what else x holds comes from the entry.
       double precision x(4), given, speed, press, tau, fttau
       logical ftnan
       external fttau, ftnan
-      integer i
       double precision ftqnan
       logical ftstop
       external ftqnan, ftstop
@@ -126,18 +125,10 @@ C     sigma_n_MPa: pressure
       x(1) = press
 C     v_rel_mm_s: slipRate
       x(2) = abs(speed)
-C     Out of contact nothing is refused, and no coefficient is known.
+      tau = fttau(x)
+C     Out of contact nothing is refused.
       if (given .gt. 0.0D0) then
-        tau = ftqnan()
-        if (.not. ftstop(x)) tau = fttau(x)
-      else
-        tau = fttau(x)
-        if (ftnan(tau)) then
-          tau = 0.0D0
-          do i = 1, 4
-            if (ftnan(x(i))) tau = x(i)
-          end do
-        end if
+        if (ftstop(x)) tau = ftqnan()
       end if
       ftcoef = tau
       if (ftnan(tau)) return
