@@ -102,7 +102,8 @@ const char* const source_of_signature =
     "and KINC number increments and a cutback keeps the number); TAU comes in as of the start of "
     "the increment (used only with DEPVAR below 15); DROT turns the components of state variables; "
     "TEMP(1), TEMP(2) and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD is the work "
-    "of the increment, SED the elastic energy. STDB_ABQERR (only where outside = error) is called "
+    "of the increment, SED the elastic energy; 0.005*CHRLNGTH is the solver's own slip tolerance. "
+    "STDB_ABQERR (only where outside = error) is called "
     "as public routines do";
 
 const char* const notes =
