@@ -1,0 +1,194 @@
+// What both routines of Abaqus/Standard are filled with.
+#include "standard.h"
+
+#include <algorithm>
+#include <compare>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/fortran_core.h"
+#include "stop.h"
+
+namespace frictab::abaqus {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+// Templates ask for every source, also where this argument list has none.
+Lines all_flags(Lines inputs) {
+  for (TemplateValues& input : inputs)
+    for (const char* flag : {"is_pressure", "is_speed", "is_slip", "is_work", "is_peak",
+                             "is_temperature", "is_property", "is_field", "is_constant"})
+      input.flags.try_emplace(flag, false);
+  return inputs;
+}
+
+std::string over(double number) {
+  return number == 1 ? "" : "/" + fortran_number(number);
+}
+
+void add_units(TemplateValues& values, const ExportRequest& request) {
+  const SolverUnit length = solver_unit("mm", request.units);
+  values.text["to_mpa"] = over(solver_unit("MPa", request.units).over);
+  values.text["to_mm"] = length.times == 1 ? "" : "*" + fortran_number(length.times);
+  values.text["to_work"] = over(work_over(request.units));
+}
+
+std::vector<std::string> coefficient_lines(bool frozen) {
+  if (!frozen) return {"Coefficient: of the current state, with its derivatives."};
+  return {"Coefficient: as the last increment left it (start_of_increment); in the first one of a "
+          "contact the current state's. A stress may then exceed the shear limit by what the "
+          "pressure grows within one increment."};
+}
+
+BuildVariant variant(const std::string& file, bool refuses) {
+  BuildVariant out;
+  out.name = "double";
+  out.command = {"gfortran",
+                 "-O2",
+                 "-std=legacy",
+                 "-ffixed-line-length-72",
+                 "-ffp-contract=off",
+                 "-fPIC",
+                 "-shared",
+                 "-I@{dir}",
+                 "-o",
+                 "@{out}",
+                 "@{dir}/" + file};
+  out.extra["aba_param.inc"] =
+      "C     Stand-in for the solver's include, for tests outside the solver.\n"
+      "      implicit real*8 (a-h,o-z)\n"
+      "      parameter (nprecd=2)\n";
+  out.eps = 0x1p-53;
+  if (!refuses) return out;
+  out.command.push_back("@{dir}/stdb_abqerr.f");
+  out.extra["stdb_abqerr.f"] =
+      "C     Stand-in for the solver's routine: comes back, where the solver ends the analysis.\n"
+      "      subroutine stdb_abqerr(lop, text, intv, realv, charv)\n"
+      "      include 'aba_param.inc'\n"
+      "      character*(*) text, charv(*)\n"
+      "      dimension intv(*), realv(*)\n"
+      "      end\n";
+  return out;
+}
+
+} // namespace
+
+ExportOption coefficient_option() {
+  return {"abaqus_coefficient",
+          {"current", "start_of_increment"},
+          "the coefficient follows the state within an increment, with derivatives; or is held at "
+          "what the last increment left, which converges more easily"};
+}
+
+bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& request) {
+  return exporter.option(request, "abaqus_coefficient") == "start_of_increment";
+}
+
+double smallest_pressure(const Table& table) {
+  const auto range = known_range(table, "sigma_n_MPa");
+  return range && range->first > 0 ? std::min(1.0, range->first) : 1.0;
+}
+
+double work_over(std::string_view units) {
+  return solver_unit("MPa", units).over / solver_unit("mm", units).times;
+}
+
+bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
+                 const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown) {
+  const Table& table = request.table;
+  fortran::add_head(values, exporter, request, inputs, "STDB_ABQERR ends the analysis");
+  add_units(values, request);
+  const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(exporter, request);
+  const bool missing = std::any_of(inputs.begin(), inputs.end(),
+                                   [](const SolverInput& input) { return !input.fallback; });
+  unknown = unknown || refuses || missing;
+  values.text["stop"] = refuses ? stop(table, Solver::standard) : "";
+  values.text["core"] = fortran::core(table, {.unknown = unknown, .gradient = true}).text;
+  values.text["pmin"] = fortran_number(smallest_pressure(table));
+  values.text["smallest"] = fmt::format("{:.3g}", smallest_pressure(table));
+  values.flags["has_axes"] = !table.axes.empty();
+  values.flags["frozen"] = frozen;
+  values.lists["coefficient"] = fortran::comments(coefficient_lines(frozen));
+  values.lists["inputs"] = all_flags(fortran_inputs(inputs, gives));
+  return unknown;
+}
+
+std::size_t history_size(std::size_t n) {
+  return 2 * n + 1;
+}
+
+std::string history(std::size_t n) {
+  TemplateValues values;
+  values.text = {{"n", std::to_string(n)},
+                 {"stamp", std::to_string(n + 1)},
+                 {"first", std::to_string(n + 2)},
+                 {"last", std::to_string(history_size(n))}};
+  return fortran::without_last_break(render_template("abaqus/frictab_states.f", values));
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file) {
+  const auto refuses = [](const TableAxis& axis) {
+    return axis.below == Outside::error || axis.above == Outside::error;
+  };
+  const std::vector<TableAxis>& axes = request.table.axes;
+  return {variant(file, std::any_of(axes.begin(), axes.end(), refuses))};
+}
+
+json states_json(const std::vector<SolverInput>& inputs) {
+  json out = json::array();
+  for (const SolverInput& input : inputs)
+    out.push_back({{"quantity", input.argument.name},
+                   {"unit", input.argument.solver.name},
+                   {"meaning", input.argument.meaning},
+                   {"source", input.text}});
+  return out;
+}
+
+json properties_json(const std::vector<SolverInput>& inputs) {
+  json out = json::array();
+  for (const SolverInput& input : inputs) {
+    if (!input.property) continue;
+    json one = {{"number", input.property},
+                {"quantity", input.argument.name},
+                {"unit", input.argument.solver.name},
+                {"meaning", input.argument.meaning},
+                {"used_when", input.without.empty() ? "always" : input.without},
+                {"where_absent", nullptr}};
+    if (input.fallback) one["where_absent"] = input.argument.solver.from_canonical(*input.fallback);
+    out.push_back(one);
+  }
+  return out;
+}
+
+std::string property_deck(const std::vector<std::string>& values) {
+  std::string deck;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    deck +=
+        (i % 8 == 0 ? " " : ", ") + values[i] + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+  return deck;
+}
+
+std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
+                                       std::span<const double* const> columns) {
+  std::vector<std::size_t> order(rows);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t c = inputs.size(); c-- > 0;)
+    if (inputs[c].source == Source::property)
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::strong_order(columns[c][a], columns[c][b]) < 0;
+      });
+  return order;
+}
+
+bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
+                     std::size_t a, std::size_t b) {
+  for (std::size_t c = 0; c < inputs.size(); ++c)
+    if (inputs[c].source == Source::property && columns[c][a] != columns[c][b]) return false;
+  return true;
+}
+
+} // namespace frictab::abaqus

@@ -1,0 +1,56 @@
+// What the targets for Abaqus/Standard share: choices, units, states, how they are compiled here
+// and their part of the recipe.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "codegen/exporter.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab::abaqus {
+
+// The option abaqus_coefficient, and whether the request asks for start_of_increment.
+ExportOption coefficient_option();
+bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& request);
+
+// MPa: below it the coefficient tau_R/p is held, since tau_R need not vanish with p. 1, or the low
+// end of a range that goes below that.
+double smallest_pressure(const Table& table);
+
+// Fills in what both templates hold: head, inputs with a flag for every source, core with its
+// gradient, stop, pmin and smallest, to_mpa, to_mm, to_work, lines `coefficient`, flags frozen,
+// has_axes, refuses. Gives whether the core holds ftqnan; `unknown` asks for it in any case.
+bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
+                 const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown);
+
+// ftbegn, ftkeep: n values of a history with what makes them proof against iterations.
+std::string history(std::size_t n);
+std::size_t history_size(std::size_t n); // state variables it takes
+
+// gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
+std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file);
+
+// One entry per state: quantity, unit, meaning, source.
+nlohmann::ordered_json states_json(const std::vector<SolverInput>& inputs);
+nlohmann::ordered_json properties_json(const std::vector<SolverInput>& inputs);
+// The numbers of the deck's property lines, eight to a line.
+std::string property_deck(const std::vector<std::string>& values);
+
+// MPa mm, the unit of friction work per area, in the solver's units: divide to get it.
+double work_over(std::string_view units);
+
+// Rows that agree in what is passed as a property can share a call: the rows sorted by those
+// states, and whether two of them agree.
+std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
+                                       std::span<const double* const> columns);
+bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
+                     std::size_t a, std::size_t b);
+
+// A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
+inline constexpr double any_pressure = 1024;
+
+} // namespace frictab::abaqus

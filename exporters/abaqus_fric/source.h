@@ -1,0 +1,19 @@
+// The Fortran source of FRIC for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+
+namespace frictab::abaqus_fric {
+
+// What FRIC's arguments hold.
+const SolverGives& gives();
+
+// Values of a contact point's history, without what protects them.
+inline constexpr std::size_t history = 7;
+
+std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::abaqus_fric

@@ -1,0 +1,139 @@
+// Target `abaqus_fric_coef`: Abaqus/Standard, the coefficient alone. What it is called, how it is
+// compiled and how the input deck refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "../abaqus/standard.h"
+#include "codegen/recipe.h"
+#include "driver.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::abaqus_fric_coef {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::vector<std::string> values = property_values(inputs);
+  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, user=COEFFICIENT";
+  if (is_2024(request)) deck += fmt::format(", depvar={}", abaqus::history_size(history));
+  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
+  return deck + "\n" + abaqus::property_deck(values) +
+         "*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
+         "** and on the step, for derivatives by the pressure:\n"
+         "*Step, unsymm=YES, nlgeom=YES\n";
+}
+
+json state_variables(const ExportRequest& request) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  json out = json::array();
+  if (!is_2024(request)) return out;
+  const auto add = [&](const std::string& unit, const std::string& meaning) {
+    out.push_back({{"number", out.size() + 1}, {"unit", unit}, {"meaning", meaning}});
+  };
+  add(stress + "*" + length, "friction work per area");
+  add(stress, "peak pressure");
+  add("1", "increments in which the state was outside the range");
+  add("1", "coefficient tau_R/p at the end of the increment");
+  add(length, "equivalent slip at the end of the increment");
+  add("1", "step * 1e8 + increment that these belong to");
+  for (std::size_t i = 0; i < history; ++i)
+    add(out[i]["unit"], fmt::format("number {} at the start of the increment", i + 1));
+  return out;
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  const Exporter& exporter = *find_exporter("abaqus_fric_coef");
+  json out = recipe_head(exporter, request, "fric_coef", files);
+  for (const ExportOption& option : exporter.options)
+    out["options"][option.name] = exporter.option(request, option.name);
+  out["arguments"] = abaqus::states_json(inputs);
+  out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
+                          "listed is where each state comes from";
+  out["result"] = {
+      {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
+      {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
+                      std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
+  out["state_variables_by"] = "contact point";
+  out["state_variables"] = state_variables(request);
+  out["properties"] = abaqus::properties_json(inputs);
+  out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
+                    "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
+                    "frictab_fric_coef.f"};
+  out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
+  out["input_deck"] = input_deck(request, inputs);
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_table(request.table);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives(is_2024(request)));
+  SourceBundle files;
+  files["frictab_fric_coef.f"] = coef_source(request, inputs);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  return abaqus::variants(request, "frictab_fric_coef.f");
+}
+
+const char* const source_of_signature =
+    "verified: the list of 2024 in the v2024 reference and in 3DEXPERIENCE, that of 2020 in a "
+    "public routine for releases up to about 2020; between these it is not known which release "
+    "changed it. State variables are rData(8) and on, as the 2024 page gets them by a pointer. "
+    "Inferred from that page: one point per call where there are state variables. "
+    "Recalled, check against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is "
+    "the slip at the end of the increment; "
+    "nTemp = 1 where temperatures exist; state variables hold the start of the increment in every "
+    "iteration (the routine is right either way, as long as KSTEP and KINC number increments and "
+    "a cutback keeps the number). STDB_ABQERR (only where outside = error) is called as public "
+    "routines do";
+
+const char* const notes =
+    "For *FRICTION, USER=COEFFICIENT in Abaqus/Standard: contact pairs and general contact; stick "
+    "and slip are the solver's own. The argument list changed after 2020: set [export.options] "
+    "abaqus_release to 2024 or 2020, by whether the manual of your release names slipData or "
+    "slipRate; both have 16 arguments, so the wrong one compiles, links and reads other numbers. "
+    "The solver multiplies the coefficient tau_R/p with its pressure, so the shear limit holds as "
+    "the coefficient falls with pressure. Below 1 MPa (or the low end "
+    "of the range) the coefficient is held: a law whose tau_R does not vanish with the pressure "
+    "would need an infinite one. Derivatives by pressure act with *STEP, UNSYMM=YES. Slip history "
+    "is the solver's equivalent slip (2024) or not known (2020: a property, or a field). Friction "
+    "work and peak pressure take DEPVAR=11 and exist only with the list of 2024; "
+    "abaqus_coefficient = \"start_of_increment\" needs them too. Rates are slip over time: a "
+    "static step needs times that mean seconds. Surface expansion and flow stress are not known "
+    "to the solver: [export.inputs] says constant:VALUE, property or field:N. Beyond a side with "
+    "outside = error STDB_ABQERR ends the analysis, and states of unconverged iterations count "
+    "too: prefer clamp or law in Standard.";
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "abaqus_fric_coef";
+  out.order = 26;
+  out.title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives";
+  out.signature_source = source_of_signature;
+  out.notes = notes;
+  out.options = {{"abaqus_release",
+                  {"2024", "2020"},
+                  "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
+                  "about 2020; between them see which one your manual shows"},
+                 abaqus::coefficient_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::abaqus_fric_coef

@@ -1,0 +1,24 @@
+// The Fortran source of FRIC_COEF for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+
+namespace frictab::abaqus_fric_coef {
+
+// Whether the request wants the argument list of 2024, else that of 2020.
+bool is_2024(const ExportRequest& request);
+
+// What that argument list holds.
+const SolverGives& gives(bool release_2024);
+
+// Values of a contact point's history, without what protects them; only with the list of 2024.
+inline constexpr std::size_t history = 5;
+
+// Throws InputError where the coefficient shall be kept by an argument list without state
+// variables.
+std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::abaqus_fric_coef
