@@ -10,6 +10,12 @@
 
 namespace frictab::fortran {
 
+std::string quit(const std::string& statement) {
+  TemplateValues values;
+  values.text["statement"] = statement;
+  return without_last_break(render_template("fortran/frictab_quit.f", values));
+}
+
 std::string stop(const Table& table, const std::string& statement) {
   TemplateValues values;
   Lines refusing = sides(table, Outside::error);
@@ -24,7 +30,7 @@ std::string stop(const Table& table, const std::string& statement) {
     if (axis.above == Outside::error) say(axis, "above", axis.high);
   }
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
-  values.text["statement"] = statement;
+  values.text["quit"] = quit(statement);
   values.lists["refusing"] = refusing;
   return without_last_break(render_template("fortran/frictab_refuse.f", values));
 }
@@ -37,7 +43,7 @@ bool refuses(const Table& table) {
 
 BuildVariant fortran_variant(const Table& table, const std::string& name, double eps,
                              const std::vector<std::string>& sources,
-                             const std::vector<std::string>& flags) {
+                             const std::vector<std::string>& flags, bool quits) {
   BuildVariant out;
   out.name = name;
   out.eps = eps;
@@ -45,7 +51,7 @@ BuildVariant fortran_variant(const Table& table, const std::string& name, double
                  "-ffp-contract=off", "-fPIC", "-shared"};
   out.command.insert(out.command.end(), flags.begin(), flags.end());
   out.command.insert(out.command.end(), {"-o", "@{out}"});
-  if (refuses(table)) { // of two definitions the linker takes the first
+  if (quits || refuses(table)) { // of two definitions the linker takes the first
     out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
     out.extra["ftquit.f"] =
         "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"

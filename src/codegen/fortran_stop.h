@@ -14,6 +14,9 @@ namespace frictab::fortran {
 // writes the text to the standard output and does `statement` ("call quit(1234)").
 std::string stop(const Table& table, const std::string& statement);
 
+// ftquit alone.
+std::string quit(const std::string& statement);
+
 // Whether any side of the table's axes has outside = error.
 bool refuses(const Table& table);
 
@@ -22,6 +25,6 @@ bool refuses(const Table& table);
 // another. eps as in BuildVariant.
 BuildVariant fortran_variant(const Table& table, const std::string& name, double eps,
                              const std::vector<std::string>& sources,
-                             const std::vector<std::string>& flags = {});
+                             const std::vector<std::string>& flags = {}, bool quits = false);
 
 } // namespace frictab::fortran

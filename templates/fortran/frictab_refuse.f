@@ -31,11 +31,4 @@ C     end by rounding.
       return
       end
 C
-C     Ends the analysis.
-      subroutine ftquit(text)
-      implicit none
-      character*(*) text
-      write (*, '(1x,a)') trim(text)
-      @{statement}
-      end
-C
+@{quit}
