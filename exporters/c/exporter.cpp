@@ -81,6 +81,8 @@ std::string header(const ExportRequest& request, const std::vector<InputArgument
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
                  {"version", FRICTAB_VERSION},
                  {"parameters", lines(parameters(inputs, "double"))},
+                 {"n_arguments", std::to_string(inputs.size())},
+                 {"last_argument", std::to_string(inputs.size() - 1)},
                  {"arrays", lines(parameters(inputs, "const double*"))}};
   values.lists["about"] = items(about(request));
   values.lists["bits"] = items(bits(request.table));
@@ -157,7 +159,10 @@ void add_axes(TemplateValues& values, const Table& table,
 
 std::string kernel(const Table& table) {
   std::string text(embedded_template("frictab_kernel.h"));
-  if (is_cubic(table)) text += "\n" + std::string(embedded_template("frictab_cubic.h"));
+  const auto add = [&](const char* file) { text += "\n" + std::string(embedded_template(file)); };
+  if (is_cubic(table)) add("frictab_cubic.h");
+  if (!table.axes.empty()) add("frictab_gradient.h");
+  if (is_cubic(table)) add("frictab_cubic_gradient.h");
   return text;
 }
 
@@ -182,6 +187,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
       {"n_values", std::to_string(numbers.size())},
       {"values", number_lines(numbers, 98, "    ")},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
+      {"gradient", gradient_functions(request, inputs)},
       {"count", count_function(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
                   {"cubic", is_cubic(table)},
@@ -204,8 +210,12 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
   const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
-  out["prototypes"] = {"double frictab_tau_R(" + one + ")", "unsigned frictab_outside(" + one + ")",
+  out["prototypes"] = {"double frictab_tau_R(" + one + ")",
+                       "double frictab_tau_R_gradient(" + one + ", double* derivative)",
+                       "unsigned frictab_outside(" + one + ")",
                        "void frictab_tau_R_batch(" + many + ", double* tau)",
+                       "void frictab_tau_R_gradient_batch(" + many +
+                           ", double* tau, double* derivative)",
                        "void frictab_count_outside(" + many + ", unsigned long* counts)"};
   out["arguments"] = nlohmann::ordered_json::array();
   for (const InputArgument& input : inputs)
@@ -216,6 +226,9 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                                 {"used", input.used}});
   out["result"] = {{"unit", solver_unit("MPa", request.units).name},
                    {"meaning", "frictional shear stress tau_R"}};
+  out["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
+                        {"unit", "unit of the result per unit of the argument"},
+                        {"where_not_used", 0}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = nlohmann::ordered_json::array();
   const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
