@@ -26,10 +26,10 @@ extern "C" {
 double frictab_tau_R(
     @{parameters});
 
-/* The same value, and d tau_R by each argument, in @{tau_unit} per the argument's unit: derivative[0] ..
- * derivative[@{last_argument}], in the order above. At a node or kink one of the two one-sided ones; 0 by an argument that
- * is not used, and of the tabulated part by an axis beyond whose end the table's edge is used; NaN
- * by all that are used where tau_R is NaN.
+/* The same value, and derivative[0] .. derivative[@{last_argument}]: d tau_R by each argument in the order above,
+ * in @{tau_unit} per the argument's unit. At a node or kink one of the two one-sided ones; 0 by an
+ * argument that is not used, and of the tabulated part by an axis beyond whose end the table's
+ * edge is used; NaN by all that are used where tau_R is NaN.
  */
 double frictab_tau_R_gradient(
     @{parameters},

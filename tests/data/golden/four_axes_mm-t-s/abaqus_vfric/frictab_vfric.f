@@ -192,7 +192,8 @@ C     x(5) sigma_f_MPa, flow stress of the workpiece
       implicit none
       double precision x(5)
       double precision val
-      double precision u(4), ftintp
+      double precision u(4)
+      double precision ftintp
       double precision ftlog
       double precision ftmin
       double precision ftmax
@@ -244,7 +245,8 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      double precision u(4), x, t
+      double precision u(4)
+      double precision x, t
       integer i, at
       double precision sc1, sh1
       parameter (sc1 = 37.542203620222026D0)

@@ -32,10 +32,10 @@ double frictab_tau_R(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa);
 
-/* The same value, and d tau_R by each argument, in MPa per the argument's unit: derivative[0] ..
- * derivative[5], in the order above. At a node or kink one of the two one-sided ones; 0 by an argument that
- * is not used, and of the tabulated part by an axis beyond whose end the table's edge is used; NaN
- * by all that are used where tau_R is NaN.
+/* The same value, and derivative[0] .. derivative[5]: d tau_R by each argument in the order above,
+ * in MPa per the argument's unit. At a node or kink one of the two one-sided ones; 0 by an
+ * argument that is not used, and of the tabulated part by an axis beyond whose end the table's
+ * edge is used; NaN by all that are used where tau_R is NaN.
  */
 double frictab_tau_R_gradient(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,

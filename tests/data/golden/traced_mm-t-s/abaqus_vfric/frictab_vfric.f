@@ -207,7 +207,8 @@ C     x(7) humidity %, room, a recorded column
       implicit none
       double precision x(7)
       double precision val
-      double precision u(6), ftintp
+      double precision u(6)
+      double precision ftintp
       double precision ftlog
       double precision ftmin
       double precision ftmax
@@ -264,7 +265,8 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      double precision u(6), x, t
+      double precision u(6)
+      double precision x, t
       integer i, at
       double precision sc1, sh1
       parameter (sc1 = 1.1731938631319383D0)
