@@ -26,24 +26,28 @@ std::string statement(const std::string& line) {
 
 std::string free_form(const std::string& fixed) {
   std::istringstream in(fixed);
-  std::string out, unit;
+  std::string out, unit, indent = "  ";
   for (std::string line; std::getline(in, line);) {
     if (line.empty()) continue;
-    if (line[0] == 'C') {
-      out += line.size() < 7 ? "  !\n" : "  ! " + line.substr(6) + "\n";
+    if (line[0] == 'C') { // "C" alone stands between units
+      out += line.size() < 7 ? "\n" : indent + "! " + line.substr(6) + "\n";
       continue;
     }
     if (line[5] == '&') { // both ends marked: the statement goes on where it was cut
-      out.pop_back();
-      out += "&\n    &" + line.substr(6) + "\n";
+      out.back() = '&';
+      out += "\n" + indent + "  &" + line.substr(6) + "\n";
       continue;
     }
-    std::string text = statement(line.substr(6));
-    if (const std::string name = unit_of(text); !name.empty()) unit = name;
-    if (text == "implicit none") continue; // the module says so
-    if (text == "end") text += " " + unit;
-    out += "  " + text + "\n";
+    const std::string text = statement(line.substr(6)), name = unit_of(text);
+    if (text == "implicit none" || text == "return")
+      continue; // the module says so; the end says so
+    if (!name.empty() || text == "end") indent = "  ";
+    out += indent + text + (text == "end" ? " " + unit : "") + "\n";
+    if (name.empty()) continue;
+    unit = name;
+    indent = "    ";
   }
+  if (!out.empty()) out.pop_back();
   return out;
 }
 

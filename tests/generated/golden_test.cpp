@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "tests/data/golden";
 
-// Targets in Fortran share their core: it is kept with the one that is little else, for every table.
-// Of the others the tables are kept that differ in what stands around the core: states that are
-// properties, history of a contact point, a column that is not canonical.
+// Targets in Fortran share their core: it is kept with the one that is little else, for every
+// table. Of the others the tables are kept that differ in what stands around the core: states that
+// are properties, history of a contact point, a column that is not canonical.
 bool kept(const Exporter& exporter, const test::NamedTable& sample) {
   static const std::set<std::string> whole = {"c", "fortran"};
   static const std::set<std::string> tables = {"branching", "four_axes", "traced"};

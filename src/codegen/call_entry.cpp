@@ -1,5 +1,5 @@
-// Calls frictab_tau_R through its own argument list, one state at a time.
-#include "driver.h"
+// Calls frictab_tau_R and frictab_tau_R_batch with as many arguments as they have.
+#include "codegen/call_entry.h"
 
 #include <array>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 #include "codegen/compile.h"
 #include "codegen/fill.h"
 
-namespace frictab::c_target {
+namespace frictab {
 
 namespace {
 
@@ -56,8 +56,8 @@ constexpr std::array<CallBatch, sizeof...(N)> all_batch_calls(std::index_sequenc
 
 } // namespace
 
-void batch(void* library, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
+void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
+                 std::span<const double* const> columns, std::span<double> tau) {
   static constexpr auto calls = all_batch_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
@@ -69,8 +69,8 @@ void batch(void* library, const ExportRequest& request, std::size_t rows,
   calls[inputs.size()](Library::address(library, "frictab_tau_R_batch"), rows, x, tau.data());
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
+void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
+                 std::span<const double* const> columns, std::span<double> tau) {
   static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   const std::vector<std::string> needed = request.table.inputs();
@@ -89,4 +89,4 @@ void drive(const Built& built, const ExportRequest& request, std::size_t rows,
   }
 }
 
-} // namespace frictab::c_target
+} // namespace frictab
