@@ -84,6 +84,13 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
           .drive(states.rows(), states.columns(), tau);
       EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
     }
+    const Exporter& free_form = *find_exporter("fortran");
+    const BuildVariant build = free_form.variants(request)[0];
+    if (!have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
+    std::vector<double> tau(states.rows());
+    CompiledTarget(free_form, request, free_form.generate(request), build)
+        .drive(states.rows(), states.columns(), tau);
+    EXPECT_EQ(tau, truth) << "Fortran 2008";
     const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");
     if (!library) GTEST_SKIP() << "gfortran is not installed";
     const auto interpolate = library->find<double(const double*)>("ftintp_");
