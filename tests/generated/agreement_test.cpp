@@ -104,7 +104,8 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
 INSTANTIATE_TEST_SUITE_P(Targets, Agreement,
                          testing::Values(Case{"c", "mm-t-s"}, Case{"c", "m-kg-s"},
                                          Case{"abaqus_vfric", "mm-t-s"},
-                                         Case{"abaqus_vfric", "m-kg-s"}),
+                                         Case{"abaqus_vfric", "m-kg-s"},
+                                         Case{"qform_lua", "mm-t-s"}, Case{"qform_lua", "m-kg-s"}),
                          [](const testing::TestParamInfo<Case>& given) {
                            std::string name = given.param.target + "_" + given.param.units;
                            std::replace(name.begin(), name.end(), '-', '_');
