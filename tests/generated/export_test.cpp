@@ -144,8 +144,8 @@ TEST(Export, RecipeListsTheCArgumentsInContractOrderAndTracedOnesBehind) {
 TEST(Export, SameRequestGivesTheSameBytes) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const Exporter& exporter : all_exporters())
-      EXPECT_EQ(exporter.generate({sample.table, "mm-t-s", {}}),
-                exporter.generate({sample.table, "mm-t-s", {}}));
+      EXPECT_EQ(exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()),
+                exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()));
 }
 
 TEST(Export, EveryTargetDescribesItself) {
