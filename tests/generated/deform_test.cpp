@@ -238,6 +238,20 @@ TEST_F(Deform, TakesStatesFromUserVariablesOfNodesAndConstantsAsTheJobSays) {
   EXPECT_CLOSE(run(), table(fallback) / (300 / std::sqrt(3.0)));
 }
 
+TEST_F(Deform, IsNotAskedForAPeakBelowThePresentPressure) {
+  const Table table = test::history_table();
+  const ExportRequest asked = request(table);
+  const double p[] = {700, 700, 700}, work[] = {200, 200, 200}, peak[] = {900, 600, nan};
+  const std::vector<const double*> columns = {p, work, peak};
+  std::vector<double> result(3, -1);
+  CompiledTarget(deform(), asked, deform().generate(asked), deform().variants(asked)[0])
+      .drive(3, columns, result);
+  const double state[] = {700, 200, 900};
+  EXPECT_CLOSE(result[0], TableFunction(table)(state));
+  EXPECT_EQ(result[1], -1);
+  EXPECT_TRUE(std::isnan(result[2]));
+}
+
 TEST_F(Deform, RefusesAFieldThatHoldsAHistory) {
   const Table table = test::traced_table();
   const auto refusal = [&](const std::string& field) -> std::string {
