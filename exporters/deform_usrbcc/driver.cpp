@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "codegen/compile.h"
+#include "codegen/posed.h"
 #include "source.h"
 
 namespace frictab::deform_usrbcc {
@@ -33,6 +34,8 @@ public:
       call_.user_variables = std::max(call_.user_variables, static_cast<int>(input.field));
     call_.nodal.assign(2 * static_cast<std::size_t>(call_.user_variables), 0.0);
   }
+
+  const std::vector<SolverInput>& inputs() const { return inputs_; }
 
   double tau(std::span<const double* const> columns, std::size_t row) {
     pressure_ = some_pressure, flow_ = some_flow_stress;
@@ -117,7 +120,7 @@ void drive(const Built& built, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
   Edge edge(built.library, request);
   for (std::size_t r = 0; r < rows; ++r)
-    tau[r] = edge.tau(columns, r);
+    if (posed(edge.inputs(), columns, r, some_pressure)) tau[r] = edge.tau(columns, r);
 }
 
 } // namespace frictab::deform_usrbcc

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
-#include <numeric>
 
 #include "call.h"
 #include "codegen/compile.h"
+#include "codegen/posed.h"
 #include "source.h"
 
 namespace frictab::lsdyna_usrfrc {
@@ -22,11 +22,14 @@ double node_area(std::size_t k) {
   return std::ldexp(1.0, static_cast<int>(k % 4) - 2);
 }
 
+constexpr double some_pressure = 1; // in the solver's unit, for laws that do not ask for one
+
 // Rows that agree in what is passed as a constant of the interface can share a call.
 std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
                                        std::span<const double* const> columns) {
-  std::vector<std::size_t> order(rows);
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (posed(inputs, columns, row, some_pressure)) order.push_back(row);
   for (std::size_t c = inputs.size(); c-- > 0;)
     if (inputs[c].source == Source::property)
       std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -60,7 +63,7 @@ public:
     std::reverse(call_.history_of.begin(), call_.history_of.end()); // not in the nodes' order
     for (std::size_t k = 0; k < count; ++k) {
       call_.area[k] = static_cast<Real>(node_area(k));
-      call_.normal[k] = Real(-1); // for laws that do not ask for a pressure
+      call_.normal[k] = Real(-some_pressure) * call_.area[k];
     }
     for (std::size_t c = 0; c < inputs_.size(); ++c)
       for (std::size_t k = 0; k < count; ++k)
@@ -121,9 +124,9 @@ void drive_as(const Built& built, const ExportRequest& request, std::size_t rows
   if (uses(call.inputs(), Source::temperature))
     *static_cast<Int*>(Library::address(built.library, "thropt_")) = 999;
   const std::vector<std::size_t> order = by_properties(call.inputs(), rows, columns);
-  for (std::size_t first = 0; first < rows;) {
+  for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first + 1;
-    while (last < rows && last - first < block &&
+    while (last < order.size() && last - first < block &&
            same_properties(call.inputs(), columns, order[first], order[last]))
       ++last;
     call.run(std::span(order).subspan(first, last - first), columns, tau);

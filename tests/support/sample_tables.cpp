@@ -201,6 +201,18 @@ Table direct_network() {
   return table;
 }
 
+Table history_table() {
+  Table table;
+  table.model = "histories";
+  table.axes = {axis("friction_work", false, {0, 150, 600}),
+                axis("peak_sigma_n", false, {500, 950, 2750})};
+  table.axes[0].unit = "MPa mm";
+  table.axes[1].unit = "MPa";
+  fill(table, 0.03, 0.3);
+  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
+  return table;
+}
+
 const std::vector<NamedTable>& sample_tables() {
   static const std::vector<NamedTable> tables = {
       {"constant", constant_table()},       {"one_axis", one_axis_table()},

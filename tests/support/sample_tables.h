@@ -22,6 +22,9 @@ Table sides_table();    // each way to go on beyond an end; uneven nodes; ln val
 Table direct_table();   // no values: a closed form, on some sides held at its range
 Table direct_network(); // no values: three nets of four units
 
+// Axes friction_work and peak_sigma_n, as traced effects add them; not among sample_tables().
+Table history_table();
+
 struct NamedTable {
   std::string name;
   Table table;
