@@ -2,8 +2,8 @@
 """Compares the shear stress at every contact point of CalculiX with tau_R of the generated routine.
 
 Usage: check.py sliding.dat libfrictab.so TOLERANCE [psi T sigma_f]
-The points are those of the last increment of each step of deck.py; the slip speed taken is the
-prescribed one. Exit code 1: a point is further off than TOLERANCE (a difference of tau/p).
+The points are those of the last increment of each step of deck.py; the slip speed taken is
+the prescribed one. Exit code 1: a point is further off than TOLERANCE (a difference of tau/p).
 """
 import ctypes
 import re
