@@ -1,11 +1,11 @@
 // Calls VFRIC as Abaqus/Explicit does, with blocks of contact points.
 #pragma once
 
-#include "codegen/exporter.h"
+#include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus_vfric {
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau);
+void drive(const Built& built, const SolverGives& gives, const ExportRequest& request,
+           std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
 
 } // namespace frictab::abaqus_vfric

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/call_entry.h"
+#include "codegen/entry_text.h"
 #include "codegen/fill.h"
 #include "codegen/recipe.h"
 #include "codegen/template.h"
 #include "core/text.h"
-#include "driver.h"
 #include "io/json.h"
 #include "parts.h"
 #include "table/axis_search.h"
@@ -18,74 +19,18 @@ namespace frictab::c_target {
 
 namespace {
 
-std::vector<std::string> about(const ExportRequest& request) {
-  const Table& table = request.table;
-  std::vector<std::string> lines = {
-      fmt::format("Law: {}", comment_text(table.model)),
-      fmt::format("Data: {}", comment_text(origin_text(table))),
-      fmt::format("Units: {} (stress in {}, speed in {}, length in {}, temperature in degC)",
-                  request.units, solver_unit("MPa", request.units).name,
-                  solver_unit("mm/s", request.units).name, solver_unit("mm", request.units).name),
-      fmt::format("Worst drift from the law: {}", drift_text(table))};
-  for (const std::string& line : wrap_text("tau_R_MPa = " + to_text(table.combine), 92))
-    lines.push_back(comment_text(line));
-  return lines;
-}
-
-Lines input_lines(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> lines;
-  for (const InputArgument& input : inputs) {
-    const std::string range =
-        input.used ? range_text(input, request.table) : "not used by this law";
-    const std::string text = comment_text(
-        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range));
-    std::string indent;
-    for (const std::string& piece : wrap_text(text, 88)) {
-      lines.push_back(indent + piece);
-      indent = "    ";
-    }
-  }
-  return items(lines);
-}
-
-std::vector<std::string> bits(const Table& table) {
-  std::vector<std::string> names;
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    names.push_back(fmt::format("{}u {}", 1u << a, comment_text(table.axes[a].name)));
-  if (names.empty()) names.push_back("none, the table has no axes");
-  return names;
-}
-
-std::vector<std::string> notes(const Table& table) {
-  std::vector<std::string> text;
-  if (table.is_direct()) text.push_back("This is the law itself, not a table.");
-  const std::vector<std::string> sides = outside_lines(table);
-  if (sides.empty()) {
-    const std::string what = table.is_direct() ? "law's" : "table's";
-    text.push_back("Outside the range the " + what +
-                   " value at the nearest edge is used, while stress and flow");
-    text.push_back("stress enter the formula above unchanged; frictab_outside tells which axes are "
-                   "concerned.");
-  } else {
-    text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
-    for (const std::string& side : sides)
-      text.push_back("  " + comment_text(side));
-    text.push_back("Stress and flow stress enter the formula above unchanged.");
-  }
-  text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
-  return text;
-}
-
 std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
                  {"version", FRICTAB_VERSION},
                  {"parameters", lines(parameters(inputs, "double"))},
+                 {"n_arguments", std::to_string(inputs.size())},
+                 {"last_argument", std::to_string(inputs.size() - 1)},
                  {"arrays", lines(parameters(inputs, "const double*"))}};
-  values.lists["about"] = items(about(request));
-  values.lists["bits"] = items(bits(request.table));
-  values.lists["inputs"] = input_lines(request, inputs);
-  values.lists["notes"] = items(notes(request.table));
+  values.lists["about"] = items(about_entry(request));
+  values.lists["bits"] = items(outside_bits(request.table, "u"));
+  values.lists["inputs"] = items(argument_lines(request, inputs));
+  values.lists["notes"] = items(entry_notes(request.table));
   return render_template("c/frictab_tau_R.h", values);
 }
 
@@ -157,7 +102,10 @@ void add_axes(TemplateValues& values, const Table& table,
 
 std::string kernel(const Table& table) {
   std::string text(embedded_template("frictab_kernel.h"));
-  if (is_cubic(table)) text += "\n" + std::string(embedded_template("frictab_cubic.h"));
+  const auto add = [&](const char* file) { text += "\n" + std::string(embedded_template(file)); };
+  if (is_cubic(table)) add("frictab_cubic.h");
+  if (!table.axes.empty()) add("frictab_gradient.h");
+  if (is_cubic(table)) add("frictab_cubic_gradient.h");
   return text;
 }
 
@@ -182,6 +130,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
       {"n_values", std::to_string(numbers.size())},
       {"values", number_lines(numbers, 98, "    ")},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
+      {"gradient", gradient_functions(request, inputs)},
       {"count", count_function(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
                   {"cubic", is_cubic(table)},
@@ -204,8 +153,12 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
   const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
-  out["prototypes"] = {"double frictab_tau_R(" + one + ")", "unsigned frictab_outside(" + one + ")",
+  out["prototypes"] = {"double frictab_tau_R(" + one + ")",
+                       "double frictab_tau_R_gradient(" + one + ", double* derivative)",
+                       "unsigned frictab_outside(" + one + ")",
                        "void frictab_tau_R_batch(" + many + ", double* tau)",
+                       "void frictab_tau_R_gradient_batch(" + many +
+                           ", double* tau, double* derivative)",
                        "void frictab_count_outside(" + many + ", unsigned long* counts)"};
   out["arguments"] = nlohmann::ordered_json::array();
   for (const InputArgument& input : inputs)
@@ -216,6 +169,9 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                                 {"used", input.used}});
   out["result"] = {{"unit", solver_unit("MPa", request.units).name},
                    {"meaning", "frictional shear stress tau_R"}};
+  out["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
+                        {"unit", "unit of the result per unit of the argument"},
+                        {"where_not_used", 0}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = nlohmann::ordered_json::array();
   const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
@@ -269,8 +225,8 @@ Exporter exporter() {
       "-ffast-math: otherwise the bits that were verified are not the bits that run.";
   c.generate = generate;
   c.variants = variants;
-  c.drive = drive;
-  c.batch = batch;
+  c.drive = drive_entry;
+  c.batch = batch_entry;
   return c;
 }
 

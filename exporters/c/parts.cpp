@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "codegen/layer.h"
 #include "core/text.h"
 #include "table/outside.h"
 
@@ -42,16 +41,6 @@ std::map<std::string, std::string> symbol_names(const Table& table,
   return rename;
 }
 
-namespace {
-
-std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string& name) {
-  std::size_t i = 0;
-  while (inputs[i].name != name)
-    ++i;
-  return i;
-}
-
-// The states of the law's own formula, as arguments of ft_piece.
 std::vector<std::string> piece_states(const Table& table,
                                       const std::vector<InputArgument>& inputs) {
   const std::set<std::string> used = symbols(*table.extension);
@@ -60,13 +49,6 @@ std::vector<std::string> piece_states(const Table& table,
   for (const InputArgument& input : inputs)
     if (used.count(input.name)) states.push_back(rename.at(input.name));
   return states;
-}
-
-std::string numbers(const std::vector<double>& values) {
-  std::vector<std::string> texts;
-  for (const double value : values)
-    texts.push_back(c_number(value));
-  return number_lines(texts, 98, "    ");
 }
 
 Lines constants_of(const Table& table, const Expr& formula) {
@@ -85,58 +67,18 @@ Lines constants_of(const Table& table, const Expr& formula) {
   return constants;
 }
 
-// Axes where the formula is held at an end: h1 stands for x1 there.
-Lines held_axes(const Table& table, std::map<std::string, std::string>& rename) {
-  Lines held;
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (!symbols(*table.extension).count(axis.name)) continue;
-    const std::string x = rename.at(axis.name), h = "h" + x.substr(1);
-    std::string value = x;
-    if (axis.above != Outside::law)
-      value = fmt::format("{0} > {1} ? {1} : {2}", x, c_number(axis.high), value);
-    if (axis.below != Outside::law)
-      value = fmt::format("{0} < {1} ? {1} : {2}", x, c_number(axis.low), value);
-    if (value == x) continue;
-    TemplateValues one;
-    one.text = {{"name", h}, {"value", value}};
-    held.push_back(one);
-    rename[axis.name] = h;
-  }
-  return held;
-}
-
-void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
-               std::map<std::string, std::string>& rename) {
-  const UnitLayer none;
-  const UnitLayer& l = layer ? *layer : none;
-  Lines before, features;
-  for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const Statements code =
-        to_statements(l.features[f], Language::c, rename, fmt::format("f{}_", f));
-    for (const std::string& line : code.lines)
-      before.push_back(item(line));
-    TemplateValues feature;
-    feature.text = {
-        {"index", std::to_string(f)}, {"name", code.result}, {"weights", numbers(l.weight[f])}};
-    features.push_back(feature);
-  }
-  for (std::size_t m = 0; m < l.outputs; ++m)
-    rename[layer_output(m)] = fmt::format("net[{}]", m);
-  values.flags["has_layer"] = layer.has_value();
-  values.lists["before"] = before;
-  values.lists["features"] = features;
-  values.text["units"] = std::to_string(l.units());
-  values.text["outputs"] = std::to_string(l.outputs);
-  values.text["per_output"] = std::to_string(l.outputs ? l.units() / l.outputs : 0);
-  values.text["bias"] = numbers(l.bias);
-  values.text["gain"] = numbers(l.gain);
-  values.text["offset"] = numbers(l.offset);
-}
-
-// Template texts end with a line break of their own.
 std::string without_last_break(std::string text) {
   if (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
+}
+
+namespace {
+
+std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string& name) {
+  std::size_t i = 0;
+  while (inputs[i].name != name)
+    ++i;
+  return i;
 }
 
 std::vector<std::string> sides(const Table& table, const std::vector<InputArgument>& inputs,
@@ -182,24 +124,6 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
 
 std::string piece_arguments(const Table& table, const std::vector<InputArgument>& inputs) {
   return join(piece_states(table, inputs), ", ");
-}
-
-std::string piece(const Table& table, const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> states;
-  for (const std::string& state : piece_states(table, inputs))
-    states.push_back("double " + state);
-  auto rename = symbol_names(table, inputs);
-  TemplateValues values;
-  values.lists["held"] = held_axes(table, rename);
-  values.lists["constants"] = constants_of(table, *table.extension);
-  const LayeredFormula formula = split_layer(*table.extension);
-  add_layer(values, formula.layer, rename);
-  const Statements code = to_statements(formula.rest, Language::c, rename);
-  values.lists["statements"] = items(code.lines);
-  values.text["result"] = code.result;
-  values.text["quantity"] = comment_text(table.quantity);
-  values.text["parameters"] = states.empty() ? "void" : lines(states);
-  return without_last_break(render_template("c/frictab_piece.c", values));
 }
 
 std::vector<std::string> refusing_sides(const Table& table,
@@ -258,7 +182,10 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   TemplateValues values;
   add_state(values, table, inputs, table.combine);
   const std::string law = piece(table, inputs), all = law + join(code.lines, "\n");
-  const auto calls = [&](const char* helper) { return all.find(helper) != std::string::npos; };
+  const std::string gradient = gradient_functions(request, inputs);
+  const auto calls = [&](const char* helper) {
+    return all.find(helper) != std::string::npos || gradient.find(helper) != std::string::npos;
+  };
   values.flags = {{"uses_min", calls("ft_min(")},
                   {"uses_max", calls("ft_max(")},
                   {"uses_where", calls("ft_where_le(")}};
@@ -268,6 +195,7 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   values.text["piece_arguments"] = piece_arguments(table, inputs);
   values.text["result"] = stress.same() ? code.result : code.result + " * " + c_number(stress.over);
   values.text["count"] = count_function(table, inputs);
+  values.text["gradient"] = gradient;
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
     if (!input.used) unused.push_back(input.argument);

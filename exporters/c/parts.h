@@ -29,8 +29,19 @@ std::map<std::string, std::string> symbol_names(const Table& table,
 void add_state(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
                const Expr& formula);
 
-// The law's own formula as a function of the states, ft_piece, and its arguments.
+// Those of the table's constants that the formula uses.
+Lines constants_of(const Table& table, const Expr& formula);
+
+// Template texts end with a line break of their own.
+std::string without_last_break(std::string text);
+
+// The names of the states of the law's own formula, in the order of the arguments.
+std::vector<std::string> piece_states(const Table& table, const std::vector<InputArgument>& inputs);
+
+// The law's own formula as a function of the states, ft_piece; with its derivatives,
+// ft_piece_gradient; and the arguments of the first.
 std::string piece(const Table& table, const std::vector<InputArgument>& inputs);
+std::string piece_gradient(const Table& table, const std::vector<InputArgument>& inputs);
 std::string piece_arguments(const Table& table, const std::vector<InputArgument>& inputs);
 
 // "x1 < 4.5" for every side that refuses; "x3 > 200.0" for every side where the law goes on.
@@ -41,6 +52,11 @@ std::vector<std::string> extending_sides(const Table& table,
 
 // frictab_count_outside.
 std::string count_function(const Table& table, const std::vector<InputArgument>& inputs);
+
+// frictab_tau_R_gradient and frictab_tau_R_gradient_batch, with ft_piece_gradient where it is
+// needed.
+std::string gradient_functions(const ExportRequest& request,
+                               const std::vector<InputArgument>& inputs);
 
 // The source of the direct form.
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs);

@@ -59,6 +59,8 @@ constexpr Compiler compilers[] = {
     {"gcc", "gcc", true, "compiles the generated C for verify"},
     {"gfortran", "gfortran", true, "compiles the generated Fortran for verify"},
     {"clang", "clang", false, "a second opinion on the generated C"},
+    {"luajit", "luajit", false, "runs the generated Lua for verify, as QForm does"},
+    {"lua5.4", "lua5.4", false, "a second opinion on the generated Lua"},
 };
 
 std::string package_of(const std::string& program) {
@@ -113,8 +115,9 @@ Finding target_finding(const Exporter& target) {
     }
     std::vector<std::string> lacking;
     for (const BuildVariant& variant : variants) {
-      const std::string program = variant.command.empty() ? "" : variant.command.front();
-      const bool there = program.find('/') == program.npos && !on_path(program).empty();
+      const std::string& program = variant.program();
+      const bool there = program.empty() ||
+                         (program.find('/') == program.npos && !on_path(program).empty());
       if (!there && std::count(lacking.begin(), lacking.end(), program) == 0)
         lacking.push_back(program);
     }

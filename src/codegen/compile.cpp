@@ -82,6 +82,12 @@ bool have_program(const std::string& name) {
   return false;
 }
 
+void run_program(const std::vector<std::string>& command, const fs::path& log) {
+  const int status = run(command, log);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error(join(command, " ") + "\n" + file_text(log));
+}
+
 fs::path compile_library(const SourceBundle& bundle, const BuildVariant& variant,
                          const fs::path& work_dir) {
   const fs::path directory = fs::absolute(work_dir);
@@ -94,9 +100,7 @@ fs::path compile_library(const SourceBundle& bundle, const BuildVariant& variant
   for (const std::string& word : variant.command)
     command.push_back(
         replace_all(replace_all(word, "@{out}", library.string()), "@{dir}", directory.string()));
-  const int status = run(command, log);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(join(command, " ") + "\n" + file_text(log));
+  run_program(command, log);
   return library;
 }
 

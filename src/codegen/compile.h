@@ -13,6 +13,10 @@ namespace frictab {
 // asked for.
 bool have_program(const std::string& name);
 
+// Runs a program without a shell; its output goes to `log`. Throws std::runtime_error with that
+// output where it fails.
+void run_program(const std::vector<std::string>& command, const std::filesystem::path& log);
+
 // Writes bundle and extra files below `work_dir`, runs the variant's command there without a shell
 // and gives the library's path. Throws std::runtime_error with the compiler's output where it
 // fails.

@@ -6,8 +6,9 @@ string(APPEND code "namespace frictab {\nextern const std::pair<std::string_view
 string(APPEND code "extern const unsigned embedded_count;\n")
 string(APPEND code "const std::pair<std::string_view, std::string_view> embedded_files[] = {\n")
 set(count 0)
-foreach(file frictab_kernel.h frictab_cubic.h ${files})
-  if(file MATCHES "^frictab_[a-z]+\\.h$")
+foreach(file frictab_kernel.h frictab_cubic.h frictab_gradient.h
+             frictab_cubic_gradient.h ${files})
+  if(file MATCHES "^frictab_[a-z_]+\\.h$")
     set(path ${ROOT}/src/table/${file})
   else()
     set(path ${ROOT}/templates/${file})

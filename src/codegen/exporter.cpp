@@ -6,12 +6,12 @@
 
 namespace frictab {
 
-const std::string& Exporter::option(const ExportRequest& request, const std::string& name) const {
-  if (const auto said = request.options.find(name); said != request.options.end())
+const std::string& Exporter::option(const ExportRequest& request, const std::string& wanted) const {
+  if (const auto said = request.options.find(wanted); said != request.options.end())
     return said->second;
   for (const ExportOption& option : options)
-    if (option.name == name) return option.allowed.front();
-  throw std::logic_error("target without the option " + name);
+    if (option.name == wanted) return option.allowed.front();
+  throw std::logic_error(name + " has no option " + wanted);
 }
 
 std::vector<ExportOption> all_export_options() {

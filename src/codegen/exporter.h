@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/registry.h"
+#include "table/states.h"
 #include "table/table.h"
 
 namespace frictab {
@@ -66,13 +67,19 @@ struct Exporter {
   SourceBundle (*generate)(const ExportRequest&) = nullptr;
   std::vector<BuildVariant> (*variants)(const ExportRequest&) = nullptr;
   // Calls the routine as its solver would, for rows of states in canonical units (columns in the
-  // order of request.table.inputs()), and gives tau_R in MPa.
+  // order of request.table.inputs()), and gives tau_R in MPa; rows it cannot pose stay as they are.
   void (*drive)(const Built&, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
+  // Where the target is a solver's own table, which has fewer axes than the law: the states of
+  // request.table.inputs() that it holds, at which values (canonical). Null for a whole routine.
+  HeldStates (*held)(const ExportRequest&) = nullptr;
   // Its own entry for many states at once, in the units of the request and without any conversion:
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
+
+  // A routine that answers every state of the law; not so a table that holds some of them.
+  bool whole() const { return held == nullptr; }
 
   // What the request says for one of `options`, or its default.
   const std::string& option(const ExportRequest& request, const std::string& name) const;

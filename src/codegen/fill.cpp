@@ -43,7 +43,8 @@ std::string argument_name(const InputArgument& input) {
   if (input.solver.same()) return name;
   if (input.unit == "MPa") return replace_ending(name, "_MPa", "_Pa");
   if (input.unit == "mm/s") return replace_ending(name, "_mm_s", "_m_s");
-  return replace_ending(name, "_mm", "_m");
+  if (input.unit == "mm") return replace_ending(name, "_mm", "_m");
+  return name;
 }
 
 InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
@@ -76,6 +77,11 @@ SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) 
     if (canonical_unit == "MPa") return {"Pa", 1, 1e6};
     if (canonical_unit == "mm/s") return {"m/s", 1e3, 1};
     if (canonical_unit == "mm") return {"m", 1e3, 1};
+    // Work and power per area; a name may write the product either way.
+    if (canonical_unit == "MPa mm") return {"Pa m", 1, 1e3};
+    if (canonical_unit == "MPa*mm") return {"Pa*m", 1, 1e3};
+    if (canonical_unit == "MPa mm/s") return {"Pa m/s", 1, 1e3};
+    if (canonical_unit == "MPa*mm/s") return {"Pa*m/s", 1, 1e3};
   }
   return {std::string(canonical_unit), 1, 1};
 }

@@ -53,12 +53,26 @@ void add_ends(TemplateValues& values, const Table& table) {
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
 }
 
-// The program units of the piece and of the gradient, and the helpers that any unit calls.
-void add_units(TemplateValues& values, const Table& table, bool gradient,
-               std::vector<std::string> helpers) {
+// The numbers of the interpolation, out of the values.
+std::string take_data(TemplateValues& values) {
+  TemplateValues data;
+  for (const char* name : {"n_nodes", "n_cells", "n_guide", "n_basis", "n_values", "data_un",
+                           "data_pc", "data_gd", "data_fc", "data_tb", "data_tv", "value_comment"})
+    data.text.insert(values.text.extract(name));
+  data.flags["cubic"] = values.flags.at("cubic");
+  data.flags.insert(values.flags.extract("uses_guide"));
+  if (!values.flags.at("interpolates")) return "";
+  return without_last_break(render_template("fortran/frictab_data.f", data));
+}
+
+// The program units of the piece and of the gradient, and the helpers that any unit calls. Gives
+// the numbers of the piece.
+std::string add_parts(TemplateValues& values, const Table& table, const CoreOptions& options,
+                      std::vector<std::string> helpers) {
+  const bool gradient = options.gradient;
   const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
-  const Piece law = has_piece ? piece(table, gradient) : Piece{};
-  const Piece slopes = gradient ? gradient_unit(table, values) : Piece{};
+  const Piece law = has_piece ? piece(table, gradient, options.units) : Piece{};
+  const Piece slopes = gradient ? gradient_unit(table, values, options.units) : Piece{};
   for (const Piece& unit : {law, slopes})
     helpers.insert(helpers.end(), unit.helpers.begin(), unit.helpers.end());
   for (const auto& [helper, flag] :
@@ -68,21 +82,23 @@ void add_units(TemplateValues& values, const Table& table, bool gradient,
   values.text["piece"] = law.text;
   values.text["gradient_text"] = slopes.text;
   values.flags["gradient"] = gradient;
+  return law.data;
 }
 
-void add_formula(TemplateValues& values, const Table& table, bool gradient) {
+// Gives the numbers of the law's own formula.
+std::string add_formula(TemplateValues& values, const Table& table, const CoreOptions& options) {
   const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
   Lines statements;
   for (const std::string& line : code.lines)
     statements.push_back(item(fixed_form(line)));
   const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
-  add_units(values, table, gradient, helpers);
   values.lists["statements"] = statements;
   values.lists["constants"] = constant_lines(table, table.combine);
   values.lists["helpers"] = items(helpers);
   values.lists["temporaries"] = declarations(code.temporaries);
   values.text["result"] = code.result;
   values.flags["log_value"] = table.log_value;
+  return add_parts(values, table, options, helpers);
 }
 
 std::vector<std::string> argument_lines(const Table& table) {
@@ -130,7 +146,10 @@ Core core(const Table& table, const CoreOptions& options) {
   add_coordinates(values, table);
   add_interpolation(values, table, options.gradient);
   add_ends(values, table);
-  add_formula(values, table, options.gradient);
+  add_units(values, options.units);
+  const std::string weights = add_formula(values, table, options), data = take_data(values);
+  values.text["data"] = options.units == Units::external ? data : "";
+  out.data = data + (data.empty() || weights.empty() ? "" : "\n") + weights;
   out.text = without_last_break(render_template("fortran/frictab_core.f", values));
   return out;
 }

@@ -15,13 +15,19 @@ namespace frictab::fortran {
 // they call, as program units without state.
 struct Core {
   std::string text; // without the line break at its end
+  std::string data; // of a module: the numbers of these units, with their declarations
   std::size_t n_x;  // at least 1
 };
 struct CoreOptions {
   bool unknown = false;  // ftqnan
   bool gradient = false; // ftgrad
+  Units units = Units::external;
 };
 Core core(const Table& table, const CoreOptions& options);
+
+// The units of a module, or its data, in free form: comments, continuation, named ends, kinds
+// instead of lengths in bytes.
+std::string free_form(const std::string& fixed);
 
 // What the head of every source says: version, from ("from a table"), n_x, stress and length (unit
 // names), to_solver ("*1.0D6", from MPa to the solver's unit); lists about, states, properties,

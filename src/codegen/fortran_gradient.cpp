@@ -73,7 +73,7 @@ void add_formula(TemplateValues& values, const Table& table, std::vector<std::st
 
 } // namespace
 
-Piece gradient_unit(const Table& table, const TemplateValues& core) {
+Piece gradient_unit(const Table& table, const TemplateValues& core, Units units) {
   TemplateValues values;
   Piece out;
   add_formula(values, table, out.helpers);
@@ -94,6 +94,7 @@ Piece gradient_unit(const Table& table, const TemplateValues& core) {
                   {"extends", extends},
                   {"has_piece", table.is_direct()},
                   {"log_value", table.log_value}};
+  add_units(values, units);
   out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
   return out;
 }

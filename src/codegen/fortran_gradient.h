@@ -7,6 +7,6 @@ namespace frictab::fortran {
 
 // The subroutine ftgrad of Core, and the helpers that it calls. `core`: what the values of
 // frictab_core.f say about coordinates and value.
-Piece gradient_unit(const Table& table, const TemplateValues& core);
+Piece gradient_unit(const Table& table, const TemplateValues& core, Units units);
 
 } // namespace frictab::fortran

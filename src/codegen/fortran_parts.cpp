@@ -44,6 +44,14 @@ std::map<std::string, std::string> symbol_names(const Table& table) {
   return rename;
 }
 
+void add_units(TemplateValues& values, Units units) {
+  const bool module = units == Units::module;
+  values.text["pure"] = module ? "pure " : "";
+  values.text["in"] = module ? ", intent(in) ::" : "";
+  values.text["out"] = module ? ", intent(out) ::" : "";
+  values.flags["externals"] = !module;
+}
+
 Lines declarations(const std::vector<std::string>& names) {
   constexpr std::size_t per_line = 8;
   Lines lines;
@@ -123,9 +131,7 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Bo
     const Statements code =
         to_statements(l.features[f], Language::fortran, body.rename, fmt::format("f{}t", f));
     TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)},
-                    {"name", body.add(code, body.before)},
-                    {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}};
+    feature.text = {{"index", std::to_string(f)}, {"name", body.add(code, body.before)}};
     features.push_back(feature);
   }
   for (std::size_t m = 0; m < l.outputs; ++m)
@@ -134,9 +140,22 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Bo
   values.lists["features"] = features;
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);
+}
+
+std::string weights(const UnitLayer& l) {
+  TemplateValues values;
+  for (std::size_t f = 0; f < l.features.size(); ++f) {
+    TemplateValues feature;
+    feature.text = {{"index", std::to_string(f)},
+                    {"data", fixed_form_data(fmt::format("wt{}", f), l.weight[f])}};
+    values.lists["features"].push_back(feature);
+  }
+  values.text["units"] = std::to_string(l.units());
+  values.text["outputs"] = std::to_string(l.outputs);
   values.text["data_bias"] = fixed_form_data("bias", l.bias);
   values.text["data_gain"] = fixed_form_data("gain", l.gain);
   values.text["data_offs"] = fixed_form_data("offs", l.offset);
+  return without_last_break(render_template("fortran/frictab_weights.f", values));
 }
 
 // What the result changes by the weighted sum of feature f's units.
@@ -224,7 +243,7 @@ std::string without_last_break(std::string text) {
   return text;
 }
 
-Piece piece(const Table& table, bool gradient) {
+Piece piece(const Table& table, bool gradient, Units units) {
   TemplateValues values;
   Body body;
   body.rename = symbol_names(table);
@@ -240,7 +259,10 @@ Piece piece(const Table& table, bool gradient) {
   values.lists["held"] = items(body.held);
   values.lists["before"] = items(body.before);
   values.lists["stopped"] = gradient ? stopped_sides(table) : Lines{};
+  add_units(values, units);
   Piece out;
+  out.data = formula.layer ? weights(*formula.layer) : "";
+  values.text["data"] = units == Units::external ? out.data : "";
   out.helpers = helpers_of(body.all);
   values.lists["helpers"] = items(out.helpers);
   out.text = without_last_break(render_template("fortran/frictab_piece.f", values));

@@ -28,13 +28,22 @@ Lines constant_lines(const Table& table, const Expr& formula);
 // ftmin, ftmax, ftwhle, where these statements call them.
 std::vector<std::string> helpers_of(const std::string& statements);
 
-// The law's own formula, ftpiec, and the helpers that it calls; with `gradient` also ftpieg, which
-// gives its derivatives as well.
+// How program units stand: on their own, each declaring those it calls, with its numbers inside;
+// or in a module, pure, with the numbers in the module (Core::data).
+enum class Units { external, module };
+
+// Adds what the templates need to write units either way.
+void add_units(TemplateValues& values, Units units);
+
+// A unit, the helpers (of helpers_of) that it calls, and its numbers where these stand apart.
 struct Piece {
   std::string text;
   std::vector<std::string> helpers;
+  std::string data;
 };
-Piece piece(const Table& table, bool gradient);
+
+// The law's own formula, ftpiec; with `gradient` also ftpieg, which gives its derivatives as well.
+Piece piece(const Table& table, bool gradient, Units units);
 
 // "x(index) relation limit" for each side of that kind.
 Lines sides(const Table& table, Outside kind);

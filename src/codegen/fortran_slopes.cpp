@@ -1,4 +1,5 @@
-// The interpolation with its derivatives as statements, in the order of frictab_gradient.h.
+// The interpolation with its derivatives as statements, in the order of frictab_gradient.h and
+// frictab_cubic_gradient.h.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -105,13 +105,19 @@ std::string outside_text(const DriftRecord& r) {
   return text;
 }
 
+// A solver's own table says what it holds, and what that costs.
+std::string subject_text(const DriftRecord& r) {
+  const std::string name = svg::escape(r.subject);
+  return r.held ? name + "<br>" + svg::escape(cost_text(r)) : name;
+}
+
 TemplateValues record_row(const DriftRecord& r) {
   const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law goes on outside
   const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
   TemplateValues row;
   row.flags["ran"] = r.ran;
   row.text = {{"model", svg::escape(r.model)},
-              {"subject", svg::escape(r.subject)},
+              {"subject", subject_text(r)},
               {"worst", drift_figures(r.worst_case_MPa)},
               {"proven", proven_text(r)},
               {"state", state_text(r)},

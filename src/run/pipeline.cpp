@@ -272,6 +272,20 @@ ExportRequest Pipeline::request_for(const Table& form) const {
   return {form, job_.exports.units, job_.exports.inputs, job_.exports.options};
 }
 
+namespace {
+
+// Solvers' own tables are made from the law itself: made from a table they would add its drift to
+// their own. They keep its tolerance.
+Table direct_for_sources(const Model& model, const Table& table) {
+  Table direct = direct_form(model, table);
+  if (const auto tolerance = table.number_attributes.find("tolerance_MPa");
+      tolerance != table.number_attributes.end())
+    direct.number_attributes.insert(*tolerance);
+  return direct;
+}
+
+} // namespace
+
 void Pipeline::generate() {
   if (!have_tables_ && !job_.exports.targets.empty())
     for (const fs::path& file : table_files()) // before anything large is read
@@ -281,8 +295,9 @@ void Pipeline::generate() {
   for (const Table& table : tables_)
     for (const Exporter* exporter : chosen_exporters(job_.exports)) {
       const std::string directory = export_directory(exporter->name, table);
-      const Table form =
-          job_.exports.form == "direct" ? direct_form(model_of(table), table) : table;
+      const Table form = job_.exports.form == "direct" || !exporter->whole()
+                             ? direct_for_sources(model_of(table), table)
+                             : table;
       sources_[directory] = exporter->generate(request_for(form));
       for (const auto& [path, text] : sources_[directory])
         output_.write(directory + "/" + path, text);
@@ -311,7 +326,7 @@ void Pipeline::verify() {
   for (const Table& table : tables_) {
     std::vector<GeneratedSource> sources;
     const Model model = model_of(table);
-    const Table direct = direct_form(model, table);
+    const Table direct = direct_for_sources(model, table);
     for (const Exporter* exporter : chosen_exporters(job_.exports)) {
       const std::string directory = export_directory(exporter->name, table);
       const fs::path written = fs::path(job_.directory) / directory;

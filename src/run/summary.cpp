@@ -194,6 +194,17 @@ void add_outside(std::string& out, const Verification& verification,
   if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
 }
 
+// One line per solver's own table: what it holds, and what that costs.
+void add_costs(std::string& out, const Verification& verification) {
+  std::string lines;
+  for (const DriftRecord& r : verification.records)
+    if (r.ran && r.held) lines += fmt::format("  {:<14} {}\n", r.model, cost_text(r));
+  if (!lines.empty())
+    out += "Solvers' own tables have fewer axes than the law; drift above is at the held states. "
+           "What holding costs on the rows, MPa:\n" +
+           lines;
+}
+
 void add_drift(std::string& out, const Verification& verification) {
   const auto subjects = subjects_of(verification);
   out += fmt::format(
@@ -210,6 +221,7 @@ void add_drift(std::string& out, const Verification& verification) {
   for (const std::string& model : models)
     add_drift_line(out, verification, model, subjects);
   add_outside(out, verification, models);
+  add_costs(out, verification);
 }
 
 // "report.html, models/ (15), ...": a directory is named once.

@@ -2,6 +2,8 @@
 #include "table/kernel.h"
 
 #include "table/frictab_gradient.h"
+// Stands behind it.
+#include "table/frictab_cubic_gradient.h"
 
 namespace frictab {
 

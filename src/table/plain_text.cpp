@@ -1,4 +1,4 @@
-// What the plain-text formats share, and the two that hold the table as it is.
+// The plain-text formats that hold the table as it is.
 #include "table/plain_text.h"
 
 #include <algorithm>
@@ -18,58 +18,6 @@ const PlainFormat& plain_format(const std::string& name) {
   for (const PlainFormat& one : Registry<PlainFormat>::instance().all())
     names.push_back(one.name);
   throw InputError({}, fmt::format("there is no format '{}'", name), suggest(name, names));
-}
-
-namespace {
-
-std::vector<double> deck_places(const PlainRequest& request, const std::string& name) {
-  const auto inputs = request.table.inputs();
-  if (request.held.count(name) || std::find(inputs.begin(), inputs.end(), name) == inputs.end())
-    return {};
-  if (const TableAxis* axis = find_axis(request.table, name)) return axis->nodes;
-  return even_places(request.table, name, 9);
-}
-
-} // namespace
-
-DeckGrid deck_grid(const PlainRequest& request) {
-  check_all_known(request.table, request.held, {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"});
-  const DeckGrid grid{deck_places(request, "sigma_n_MPa"), deck_places(request, "v_rel_mm_s"),
-                      deck_places(request, "T_contact_C")};
-  double places = 1;
-  for (const auto* axis : {&grid.pressure, &grid.speed, &grid.temperature})
-    places *= static_cast<double>(std::max<std::size_t>(axis->size(), 1));
-  if (places > 100000)
-    throw InputError({},
-                     fmt::format("the grid has {:.0f} places; an input deck holds 100,000", places),
-                     "hold a state: --at T_contact_C=100");
-  return grid;
-}
-
-DeckValue::DeckValue(const PlainRequest& request) : function_(request.table), held_(request.held) {}
-
-double DeckValue::operator()(double pressure, double speed, double temperature) const {
-  std::vector<double> state;
-  double sigma_n = pressure;
-  for (const std::string& name : function_.inputs()) {
-    const auto held = held_.find(name);
-    const double value = held != held_.end()     ? held->second
-                         : name == "sigma_n_MPa" ? pressure
-                         : name == "v_rel_mm_s"  ? speed
-                                                 : temperature;
-    if (name == "sigma_n_MPa") sigma_n = value;
-    state.push_back(value);
-  }
-  return function_(state) / sigma_n;
-}
-
-std::string deck_head(const PlainRequest& request, const PlainFormat& format,
-                      const std::string& comment) {
-  std::string text = comment + " friction coefficient tau_R/sigma_N of " + request.table.model +
-                     "; MPa, mm/s, degC\n" + comment + " format " + format.source + "\n";
-  for (const auto& [name, value] : request.held)
-    text += fmt::format("{} held: {} = {}\n", comment, name, shortest(value));
-  return text;
 }
 
 namespace {

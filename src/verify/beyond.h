@@ -27,4 +27,8 @@ RowsBeyond rows_beyond(const Table& table, const States& states);
 // "T_contact_C above 200: 110 rows, up to 13.2 beyond, clamp"
 std::string beyond_text(const BeyondEnd& end);
 
+// "abaqus_table holds psi = 4.47: mean 3.1, largest 14.2 MPa off the law on the rows"; of a record
+// of a solver's own table.
+std::string cost_text(const DriftRecord& record);
+
 } // namespace frictab

@@ -128,15 +128,28 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
     record.worst_state[s.names[d]] = s.range.states[d][at];
 }
 
+// What a driver leaves where its solver can never be: tau_R is not negative.
+constexpr double not_posed = -1;
+
+// Such rows say nothing of a source, so they count as the table's own. A source that was asked
+// nothing at all has shown nothing.
+void leave_out_not_posed(std::vector<double>& tau, const std::vector<double>& table) {
+  const auto posed = [](double t) { return t != not_posed; };
+  if (std::none_of(tau.begin(), tau.end(), posed)) return;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    if (!posed(tau[i])) tau[i] = table[i];
+}
+
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
                     const std::function<void(const Probe&, std::vector<double>&)>& answer) {
   DriftRecord record;
   record.model = input.model.name();
   record.subject = subject;
   for (const Probe* reference : {&s.rows, &s.range}) {
-    std::vector<double> tau(reference->law.size());
+    std::vector<double> tau(reference->law.size(), not_posed);
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
+    leave_out_not_posed(tau, reference->table);
     if (reference == &s.rows)
       compare_rows(record, *reference, s.beyond, tau);
     else
@@ -166,9 +179,52 @@ Columns columns_for(const Table& source, const Subjects& s, const Probe& referen
   return columns;
 }
 
+// The same states with some of them held. A solver's own table answers beyond its ends as it
+// likes: rows that the table refuses are none of its failures.
+Subjects at_held(const VerifyInput& input, const Subjects& s, const HeldStates& held) {
+  const LawFunction law(input.model, s.names);
+  const TableFunction table(input.table);
+  Subjects out;
+  out.names = s.names;
+  for (const auto& [from, to] : {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}}) {
+    States states = from->states;
+    for (std::size_t d = 0; d < states.size(); ++d)
+      if (const auto value = held.find(s.names[d]); value != held.end())
+        std::fill(states[d].begin(), states[d].end(), value->second);
+    if (!from->law.empty()) *to = probe(law, table, std::move(states));
+  }
+  out.beyond = rows_beyond(input.table, out.rows.states);
+  for (RowKind& kind : out.beyond.kinds)
+    if (kind == RowKind::refused) kind = RowKind::clamped;
+  return out;
+}
+
+using Answer = std::function<void(const Probe&, std::vector<double>&)>;
+
+DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const HeldStates& held,
+                            const std::string& subject, const Answer& answer) {
+  DriftRecord record = compare(input, at_held(input, s, held), subject, answer);
+  record.held = held;
+  if (s.rows.law.empty()) return record;
+  std::vector<double> tau(s.rows.law.size());
+  answer(s.rows, tau);
+  std::size_t count = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    if (s.beyond.kinds[i] != RowKind::compared) continue;
+    const double d = difference(tau[i], s.rows.law[i]);
+    record.cost_max_abs_MPa = std::max(record.cost_max_abs_MPa, d);
+    sum += d;
+    ++count;
+  }
+  if (count > 0) record.cost_mean_abs_MPa = sum / static_cast<double>(count);
+  return record;
+}
+
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
                            const GeneratedSource& source, const BuildVariant& variant) {
-  const std::string form = source.request.table.is_direct() ? " direct" : "";
+  const Exporter& exporter = *source.exporter;
+  const std::string form = source.request.table.is_direct() && exporter.whole() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
   if (!have_program(variant.program())) {
     DriftRecord record;
@@ -178,10 +234,12 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
     record.why_not = "there is no " + variant.program() + " on this machine";
     return record;
   }
-  const CompiledTarget target(*source.exporter, source.request, source.bundle, variant);
-  return compare(input, s, subject, [&](const Probe& reference, std::vector<double>& tau) {
+  const CompiledTarget target(exporter, source.request, source.bundle, variant);
+  const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
     target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
-  });
+  };
+  if (exporter.whole()) return compare(input, s, subject, answer);
+  return compare_reduced(input, s, exporter.held(source.request), subject, answer);
 }
 
 } // namespace

@@ -60,6 +60,13 @@ Json record_json(const DriftRecord& record) {
   if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
   if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
   if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
+  if (record.held) {
+    j["held"] = Json::object();
+    for (const auto& [name, value] : *record.held)
+      j["held"][name] = value;
+    j["cost_mean_abs_MPa"] = record.cost_mean_abs_MPa;
+    j["cost_max_abs_MPa"] = record.cost_max_abs_MPa;
+  }
   return j;
 }
 
@@ -105,6 +112,11 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
         r.not_proven = one.value("not_proven", "");
+        if (one.contains("held")) {
+          r.held = one.at("held").get<std::map<std::string, double>>();
+          r.cost_mean_abs_MPa = one.at("cost_mean_abs_MPa");
+          r.cost_max_abs_MPa = one.at("cost_max_abs_MPa");
+        }
       } else
         r.why_not = one.at("why_not");
       verification.records.push_back(std::move(r));

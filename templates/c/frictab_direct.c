@@ -90,4 +90,6 @@ void frictab_tau_R_batch(
         @{items});
 }
 
+@{gradient}
+
 @{count}

@@ -141,4 +141,6 @@ void frictab_tau_R_batch(
   }
 }
 
+@{gradient}
+
 @{count}

@@ -26,6 +26,15 @@ extern "C" {
 double frictab_tau_R(
     @{parameters});
 
+/* The same value, and derivative[0] .. derivative[@{last_argument}]: d tau_R by each argument in the order above,
+ * in @{tau_unit} per the argument's unit. At a node or kink one of the two one-sided ones; 0 by an
+ * argument that is not used, and of the tabulated part by an axis beyond whose end the table's
+ * edge is used; NaN by all that are used where tau_R is NaN.
+ */
+double frictab_tau_R_gradient(
+    @{parameters},
+    double* derivative);
+
 /* The axes beyond whose range the state lies, as bits:
 @for line in bits
  *   @{line.text}
@@ -39,6 +48,13 @@ void frictab_tau_R_batch(
     size_t n,
     @{arrays},
     double* tau);
+
+/* The same with derivatives: those of state i from derivative[@{n_arguments} * i] on. */
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    @{arrays},
+    double* tau,
+    double* derivative);
 
 /* Adds how many of n states lie outside, to counts of your own (two per axis, by the bits above:
  * first those below its range, then those above). Nothing is counted inside the library, so that

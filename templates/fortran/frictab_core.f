@@ -2,12 +2,16 @@ C     tau_R in MPa of the state x in canonical units:
 @for line in arguments
 C     @{line.text}
 @end
-      double precision function fttau(x)
+      @{pure}double precision function fttau(x)
       implicit none
-      double precision x(@{n_x})
+      double precision@{in} x(@{n_x})
       double precision val
 @if interpolates
-      double precision u(@{n_axes}), ftintp
+      double precision u(@{n_axes})
+@end
+@if externals
+@if interpolates
+      double precision ftintp
 @end
 @if uses_log
       double precision ftlog
@@ -18,6 +22,7 @@ C     @{line.text}
 @for name in helpers
       double precision @{name.text}
 @end
+@end
 @for line in temporaries
 @{line.text}
 @end
@@ -26,7 +31,9 @@ C     @{line.text}
 C     @{constant.comment}
       parameter (c@{constant.index} = @{constant.value})
 @end
+@if externals
       logical ftnan
+@end
       integer i
       do i = 1, @{n_x}
         if (ftnan(x(i))) then
@@ -64,9 +71,9 @@ C
 @end
 @if has_axes
 C     True where x lies outside the range of an axis.
-      logical function ftout(x)
+      @{pure}logical function ftout(x)
       implicit none
-      double precision x(@{n_x})
+      double precision@{in} x(@{n_x})
       ftout = .false.
 @for axis in ends
       if (x(@{axis.index}) .lt. @{axis.low} .or.
@@ -87,23 +94,27 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
 @end
 @if gradient
-      double precision function ftintp(u)
+      @{pure}double precision function ftintp(u)
       implicit none
-      double precision u(@{n_axes}), du(@{n_axes})
+      double precision@{in} u(@{n_axes})
+      double precision du(@{n_axes})
       call ftintg(u, ftintp, du, .false.)
       return
       end
 C
 C     The same, and where asked for the derivatives du by u: 0 beyond
 C     the ends of an axis.
-      subroutine ftintg(u, val, du, deriv)
+      @{pure}subroutine ftintg(u, val, du, deriv)
       implicit none
-      logical deriv
-      double precision u(@{n_axes}), val, du(@{n_axes}), x, t
+      logical@{in} deriv
+      double precision@{in} u(@{n_axes})
+      double precision@{out} val, du(@{n_axes})
+      double precision x, t
 @else
-      double precision function ftintp(u)
+      @{pure}double precision function ftintp(u)
       implicit none
-      double precision u(@{n_axes}), x, t
+      double precision@{in} u(@{n_axes})
+      double precision x, t
 @end
       integer i, at
 @if uses_bisection
@@ -122,31 +133,8 @@ C     the ends of an axis.
 @if cubic
       integer l
       double precision w(4,@{n_axes})
-      integer fc(@{n_cells})
-      double precision tb(@{n_basis})
-      save fc, tb
 @end
-      double precision un(@{n_nodes}), pc(@{n_cells})
-      double precision tv(@{n_values})
-      save un, pc, tv
-@if uses_guide
-      integer gd(@{n_guide})
-      save gd
-@end
-C     nodes (logarithms on logarithmic axes), 1/width of cells
-@{data_un}
-@{data_pc}
-@if uses_guide
-C     cells by the coordinate's place
-@{data_gd}
-@end
-@if cubic
-C     per cell: first coefficient; 4 polynomials of the cell's weight
-@{data_fc}
-@{data_tb}
-@end
-C     @{value_comment}
-@{data_tv}
+@{data}
       at = 1
 @for axis in axes
 C     axis @{axis.number}: cell i (from 0), weight t of its upper node
@@ -234,9 +222,9 @@ C
 @end
 @if uses_log
 C     Zero and negative values lie below every logarithmic axis.
-      double precision function ftlog(x)
+      @{pure}double precision function ftlog(x)
       implicit none
-      double precision x
+      double precision@{in} x
       ftlog = -huge(x)
       if (x .gt. 0.0D0) ftlog = log(x)
       return
@@ -244,10 +232,12 @@ C     Zero and negative values lie below every logarithmic axis.
 C
 @end
 @if uses_min
-      double precision function ftmin(a, b)
+      @{pure}double precision function ftmin(a, b)
       implicit none
-      double precision a, b
+      double precision@{in} a, b
+@if externals
       logical ftnan
+@end
       ftmin = a
       if (ftnan(a)) return
       if (ftnan(b)) then
@@ -260,10 +250,12 @@ C
 C
 @end
 @if uses_max
-      double precision function ftmax(a, b)
+      @{pure}double precision function ftmax(a, b)
       implicit none
-      double precision a, b
+      double precision@{in} a, b
+@if externals
       logical ftnan
+@end
       ftmax = a
       if (ftnan(a)) return
       if (ftnan(b)) then
@@ -277,10 +269,12 @@ C
 @end
 @if uses_where
 C     p where a <= b, else q
-      double precision function ftwhle(a, b, p, q)
+      @{pure}double precision function ftwhle(a, b, p, q)
       implicit none
-      double precision a, b, p, q
+      double precision@{in} a, b, p, q
+@if externals
       logical ftnan
+@end
       if (ftnan(a)) then
         ftwhle = a
       else if (ftnan(b)) then
@@ -296,7 +290,7 @@ C
 @end
 @if uses_unknown
 C     A quiet NaN, without arithmetic that could trap.
-      double precision function ftqnan()
+      @{pure}double precision function ftqnan()
       implicit none
       integer*8 bits
       parameter (bits = 9221120237041090560_8)
@@ -307,9 +301,9 @@ C
 @end
 C     True for NaN: by its bits, so that neither traps nor options
 C     like fast arithmetic can interfere.
-      logical function ftnan(x)
+      @{pure}logical function ftnan(x)
       implicit none
-      double precision x
+      double precision@{in} x
       integer*8 bits
       bits = ibclr(transfer(x, bits), 63)
       ftnan = bits .gt. 9218868437227405312_8

@@ -1,9 +1,10 @@
 C     tau as fttau gives it, and its derivatives dtau by x: MPa per
 C     canonical unit. 0 by an axis at whose end the table stops, NaN
 C     where x holds one@{refused_text}.
-      subroutine ftgrad(x, tau, dtau)
+      @{pure}subroutine ftgrad(x, tau, dtau)
       implicit none
-      double precision x(@{n_x}), tau, dtau(@{n_x})
+      double precision@{in} x(@{n_x})
+      double precision@{out} tau, dtau(@{n_x})
       double precision val
 @if has_by
       double precision by(@{n_x})
@@ -11,6 +12,7 @@ C     where x holds one@{refused_text}.
 @if interpolates
       double precision u(@{n_axes}), du(@{n_axes})
 @end
+@if externals
 @if uses_log
       double precision ftlog
 @end
@@ -19,6 +21,8 @@ C     where x holds one@{refused_text}.
 @end
 @for name in helpers
       double precision @{name.text}
+@end
+      logical ftnan
 @end
 @for line in temporaries
 @{line.text}
@@ -31,7 +35,6 @@ C     @{constant.comment}
 @if extends
       logical beyond
 @end
-      logical ftnan
       integer i, j
       do i = 1, @{n_x}
         if (ftnan(x(i))) then

@@ -1,27 +1,31 @@
 C     The law's own @{quantity} of the state x, by its formula; held at
 C     the ends of the range on sides that clamp.
-      double precision function ftpiec(x)
+      @{pure}double precision function ftpiec(x)
       implicit none
 @if gradient
-      double precision x(@{n_x}), dv(@{n_x})
+      double precision@{in} x(@{n_x})
+      double precision dv(@{n_x})
       call ftpieg(x, ftpiec, dv, .false.)
       return
       end
 C
 C     The same, and where asked for its derivatives dv by x: 0 where x
 C     is held at an end.
-      subroutine ftpieg(x, val, dv, deriv)
+      @{pure}subroutine ftpieg(x, val, dv, deriv)
       implicit none
-      logical deriv
-      double precision x(@{n_x}), val, dv(@{n_x})
+      logical@{in} deriv
+      double precision@{in} x(@{n_x})
+      double precision@{out} val, dv(@{n_x})
 @else
-      double precision x(@{n_x})
+      double precision@{in} x(@{n_x})
 @end
 @for line in declarations
 @{line.text}
 @end
+@if externals
 @for name in helpers
       double precision @{name.text}
+@end
 @end
 @for constant in constants
       double precision c@{constant.index}
@@ -41,20 +45,7 @@ C     1 + mod(i-1, @{outputs}).
       double precision b@{feature.index}
 @end
 @end
-@for feature in features
-      double precision wt@{feature.index}(nunit)
-@end
-      double precision bias(nunit), gain(nunit), offs(nout)
-@for feature in features
-      save wt@{feature.index}
-@end
-      save bias, gain, offs
-@for feature in features
-@{feature.data}
-@end
-@{data_bias}
-@{data_gain}
-@{data_offs}
+@{data}
 @end
 @for line in held
 @{line.text}

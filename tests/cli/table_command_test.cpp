@@ -234,25 +234,23 @@ TEST_F(TableCommand, ConvertsToTextThatHoldsTheGridAsItIs) {
             "value 6\n0.1 0.08\n0.12 0.1\n0.14 0.12\n");
 }
 
-TEST_F(TableCommand, ConvertsToAbaqusWithTheSlipRateFastest) {
+TEST_F(TableCommand, ConvertsToAbaqusAsTheTargetWritesIt) {
   const std::string text =
       out({"convert", "a.h5", "--to", "abaqus", "--at", "psi=2", "--at", "sigma_f_MPa=400"});
-  EXPECT_THAT(text, StartsWith("** friction coefficient tau_R/sigma_N of small; MPa, mm/s, degC\n"
-                               "** format verified: "));
-  EXPECT_THAT(text, HasSubstr("** held: psi = 2\n** held: sigma_f_MPa = 400\n"
-                              "** mu, slip rate, contact pressure, temperature\n*FRICTION\n"
-                              "0.12, 10, 500,\n0.1, 20, 500,\n0.12, 10, 750,\n"));
-  EXPECT_THAT(text, testing::EndsWith("0.064, 10, 2500,\n0.064, 20, 2500,\n")); // 160 / 2500
+  EXPECT_THAT(text, StartsWith("** Friction of the law \"small\", Abaqus *FRICTION data lines"));
+  EXPECT_THAT(text, HasSubstr("** held: psi = 2, given (range 1 .. 4)\n"
+                              "** held: sigma_f_MPa = 400, given (range 200 .. 800)\n"));
+  EXPECT_THAT(text, testing::EndsWith("*FRICTION, TAUMAX=160\n 0.12, 10\n 0.1, 20\n"));
 }
 
 TEST_F(TableCommand, ConvertsToLsDynaAsOneCurvePerSpeed) {
   const std::string text =
       out({"convert", "a.h5", "--to", "lsdyna", "--at", "psi=2", "--at", "sigma_f_MPa=400"});
-  EXPECT_THAT(text, HasSubstr("*DEFINE_TABLE\n$     tbid\n         1\n$       speed, mm/s\n"
-                              "                  10\n                  20\n"
-                              "*DEFINE_CURVE\n$     lcid\n         2\n"));
+  EXPECT_THAT(text, HasSubstr("*DEFINE_TABLE\n$     tbid\n     90000\n$     velocity, mm/s\n"
+                              "                  10\n"));
+  EXPECT_THAT(text, HasSubstr("*DEFINE_CURVE\n$     lcid\n     90001\n"));
   EXPECT_THAT(text, HasSubstr("\n                 500                0.12\n"));
-  EXPECT_THAT(text, HasSubstr("*DEFINE_CURVE\n$     lcid\n         3\n"));
+  EXPECT_THAT(text, HasSubstr("\n                2500               0.064\n")); // 160 / 2500
 }
 
 TEST_F(TableCommand, ConvertRefusesWhatAFormatCannotHold) {
@@ -264,8 +262,9 @@ TEST_F(TableCommand, ConvertRefusesWhatAFormatCannotHold) {
   write_table(test::four_axis_table(), directory.path("b.h5"));
   EXPECT_EQ(
       fault({"convert", "b.h5", "--to", "lsdyna", "--at", "psi=1", "--at", "sigma_f_MPa=400"}),
-      "error: a *DEFINE_TABLE of friction has no temperature\n"
-      "  hint: hold it: --at T_contact_C=100\n");
+      "error: no value is given for T_contact_C (20 .. 200)\n  hint: --at T_contact_C=20\n");
+  EXPECT_EQ(fault({"convert", "a.h5", "--to", "abaqus", "--at", "v_rel_mm_s=10"}),
+            "error: v_rel_mm_s is a column of this table\n  hint: leave out --at v_rel_mm_s\n");
 }
 
 TEST_F(TableCommand, UnknownCommandNamesTheNearest) {

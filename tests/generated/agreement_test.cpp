@@ -84,6 +84,13 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
           .drive(states.rows(), states.columns(), tau);
       EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
     }
+    const Exporter& free_form = *find_exporter("fortran");
+    const BuildVariant build = free_form.variants(request)[0];
+    if (!have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
+    std::vector<double> tau(states.rows());
+    CompiledTarget(free_form, request, free_form.generate(request), build)
+        .drive(states.rows(), states.columns(), tau);
+    EXPECT_EQ(tau, truth) << "Fortran 2008";
     const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");
     if (!library) GTEST_SKIP() << "gfortran is not installed";
     const auto interpolate = library->find<double(const double*)>("ftintp_");
@@ -101,14 +108,15 @@ TEST(SameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Agreement,
-                         testing::Values(Case{"c", "mm-t-s"}, Case{"c", "m-kg-s"},
-                                         Case{"abaqus_vfric", "mm-t-s"},
-                                         Case{"abaqus_vfric", "m-kg-s"},
-                                         Case{"abaqus_fric", "mm-t-s"},
-                                         Case{"abaqus_fric", "m-kg-s"},
-                                         Case{"abaqus_fric_coef", "mm-t-s"},
-                                         Case{"abaqus_fric_coef", "m-kg-s"}),
+std::vector<Case> every_routine() {
+  std::vector<Case> cases;
+  for (const Exporter& exporter : all_exporters())
+    for (const char* units : {"mm-t-s", "m-kg-s"})
+      if (exporter.whole()) cases.push_back({exporter.name, units});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Agreement, testing::ValuesIn(every_routine()),
                          [](const testing::TestParamInfo<Case>& given) {
                            std::string name = given.param.target + "_" + given.param.units;
                            std::replace(name.begin(), name.end(), '-', '_');

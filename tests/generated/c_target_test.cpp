@@ -1,9 +1,4 @@
-// The C target beyond agreement: both compilers with every warning, batch form, range flags, NaN,
-// threads.
-#include <cmath>
-#include <limits>
-#include <thread>
-
+// The C target beyond agreement and its entry: both compilers with every warning, one file alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,20 +8,6 @@
 namespace frictab {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-using Entry = double(double, double, double, double, double, double);
-using Outside = unsigned(double, double, double, double, double, double);
-using Array = const double*;
-using Batch = void(std::size_t, Array, Array, Array, Array, Array, Array, double*);
-
-const Library& four_axes() {
-  static const Table table = test::four_axis_table();
-  const ExportRequest request{table, "mm-t-s", {}};
-  return *test::compiled("four_axes", *find_exporter("c"), request, "c99");
-}
 
 TEST(CTarget, CompilesWithoutAWarningByGccAndClangAndAgrees) {
   const Exporter& c = *find_exporter("c");
@@ -62,65 +43,6 @@ TEST(CTarget, CompilesAsOneFileAloneAndIsUsableFromCpp) {
   build.command = {"g++", "-Wall", "-Werror", "-fPIC", "-shared", "-o", "@{out}", "@{dir}/use.cpp"};
   const TemporaryDirectory work;
   EXPECT_NO_THROW(compile_library(bundle, build, work.path()));
-}
-
-TEST(CTarget, TellsByBitsWhichAxesAreLeft) {
-  const auto outside = four_axes().find<Outside>("frictab_outside");
-  EXPECT_EQ(outside(1000, 2, 50, 100, 0, 480), 0u);
-  EXPECT_EQ(outside(500, 1, 5, 20, 0, 480), 0u);
-  EXPECT_EQ(outside(2750, 20, 500, 200, 0, 480), 0u);
-  EXPECT_EQ(outside(499, 2, 50, 100, 0, 480), 1u);
-  EXPECT_EQ(outside(1000, 21, 50, 100, 0, 480), 2u);
-  EXPECT_EQ(outside(1000, 2, 0, 100, 0, 480), 4u);
-  EXPECT_EQ(outside(1000, 2, 50, -inf, 0, 480), 8u);
-  EXPECT_EQ(outside(inf, inf, inf, inf, 0, 480), 15u);
-}
-
-TEST(CTarget, GivesTheSameBitsInBatchAndTakesNullForWhatItDoesNotUse) {
-  const Table table = test::four_axis_table();
-  const test::States states(table, 1000, 5);
-  const auto& c = states.columns();
-  std::vector<double> tau(1000);
-  four_axes().find<Batch>("frictab_tau_R_batch")(1000, c[0], c[1], c[2], c[3], nullptr, c[4],
-                                                 tau.data());
-  const auto entry = four_axes().find<Entry>("frictab_tau_R");
-  for (std::size_t i = 0; i < 1000; ++i)
-    EXPECT_EQ(tau[i], entry(c[0][i], c[1][i], c[2][i], c[3][i], nan, c[4][i]));
-}
-
-TEST(CTarget, GivesNaNForNaNInWhatItUsesOnly) {
-  const auto entry = four_axes().find<Entry>("frictab_tau_R");
-  for (std::size_t i = 0; i < 6; ++i) {
-    double x[] = {1000, 2, 50, 100, 1, 480};
-    x[i] = nan;
-    EXPECT_EQ(std::isnan(entry(x[0], x[1], x[2], x[3], x[4], x[5])), i != 4) << i;
-  }
-}
-
-TEST(CTarget, ClampsInfinitiesToTheEdgeOfTheTable) {
-  const auto entry = four_axes().find<Entry>("frictab_tau_R");
-  EXPECT_EQ(entry(1000, inf, 50, 100, 0, 480), entry(1000, 20, 50, 100, 0, 480));
-  EXPECT_EQ(entry(1000, 2, -inf, 100, 0, 480), entry(1000, 2, 5, 100, 0, 480));
-  EXPECT_EQ(entry(inf, 2, 50, 100, 0, 480), 0.8 * (0.5773502691896258 * 480));
-}
-
-TEST(CTarget, MayRunInThreadsAtOnce) {
-  const auto entry = four_axes().find<Entry>("frictab_tau_R");
-  const auto sweep = [entry] {
-    std::vector<double> tau;
-    for (int i = 0; i < 20000; ++i)
-      tau.push_back(entry(500 + i % 2300, 1 + i % 19, 5 + i % 490, 20 + i % 180, 0, 480));
-    return tau;
-  };
-  const std::vector<double> serial = sweep();
-  std::vector<std::vector<double>> parallel(4);
-  std::vector<std::thread> threads;
-  for (auto& result : parallel)
-    threads.emplace_back([&result, &sweep] { result = sweep(); });
-  for (std::thread& thread : threads)
-    thread.join();
-  for (const auto& result : parallel)
-    EXPECT_EQ(result, serial);
 }
 
 } // namespace

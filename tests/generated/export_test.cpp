@@ -113,9 +113,10 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   const nlohmann::json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
   EXPECT_EQ(out["entry"], "vfric");
   EXPECT_THAT(std::string(out["input_deck"]),
-              HasSubstr("*Friction, user, depvar=4, properties=3\n 4.47214, 110, 4.8e+08\n"));
+              HasSubstr("*Friction, user, depvar=6, properties=3\n 4.47214, 110, 4.8e+08\n"));
   EXPECT_EQ(out["properties"][2]["unit"], "Pa");
-  EXPECT_EQ(out["state_variables"].size(), 4u);
+  EXPECT_EQ(out["state_variables"].size(), 6u);
+  EXPECT_EQ(out["state_variables"][1]["unit"], "Pa*m");
   EXPECT_THAT(std::string(out["signature_source"]),
               testing::AllOf(HasSubstr("verified:"), HasSubstr("Recalled")));
   EXPECT_THAT(std::string(out["data_origin"]), HasSubstr("synthetic"));
@@ -126,7 +127,7 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
 TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {
   const Table table = test::constant_table();
   const nlohmann::json out = recipe("abaqus_vfric", {table, "mm-t-s", {}});
-  EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=3\n*Contact"));
+  EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=6\n*Contact"));
   EXPECT_TRUE(out["properties"].empty());
 }
 
@@ -143,8 +144,8 @@ TEST(Export, RecipeListsTheCArgumentsInContractOrderAndTracedOnesBehind) {
 TEST(Export, SameRequestGivesTheSameBytes) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const Exporter& exporter : all_exporters())
-      EXPECT_EQ(exporter.generate({sample.table, "mm-t-s", {}}),
-                exporter.generate({sample.table, "mm-t-s", {}}));
+      EXPECT_EQ(exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()),
+                exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()));
 }
 
 TEST(Export, EveryTargetDescribesItself) {

@@ -55,6 +55,7 @@ void expect_everywhere(const Table& table, const std::vector<double>& pressure,
   TableFunction(table).evaluate(tau.size(), columns, tau);
   EXPECT_EQ(test::worst_relative(tau, wanted), 0) << "C++";
   for (const Exporter& exporter : all_exporters()) {
+    if (!exporter.whole()) continue; // a solver's own table has no rule of ours beyond its ends
     const ExportRequest request{table, "mm-t-s", {}};
     const BuildVariant variant = exporter.variants(request)[0];
     if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";

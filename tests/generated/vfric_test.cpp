@@ -276,7 +276,7 @@ TYPED_TEST(Vfric, WritesNoStateBeyondDEPVAR) {
   }
 }
 
-TYPED_TEST(Vfric, TakesTheSlipAsZeroWithoutStateVariables) {
+TYPED_TEST(Vfric, TakesTheIncrementsSlipAloneWithoutStateVariables) {
   static const TableFunction table(test::branching_table());
   auto c = this->call(1);
   c.properties = {TypeParam(flow)};
@@ -284,7 +284,7 @@ TYPED_TEST(Vfric, TakesTheSlipAsZeroWithoutStateVariables) {
   c.resize(1, 1);
   this->set(c, 0, 300, 20, 0);
   this->run(c, this->branching());
-  const double state[] = {300, 20, 0, flow};
+  const double state[] = {300, 20, double(c.slip[0]), flow};
   EXPECT_CLOSE(this->force(c), -table(state));
 }
 

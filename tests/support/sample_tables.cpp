@@ -211,6 +211,14 @@ const std::vector<NamedTable>& sample_tables() {
   return tables;
 }
 
+SampleRequest::SampleRequest(const Exporter& exporter, const Table& table, const std::string& units)
+    : table_(table), units_(units) {
+  if (exporter.whole()) return;
+  table_.number_attributes["tolerance_MPa"] = 40;
+  table_.number_attributes["worst_case_MPa"] = 0.25;
+  inputs_ = {{"sigma_f_MPa", "constant:480"}};
+}
+
 States::States(const Table& table, std::size_t rows, std::uint64_t seed, double spread,
                const std::map<std::string, double>& fixed)
     : rows_(rows) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/exporter.h"
 #include "table/table.h"
 
 namespace frictab::test {
@@ -26,6 +27,19 @@ struct NamedTable {
   Table table;
 };
 const std::vector<NamedTable>& sample_tables();
+
+// What a target is asked for of a sample: a solver's own table gets a flow stress to hold and a
+// tolerance that keeps its text short (the samples' values are rough).
+class SampleRequest {
+public:
+  SampleRequest(const Exporter& exporter, const Table& table, const std::string& units);
+  ExportRequest get() const { return {table_, units_, inputs_}; }
+
+private:
+  Table table_;
+  std::string units_;
+  std::map<std::string, std::string> inputs_;
+};
 
 // Rows of states, column-wise in the order of table.inputs(), `spread` (0.1 = 10 %) beyond every
 // end of its axes; states that are no axis lie in 100 .. 1000. States in `fixed` (name, value) keep

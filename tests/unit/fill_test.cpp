@@ -76,6 +76,16 @@ TEST(Fill, DataStatementsHoldEveryNumberOnce) {
 TEST(Fill, UnitsConvertByOneOperation) {
   EXPECT_EQ(solver_unit("MPa", "m-kg-s").to_canonical(480e6), 480);
   EXPECT_EQ(solver_unit("mm/s", "m-kg-s").from_canonical(50), 0.05);
+  // 1 MPa mm = 1e6 Pa * 1e-3 m, and the same per second.
+  for (const auto& [unit, name] : {std::pair{"MPa mm", "Pa m"},
+                                   {"MPa*mm", "Pa*m"},
+                                   {"MPa mm/s", "Pa m/s"},
+                                   {"MPa*mm/s", "Pa*m/s"}}) {
+    EXPECT_EQ(solver_unit(unit, "m-kg-s").from_canonical(1), 1e3) << unit;
+    EXPECT_EQ(solver_unit(unit, "m-kg-s").to_canonical(2500), 2.5) << unit;
+    EXPECT_EQ(solver_unit(unit, "m-kg-s").name, name);
+    EXPECT_TRUE(solver_unit(unit, "mm-t-s").same());
+  }
   EXPECT_TRUE(solver_unit("degC", "m-kg-s").same());
   EXPECT_TRUE(solver_unit("MPa", "mm-t-s").same());
 }

@@ -158,7 +158,7 @@ TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
 }
 
 TEST(Verify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
-  for (const char* target : {"c", "abaqus_vfric"})
+  for (const char* target : {"c", "abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"})
     for (const char* words : {"clamp", "error", "law"}) {
       const DriftRecord r = verified(words, target);
       if (!r.ran) GTEST_SKIP() << r.why_not;
@@ -186,6 +186,45 @@ TEST(Verify, FailsASourceThatAnswersWhereItIsToRefuse) {
   if (!r.ran) GTEST_SKIP() << r.why_not;
   EXPECT_GT(r.n_not_refused, 100U);
   EXPECT_FALSE(r.passed);
+}
+
+// A target whose driver poses no row, or every other one, with an answer that is wrong by 3 MPa.
+Exporter sparse(bool poses) {
+  Exporter out;
+  out.name = "sparse";
+  out.variants = [](const ExportRequest&) {
+    return std::vector<BuildVariant>{{"none", {}, {}, 0}};
+  };
+  if (poses)
+    out.drive = [](const Built&, const ExportRequest& request, std::size_t rows,
+                   std::span<const double* const> columns, std::span<double> tau) {
+      std::vector<double> all(rows);
+      TableFunction(request.table).evaluate(rows, columns, all);
+      for (std::size_t i = 0; i < rows; i += 2)
+        tau[i] = all[i] + 3;
+    };
+  else
+    out.drive = [](const Built&, const ExportRequest&, std::size_t, std::span<const double* const>,
+                   std::span<double>) {};
+  return out;
+}
+
+TEST(Verify, LeavesOutRowsThatADriverCannotPoseButNotAllOfThem) {
+  const Model model = log_coulomb();
+  const Dataset data = test::sample_data(model);
+  const TableOptions options;
+  const Table table = build_table(model, state_ranges(model, data, options), options);
+  for (const bool poses : {true, false}) {
+    const Exporter exporter = sparse(poses);
+    const DriftRecord r =
+        verify({model, table, "table", &data, 0.5, 2000}, {{&exporter, {table, "mm-t-s", {}}, {}}})
+            .back();
+    EXPECT_FALSE(r.passed);
+    if (poses)
+      EXPECT_NEAR(r.rows.mean_abs, 1.5, 0.1) << "half of the rows, 3 MPa each";
+    else
+      EXPECT_GT(r.rows.mean_abs, 3);
+  }
 }
 
 TEST(Verify, RecordOfRowsOutsideReadsBack) {

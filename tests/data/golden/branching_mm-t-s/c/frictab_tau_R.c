@@ -251,6 +251,93 @@ FT_LINEAR(8, 7)
 
 #endif
 
+/* Value and all derivatives by the axis coordinates in one pass; the same value, bit for bit, as
+ * ft_linear_N gives. C99, no allocation, no state, thread-safe. Stands behind frictab_kernel.h. */
+#ifndef FRICTAB_GRADIENT_H
+#define FRICTAB_GRADIENT_H
+
+/* DO(0) ... DO(k - 1), without a loop: what they index stays in registers. */
+#define FT_EACH_0(DO)
+#define FT_EACH_1(DO) DO(0)
+#define FT_EACH_2(DO) FT_EACH_1(DO) DO(1)
+#define FT_EACH_3(DO) FT_EACH_2(DO) DO(2)
+#define FT_EACH_4(DO) FT_EACH_3(DO) DO(3)
+#define FT_EACH_5(DO) FT_EACH_4(DO) DO(4)
+#define FT_EACH_6(DO) FT_EACH_5(DO) DO(5)
+#define FT_EACH_7(DO) FT_EACH_6(DO) DO(6)
+#define FT_EACH_8(DO) FT_EACH_7(DO) DO(7)
+
+/* d weight/d u: 0 outside, where the edge's value is used; NaN for NaN. */
+FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, unsigned outside) {
+  if (weight != weight) return weight;
+  return outside ? 0.0 : axis->per_cell[cell];
+}
+
+/* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
+typedef struct {
+  ft_pair value, by[FT_MAX_AXES];
+} ft_fan;
+
+FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+  (void)axis;
+  (void)w;
+  fan->value = ft_load(v, at);
+}
+#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
+#define FT_FAN_LOOP(D)                                                                             \
+  for (j = 0; j < 2; ++j)                                                                          \
+  FT_FAN_END(j, D)
+#define FT_FAN(N, D, INNER, ENDS)                                                                  \
+  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
+                            ft_fan* fan) {                                                         \
+    ft_fan end[2];                                                                                 \
+    int j = 0;                                                                                     \
+    (void)j;                                                                                       \
+    ENDS(D)                                                                                        \
+    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
+  }
+FT_FAN(2, 1, 0, FT_FAN_BOTH)
+FT_FAN(3, 2, 1, FT_FAN_BOTH)
+FT_FAN(4, 3, 2, FT_FAN_BOTH)
+FT_FAN(5, 4, 3, FT_FAN_BOTH)
+FT_FAN(6, 5, 4, FT_FAN_LOOP)
+FT_FAN(7, 6, 5, FT_FAN_LOOP)
+FT_FAN(8, 7, 6, FT_FAN_LOOP)
+
+/* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
+#define FT_LINEAR_BY(i)                                                                            \
+  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+#define FT_LINEAR_GRADIENT(N, LAST)                                                                \
+  FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
+                                          double* by_u, unsigned* outside) {                       \
+    ft_place place;                                                                                \
+    ft_fan fan;                                                                                    \
+    double t;                                                                                      \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
+    t = place.w[LAST];                                                                             \
+    FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
+        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
+  }
+FT_LINEAR_GRADIENT(1, 0)
+FT_LINEAR_GRADIENT(2, 1)
+FT_LINEAR_GRADIENT(3, 2)
+FT_LINEAR_GRADIENT(4, 3)
+FT_LINEAR_GRADIENT(5, 4)
+FT_LINEAR_GRADIENT(6, 5)
+FT_LINEAR_GRADIENT(7, 6)
+FT_LINEAR_GRADIENT(8, 7)
+
+#endif
+
 /* axis 0: v_rel_mm_s */
 static const double ft_u0[4] = {
     0.0, 1.0, 4.0, 50.0
@@ -374,6 +461,161 @@ void frictab_tau_R_batch(
         sigma_n_MPa[i], 0.0, v_rel_mm_s[i], 0.0, s_mm[i], sigma_f_MPa[i],
         &outside);
   }
+}
+
+static double ft_no_gradient(double tau, double* derivative) {
+  derivative[0] = tau;
+  derivative[2] = tau;
+  derivative[4] = tau;
+  derivative[5] = tau;
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative) {
+  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
+  const double x3 = v_rel_mm_s; /* v_rel_mm_s */
+  const double x5 = s_mm; /* s_mm */
+  const double x6 = sigma_f_MPa; /* sigma_f_MPa */
+  const double c1 = 1.8; /* n */
+  const double c2 = 1.25; /* shape number */
+  double d3 = 0.0; /* of value by x3 */
+  double d5 = 0.0; /* of value by x5 */
+  double u[2], by_u[2];
+  double value;
+  int i;
+  (void)psi;
+  (void)T_contact_C;
+  for (i = 0; i < 6; ++i)
+    derivative[i] = 0.0;
+  if (x1 != x1) return ft_no_gradient(x1, derivative);
+  if (x3 != x3) return ft_no_gradient(x3, derivative);
+  if (x5 != x5) return ft_no_gradient(x5, derivative);
+  if (x6 != x6) return ft_no_gradient(x6, derivative);
+  u[0] = x3;
+  u[1] = x5;
+  value = ft_linear_gradient_2(ft_axes, ft_table, u, by_u, 0);
+  d3 = by_u[0];
+  d5 = by_u[1];
+  {
+    const double t1 = value*x1;
+    const double t2 = x6/2.0;
+    const double t3 = t1/t2;
+    const double t4 = ft_max(t3, 1.0000000000000001e-09);
+    const double t5 = t2*t4;
+    const double t6 = pow(t4, c1);
+    const double t7 = 1.0 + t6;
+    const double t8 = 1.0/c1;
+    const double t9 = pow(t7, t8);
+    const double t10 = t5/t9;
+    const double t11 = t4*c2;
+    const double t12 = -t11;
+    const double t13 = exp(t12);
+    const double t14 = 1.0 - t13;
+    const double t15 = t2*t14;
+    const double t16 = tanh(t4);
+    const double t17 = t15 + t16;
+    const double t18 = sqrt(t4);
+    const double t19 = t17 - t18;
+    const double t20 = ft_where_le(t4, 0.40000000000000002, t10, t19);
+    const double t21 = ft_min(t20, t2);
+    const double t22 = x1/t2;
+    const double t23 = ft_where_le(1.0000000000000001e-09, t3, t22, 0.0);
+    const double t24 = t2*t23;
+    const double t25 = t8*t9;
+    const double t26 = ft_where_le(0.0, t7, 1.0, t7);
+    const double t27 = ft_where_le(t7, 0.0, t26, t7);
+    const double t28 = t25/t27;
+    const double t29 = c1*t6;
+    const double t30 = t29/t4;
+    const double t31 = t30*t23;
+    const double t32 = t28*t31;
+    const double t33 = t10*t32;
+    const double t34 = t24 - t33;
+    const double t35 = t34/t9;
+    const double t36 = t23*c2;
+    const double t37 = -t36;
+    const double t38 = t13*t37;
+    const double t39 = -t38;
+    const double t40 = t2*t39;
+    const double t41 = t16*t16;
+    const double t42 = 1.0 - t41;
+    const double t43 = t42*t23;
+    const double t44 = t40 + t43;
+    const double t45 = 0.5*t23;
+    const double t46 = t45/t18;
+    const double t47 = t44 - t46;
+    const double t48 = ft_where_le(t4, 0.40000000000000002, t35, t47);
+    const double t49 = ft_where_le(t20, t2, t48, 0.0);
+    const double t50 = value/t2;
+    const double t51 = ft_where_le(1.0000000000000001e-09, t3, t50, 0.0);
+    const double t52 = t2*t51;
+    const double t53 = t30*t51;
+    const double t54 = t28*t53;
+    const double t55 = t10*t54;
+    const double t56 = t52 - t55;
+    const double t57 = t56/t9;
+    const double t58 = t51*c2;
+    const double t59 = -t58;
+    const double t60 = t13*t59;
+    const double t61 = -t60;
+    const double t62 = t2*t61;
+    const double t63 = t42*t51;
+    const double t64 = t62 + t63;
+    const double t65 = 0.5*t51;
+    const double t66 = t65/t18;
+    const double t67 = t64 - t66;
+    const double t68 = ft_where_le(t4, 0.40000000000000002, t57, t67);
+    const double t69 = ft_where_le(t20, t2, t68, 0.0);
+    const double t70 = 0.5*t4;
+    const double t71 = t3*0.5;
+    const double t72 = -t71;
+    const double t73 = t72/t2;
+    const double t74 = ft_where_le(1.0000000000000001e-09, t3, t73, 0.0);
+    const double t75 = t2*t74;
+    const double t76 = t70 + t75;
+    const double t77 = t30*t74;
+    const double t78 = t28*t77;
+    const double t79 = t10*t78;
+    const double t80 = t76 - t79;
+    const double t81 = t80/t9;
+    const double t82 = 0.5*t14;
+    const double t83 = t74*c2;
+    const double t84 = -t83;
+    const double t85 = t13*t84;
+    const double t86 = -t85;
+    const double t87 = t2*t86;
+    const double t88 = t82 + t87;
+    const double t89 = t42*t74;
+    const double t90 = t88 + t89;
+    const double t91 = 0.5*t74;
+    const double t92 = t91/t18;
+    const double t93 = t90 - t92;
+    const double t94 = ft_where_le(t4, 0.40000000000000002, t81, t93);
+    const double t95 = ft_where_le(t20, t2, t94, 0.5);
+    derivative[0] = t69;
+    derivative[2] = t49 * d3;
+    derivative[4] = t49 * d5;
+    derivative[5] = t95;
+    return t21;
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative) {
+  size_t i;
+  (void)psi;
+  (void)T_contact_C;
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        sigma_n_MPa[i], 0.0, v_rel_mm_s[i], 0.0, s_mm[i], sigma_f_MPa[i],
+        derivative + 6 * i);
 }
 
 void frictab_count_outside(

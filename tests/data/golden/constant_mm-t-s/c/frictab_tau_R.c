@@ -315,6 +315,52 @@ void frictab_tau_R_batch(
   }
 }
 
+static double ft_no_gradient(double tau, double* derivative) {
+  derivative[0] = tau;
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative) {
+  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
+  double value;
+  int i;
+  (void)psi;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < 6; ++i)
+    derivative[i] = 0.0;
+  if (x1 != x1) return ft_no_gradient(x1, derivative);
+  value = ft_value[0];
+  {
+    const double t1 = value*x1;
+    derivative[0] = value;
+    return t1;
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative) {
+  size_t i;
+  (void)psi;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        sigma_n_MPa[i], 0.0, 0.0, 0.0, 0.0, 0.0,
+        derivative + 6 * i);
+}
+
 void frictab_count_outside(
     size_t n,
     const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,

@@ -13,6 +13,11 @@ static inline double ft_min(double a, double b) {
 static inline double ft_max(double a, double b) {
   return (b > a || b != b) ? b : a;
 }
+static inline double ft_where_le(double a, double b, double x, double y) {
+  if (a != a) return a;
+  if (b != b) return b;
+  return a <= b ? x : y;
+}
 
 /* tanh x for |x| <= 19.1 to 5e-15 of its value, without a branch: Lambert's continued fraction of
  * tanh(x/4), 8 terms, and the double-angle formula twice. Beyond, tanh is 1 to 5e-17. */
@@ -192,6 +197,176 @@ void frictab_tau_R_batch(
   for (i = 0; i < n; ++i)
     tau[i] = ft_tau(
         sigma_n_MPa[i], psi[i], v_rel_mm_s[i], T_contact_C[i], s_mm[i], sigma_f_MPa[i]);
+}
+
+/* The same, and its derivatives by the arguments: 0 where one is held at an end */
+FT_WIDE
+static double ft_piece_gradient(
+    double x1, double x2, double x3, double x4, double x5, double* by) {
+  const double h1 = x1 < 500.0 ? 500.0 : x1 > 2750.0 ? 2750.0 : x1;
+  const double h2 = x2 < 1.0 ? 1.0 : x2 > 20.0 ? 20.0 : x2;
+  const double h3 = x3 < 5.0 ? 5.0 : x3 > 500.0 ? 500.0 : x3;
+  const double h4 = x4 < 20.0 ? 20.0 : x4;
+  const double h5 = x5 < 0.0 ? 0.0 : x5 > 40.0 ? 40.0 : x5;
+  const double c1 = 0.08; /* mu0 */
+  const double f1_1 = ft_max(h2, 1.0);
+  const double f1_2 = log(f1_1);
+  const double f2_1 = ft_max(h3, 0.10000000000000001);
+  const double f2_2 = f2_1 + 1.0;
+  const double f2_3 = log(f2_2);
+  const double f4_1 = ft_max(h5, 0.0);
+  const double f4_2 = f4_1 + 0.5;
+  const double f4_3 = log(f4_2);
+  double unit[12], net[3], adjoint[3];
+  double slope0 = 0.0;
+  double slope1 = 0.0;
+  double slope2 = 0.0;
+  double slope3 = 0.0;
+  double slope4 = 0.0;
+  int i, j;
+  for (i = 0; i < 12; ++i) {
+    double a = 0.0;
+    a += ft_weight0[i] * h1;
+    a += ft_weight1[i] * f1_2;
+    a += ft_weight2[i] * f2_3;
+    a += ft_weight3[i] * h4;
+    a += ft_weight4[i] * f4_3;
+    a += ft_bias[i];
+    a = a < -19.1 ? -19.1 : a;
+    unit[i] = a > 19.1 ? 19.1 : a;
+  }
+  for (i = 0; i < 12; ++i)
+    unit[i] = ft_unit(unit[i]);
+  for (j = 0; j < 3; ++j)
+    net[j] = ft_offset[j];
+  for (i = 0; i < 12; i += 3)
+    for (j = 0; j < 3; ++j)
+      net[j] += ft_gain[i + j] * unit[i + j];
+  const double t1 = exp(net[0]);
+  const double t2 = exp(net[1]);
+  const double t3 = t1 + t2;
+  const double t4 = exp(net[2]);
+  const double t5 = t3 + t4;
+  const double t6 = t5/3.0;
+  const double t7 = c1*t6;
+  const double t8 = t1/3.0;
+  const double t9 = c1*t8;
+  const double t10 = t2/3.0;
+  const double t11 = c1*t10;
+  const double t12 = t4/3.0;
+  const double t13 = c1*t12;
+  adjoint[0] = t9;
+  adjoint[1] = t11;
+  adjoint[2] = t13;
+  for (i = 0; i < 12; i += 3)
+    for (j = 0; j < 3; ++j)
+      unit[i + j] = adjoint[j] * ft_gain[i + j] * (1.0 - unit[i + j] * unit[i + j]);
+  for (i = 0; i < 12; ++i) {
+    slope0 += ft_weight0[i] * unit[i];
+    slope1 += ft_weight1[i] * unit[i];
+    slope2 += ft_weight2[i] * unit[i];
+    slope3 += ft_weight3[i] * unit[i];
+    slope4 += ft_weight4[i] * unit[i];
+  }
+  {
+    const double t14 = ft_where_le(1.0, h2, 1.0, 0.0);
+    const double t15 = ft_max(h2, 1.0);
+    const double t16 = t14/t15;
+    const double t17 = slope1*t16;
+    const double t18 = ft_where_le(0.10000000000000001, h3, 1.0, 0.0);
+    const double t19 = ft_max(h3, 0.10000000000000001);
+    const double t20 = t19 + 1.0;
+    const double t21 = t18/t20;
+    const double t22 = slope2*t21;
+    const double t23 = ft_where_le(0.0, h5, 1.0, 0.0);
+    const double t24 = ft_max(h5, 0.0);
+    const double t25 = t24 + 0.5;
+    const double t26 = t23/t25;
+    const double t27 = slope4*t26;
+    by[0] = x1 < 500.0 ? 0.0 : x1 > 2750.0 ? 0.0 : slope0;
+    by[1] = x2 < 1.0 ? 0.0 : x2 > 20.0 ? 0.0 : t17;
+    by[2] = x3 < 5.0 ? 0.0 : x3 > 500.0 ? 0.0 : t22;
+    by[3] = x4 < 20.0 ? 0.0 : slope3;
+    by[4] = x5 < 0.0 ? 0.0 : x5 > 40.0 ? 0.0 : t27;
+  }
+  return t7;
+}
+
+static double ft_no_gradient(double tau, double* derivative) {
+  derivative[0] = tau;
+  derivative[1] = tau;
+  derivative[2] = tau;
+  derivative[3] = tau;
+  derivative[4] = tau;
+  derivative[5] = tau;
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative) {
+  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
+  const double x2 = psi; /* psi */
+  const double x3 = v_rel_mm_s; /* v_rel_mm_s */
+  const double x4 = T_contact_C; /* T_contact_C */
+  const double x5 = s_mm; /* s_mm */
+  const double x6 = sigma_f_MPa; /* sigma_f_MPa */
+  double d1 = 0.0; /* of value by x1 */
+  double d2 = 0.0; /* of value by x2 */
+  double d3 = 0.0; /* of value by x3 */
+  double d4 = 0.0; /* of value by x4 */
+  double d5 = 0.0; /* of value by x5 */
+  double by[5];
+  double value;
+  int i;
+  for (i = 0; i < 6; ++i)
+    derivative[i] = 0.0;
+  if (x1 != x1) return ft_no_gradient(x1, derivative);
+  if (x2 != x2) return ft_no_gradient(x2, derivative);
+  if (x3 != x3) return ft_no_gradient(x3, derivative);
+  if (x4 != x4) return ft_no_gradient(x4, derivative);
+  if (x5 != x5) return ft_no_gradient(x5, derivative);
+  if (x6 != x6) return ft_no_gradient(x6, derivative);
+  {
+    value = ft_piece_gradient(x1, x2, x3, x4, x5, by);
+    d1 = by[0];
+    d2 = by[1];
+    d3 = by[2];
+    d4 = by[3];
+    d5 = by[4];
+  }
+  {
+    const double t1 = value*x1;
+    const double t2 = ft_max(t1, 0.0);
+    const double t3 = 0.57735026918962584*x6;
+    const double t4 = ft_min(t2, t3);
+    const double t5 = ft_where_le(0.0, t1, x1, 0.0);
+    const double t6 = ft_where_le(t2, t3, t5, 0.0);
+    const double t7 = ft_where_le(0.0, t1, value, 0.0);
+    const double t8 = ft_where_le(t2, t3, t7, 0.0);
+    const double t9 = ft_where_le(t2, t3, 0.0, 0.57735026918962584);
+    derivative[0] = t8 + t6 * d1;
+    derivative[1] = t6 * d2;
+    derivative[2] = t6 * d3;
+    derivative[3] = t6 * d4;
+    derivative[4] = t6 * d5;
+    derivative[5] = t9;
+    return t4;
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative) {
+  size_t i;
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        sigma_n_MPa[i], psi[i], v_rel_mm_s[i], T_contact_C[i], s_mm[i], sigma_f_MPa[i],
+        derivative + 6 * i);
 }
 
 void frictab_count_outside(

@@ -251,6 +251,93 @@ FT_LINEAR(8, 7)
 
 #endif
 
+/* Value and all derivatives by the axis coordinates in one pass; the same value, bit for bit, as
+ * ft_linear_N gives. C99, no allocation, no state, thread-safe. Stands behind frictab_kernel.h. */
+#ifndef FRICTAB_GRADIENT_H
+#define FRICTAB_GRADIENT_H
+
+/* DO(0) ... DO(k - 1), without a loop: what they index stays in registers. */
+#define FT_EACH_0(DO)
+#define FT_EACH_1(DO) DO(0)
+#define FT_EACH_2(DO) FT_EACH_1(DO) DO(1)
+#define FT_EACH_3(DO) FT_EACH_2(DO) DO(2)
+#define FT_EACH_4(DO) FT_EACH_3(DO) DO(3)
+#define FT_EACH_5(DO) FT_EACH_4(DO) DO(4)
+#define FT_EACH_6(DO) FT_EACH_5(DO) DO(5)
+#define FT_EACH_7(DO) FT_EACH_6(DO) DO(6)
+#define FT_EACH_8(DO) FT_EACH_7(DO) DO(7)
+
+/* d weight/d u: 0 outside, where the edge's value is used; NaN for NaN. */
+FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, unsigned outside) {
+  if (weight != weight) return weight;
+  return outside ? 0.0 : axis->per_cell[cell];
+}
+
+/* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
+typedef struct {
+  ft_pair value, by[FT_MAX_AXES];
+} ft_fan;
+
+FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+  (void)axis;
+  (void)w;
+  fan->value = ft_load(v, at);
+}
+#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
+#define FT_FAN_LOOP(D)                                                                             \
+  for (j = 0; j < 2; ++j)                                                                          \
+  FT_FAN_END(j, D)
+#define FT_FAN(N, D, INNER, ENDS)                                                                  \
+  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
+                            ft_fan* fan) {                                                         \
+    ft_fan end[2];                                                                                 \
+    int j = 0;                                                                                     \
+    (void)j;                                                                                       \
+    ENDS(D)                                                                                        \
+    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
+  }
+FT_FAN(2, 1, 0, FT_FAN_BOTH)
+FT_FAN(3, 2, 1, FT_FAN_BOTH)
+FT_FAN(4, 3, 2, FT_FAN_BOTH)
+FT_FAN(5, 4, 3, FT_FAN_BOTH)
+FT_FAN(6, 5, 4, FT_FAN_LOOP)
+FT_FAN(7, 6, 5, FT_FAN_LOOP)
+FT_FAN(8, 7, 6, FT_FAN_LOOP)
+
+/* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
+#define FT_LINEAR_BY(i)                                                                            \
+  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+#define FT_LINEAR_GRADIENT(N, LAST)                                                                \
+  FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
+                                          double* by_u, unsigned* outside) {                       \
+    ft_place place;                                                                                \
+    ft_fan fan;                                                                                    \
+    double t;                                                                                      \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
+    t = place.w[LAST];                                                                             \
+    FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
+        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
+  }
+FT_LINEAR_GRADIENT(1, 0)
+FT_LINEAR_GRADIENT(2, 1)
+FT_LINEAR_GRADIENT(3, 2)
+FT_LINEAR_GRADIENT(4, 3)
+FT_LINEAR_GRADIENT(5, 4)
+FT_LINEAR_GRADIENT(6, 5)
+FT_LINEAR_GRADIENT(7, 6)
+FT_LINEAR_GRADIENT(8, 7)
+
+#endif
+
 /* axis 0: psi */
 static const double ft_u0[5] = {
     1.0, 5.75, 10.5, 15.25, 20.0
@@ -328,6 +415,55 @@ void frictab_tau_R_batch(
         0.0, psi[i], 0.0, 0.0, 0.0, 0.0,
         &outside);
   }
+}
+
+static double ft_no_gradient(double tau, double* derivative) {
+  derivative[1] = tau;
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative) {
+  const double x2 = psi; /* psi */
+  double d2 = 0.0; /* of value by x2 */
+  double u[1], by_u[1];
+  double value;
+  int i;
+  (void)sigma_n_MPa;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < 6; ++i)
+    derivative[i] = 0.0;
+  if (x2 != x2) return ft_no_gradient(x2, derivative);
+  u[0] = x2;
+  value = ft_linear_gradient_1(ft_axes, ft_table, u, by_u, 0);
+  d2 = by_u[0];
+  {
+    derivative[1] = 1.0 * d2;
+    return value;
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative) {
+  size_t i;
+  (void)sigma_n_MPa;
+  (void)v_rel_mm_s;
+  (void)T_contact_C;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        0.0, psi[i], 0.0, 0.0, 0.0, 0.0,
+        derivative + 6 * i);
 }
 
 void frictab_count_outside(

@@ -251,6 +251,93 @@ FT_LINEAR(8, 7)
 
 #endif
 
+/* Value and all derivatives by the axis coordinates in one pass; the same value, bit for bit, as
+ * ft_linear_N gives. C99, no allocation, no state, thread-safe. Stands behind frictab_kernel.h. */
+#ifndef FRICTAB_GRADIENT_H
+#define FRICTAB_GRADIENT_H
+
+/* DO(0) ... DO(k - 1), without a loop: what they index stays in registers. */
+#define FT_EACH_0(DO)
+#define FT_EACH_1(DO) DO(0)
+#define FT_EACH_2(DO) FT_EACH_1(DO) DO(1)
+#define FT_EACH_3(DO) FT_EACH_2(DO) DO(2)
+#define FT_EACH_4(DO) FT_EACH_3(DO) DO(3)
+#define FT_EACH_5(DO) FT_EACH_4(DO) DO(4)
+#define FT_EACH_6(DO) FT_EACH_5(DO) DO(5)
+#define FT_EACH_7(DO) FT_EACH_6(DO) DO(6)
+#define FT_EACH_8(DO) FT_EACH_7(DO) DO(7)
+
+/* d weight/d u: 0 outside, where the edge's value is used; NaN for NaN. */
+FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, unsigned outside) {
+  if (weight != weight) return weight;
+  return outside ? 0.0 : axis->per_cell[cell];
+}
+
+/* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
+typedef struct {
+  ft_pair value, by[FT_MAX_AXES];
+} ft_fan;
+
+FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+  (void)axis;
+  (void)w;
+  fan->value = ft_load(v, at);
+}
+#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
+#define FT_FAN_LOOP(D)                                                                             \
+  for (j = 0; j < 2; ++j)                                                                          \
+  FT_FAN_END(j, D)
+#define FT_FAN(N, D, INNER, ENDS)                                                                  \
+  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
+                            ft_fan* fan) {                                                         \
+    ft_fan end[2];                                                                                 \
+    int j = 0;                                                                                     \
+    (void)j;                                                                                       \
+    ENDS(D)                                                                                        \
+    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
+  }
+FT_FAN(2, 1, 0, FT_FAN_BOTH)
+FT_FAN(3, 2, 1, FT_FAN_BOTH)
+FT_FAN(4, 3, 2, FT_FAN_BOTH)
+FT_FAN(5, 4, 3, FT_FAN_BOTH)
+FT_FAN(6, 5, 4, FT_FAN_LOOP)
+FT_FAN(7, 6, 5, FT_FAN_LOOP)
+FT_FAN(8, 7, 6, FT_FAN_LOOP)
+
+/* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
+#define FT_LINEAR_BY(i)                                                                            \
+  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+#define FT_LINEAR_GRADIENT(N, LAST)                                                                \
+  FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
+                                          double* by_u, unsigned* outside) {                       \
+    ft_place place;                                                                                \
+    ft_fan fan;                                                                                    \
+    double t;                                                                                      \
+    ft_place_##N(axis, u, &place);                                                                 \
+    if (outside) *outside = place.outside;                                                         \
+    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
+    t = place.w[LAST];                                                                             \
+    FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
+        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
+  }
+FT_LINEAR_GRADIENT(1, 0)
+FT_LINEAR_GRADIENT(2, 1)
+FT_LINEAR_GRADIENT(3, 2)
+FT_LINEAR_GRADIENT(4, 3)
+FT_LINEAR_GRADIENT(5, 4)
+FT_LINEAR_GRADIENT(6, 5)
+FT_LINEAR_GRADIENT(7, 6)
+FT_LINEAR_GRADIENT(8, 7)
+
+#endif
+
 /* axis 0: ln sigma_n_MPa */
 static const double ft_u0[3] = {
     6.214608098422191, 7.003065458786462, 7.919356190660617
@@ -400,6 +487,142 @@ void frictab_tau_R_batch(
         sigma_n_MPa[i], 0.0, v_rel_mm_s[i], T_contact_C[i], 0.0, sigma_f_MPa[i],
         &outside);
   }
+}
+
+/* The same, and its derivatives by the arguments: 0 where one is held at an end */
+static double ft_piece_gradient(
+    double x1, double x3, double x4, double* by) {
+  const double h1 = x1 > 2750.0 ? 2750.0 : x1;
+  const double h3 = x3 < 5.0 ? 5.0 : x3 > 500.0 ? 500.0 : x3;
+  const double h4 = x4 < 20.0 ? 20.0 : x4;
+  const double c2 = 0.12; /* mu0 */
+  const double t1 = h1/1000.0;
+  const double t2 = pow(t1, (-0.20000000000000001));
+  const double t3 = c2*t2;
+  const double t4 = ft_max(h3, 1.0);
+  const double t5 = log(t4);
+  const double t6 = 0.029999999999999999*t5;
+  const double t7 = exp(t6);
+  const double t8 = t3*t7;
+  const double t9 = 0.001*h4;
+  const double t10 = 1.0 - t9;
+  const double t11 = ft_min(h4, 400.0);
+  const double t12 = t11 - 120.0;
+  const double t13 = 0.002*t12;
+  const double t14 = 0.88 - t13;
+  const double t15 = ft_where_le(h4, 120.0, t10, t14);
+  const double t16 = t8*t15;
+  {
+    const double t17 = (-0.20000000000000001)*t2;
+    const double t18 = ft_where_le(0.0, t1, 1.0, t1);
+    const double t19 = ft_where_le(t1, 0.0, t18, t1);
+    const double t20 = t17/t19;
+    const double t21 = t20*0.001;
+    const double t22 = c2*t21;
+    const double t23 = t22*t7;
+    const double t24 = t23*t15;
+    const double t25 = ft_where_le(1.0, h3, 1.0, 0.0);
+    const double t26 = t25/t4;
+    const double t27 = 0.029999999999999999*t26;
+    const double t28 = t7*t27;
+    const double t29 = t3*t28;
+    const double t30 = t29*t15;
+    const double t31 = ft_where_le(h4, 400.0, 1.0, 0.0);
+    const double t32 = 0.002*t31;
+    const double t33 = -t32;
+    const double t34 = ft_where_le(h4, 120.0, (-0.001), t33);
+    const double t35 = t8*t34;
+    by[0] = x1 > 2750.0 ? 0.0 : t24;
+    by[1] = x3 < 5.0 ? 0.0 : x3 > 500.0 ? 0.0 : t30;
+    by[2] = x4 < 20.0 ? 0.0 : t35;
+  }
+  return t16;
+}
+
+static double ft_no_gradient(double tau, double* derivative) {
+  derivative[0] = tau;
+  derivative[2] = tau;
+  derivative[3] = tau;
+  derivative[5] = tau;
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative) {
+  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
+  const double x3 = v_rel_mm_s; /* v_rel_mm_s */
+  const double x4 = T_contact_C; /* T_contact_C */
+  const double x6 = sigma_f_MPa; /* sigma_f_MPa */
+  const double c1 = 0.8; /* m */
+  double d1 = 0.0; /* of value by x1 */
+  double d3 = 0.0; /* of value by x3 */
+  double d4 = 0.0; /* of value by x4 */
+  double u[3], by_u[3];
+  double by[3];
+  double value;
+  int i;
+  (void)psi;
+  (void)s_mm;
+  for (i = 0; i < 6; ++i)
+    derivative[i] = 0.0;
+  if (x1 != x1) return ft_no_gradient(x1, derivative);
+  if (x3 != x3) return ft_no_gradient(x3, derivative);
+  if (x4 != x4) return ft_no_gradient(x4, derivative);
+  if (x6 != x6) return ft_no_gradient(x6, derivative);
+  if (x3 > 500.0005) return ft_no_gradient((double)NAN, derivative); /* outside = error */
+  if (x4 < 19.99998) return ft_no_gradient((double)NAN, derivative); /* outside = error */
+  u[0] = ft_log(x1);
+  u[1] = ft_log(x3);
+  u[2] = x4;
+  value = ft_linear_gradient_3(ft_axes, ft_table, u, by_u, 0);
+  value = exp(value);
+  if (by_u[0] != 0.0) d1 = by_u[0] / x1;
+  d1 *= value;
+  if (by_u[1] != 0.0) d3 = by_u[1] / x3;
+  d3 *= value;
+  d4 = by_u[2];
+  d4 *= value;
+  if (x1 < 500.0 || x4 > 200.0) {
+    value = ft_piece_gradient(x1, x3, x4, by);
+    d1 = by[0];
+    d3 = by[1];
+    d4 = by[2];
+  }
+  {
+    const double t1 = value*x1;
+    const double t2 = ft_max(t1, 0.0);
+    const double t3 = 0.57735026918962584*x6;
+    const double t4 = c1*t3;
+    const double t5 = ft_min(t2, t4);
+    const double t6 = ft_where_le(0.0, t1, x1, 0.0);
+    const double t7 = ft_where_le(t2, t4, t6, 0.0);
+    const double t8 = ft_where_le(0.0, t1, value, 0.0);
+    const double t9 = ft_where_le(t2, t4, t8, 0.0);
+    const double t10 = c1*0.57735026918962584;
+    const double t11 = ft_where_le(t2, t4, 0.0, t10);
+    derivative[0] = t9 + t7 * d1;
+    derivative[2] = t7 * d3;
+    derivative[3] = t7 * d4;
+    derivative[5] = t11;
+    return t5;
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative) {
+  size_t i;
+  (void)psi;
+  (void)s_mm;
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        sigma_n_MPa[i], 0.0, v_rel_mm_s[i], T_contact_C[i], 0.0, sigma_f_MPa[i],
+        derivative + 6 * i);
 }
 
 void frictab_count_outside(

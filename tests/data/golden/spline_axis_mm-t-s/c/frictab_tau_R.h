@@ -32,6 +32,16 @@ double frictab_tau_R(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa);
 
+/* The same value, and derivative[0] .. derivative[5]: d tau_R by each argument in the order above,
+ * in MPa per the argument's unit. At a node or kink one of the two one-sided ones; 0 by an
+ * argument that is not used, and of the tabulated part by an axis beyond whose end the table's
+ * edge is used; NaN by all that are used where tau_R is NaN.
+ */
+double frictab_tau_R_gradient(
+    double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
+    double sigma_f_MPa,
+    double* derivative);
+
 /* The axes beyond whose range the state lies, as bits:
  *   1u psi
  */
@@ -45,6 +55,14 @@ void frictab_tau_R_batch(
     const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
     const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
     double* tau);
+
+/* The same with derivatives: those of state i from derivative[6 * i] on. */
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    double* tau,
+    double* derivative);
 
 /* Adds how many of n states lie outside, to counts of your own (two per axis, by the bits above:
  * first those below its range, then those above). Nothing is counted inside the library, so that

@@ -1,0 +1,160 @@
+// VFRIC and VFRICTION: source and recipe from what they differ by.
+#include "explicit.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/fortran_core.h"
+#include "codegen/recipe.h"
+#include "core/text.h"
+#include "deck.h"
+#include "io/json.h"
+#include "stop.h"
+
+namespace frictab::abaqus {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct StateVariable {
+  std::string unit, meaning;
+};
+
+std::vector<StateVariable> state_variables(const ExportRequest& request) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  const std::string work = solver_unit("MPa*mm", request.units).name;
+  return {{length, "accumulated slip under pressure"},
+          {work, "friction work per area"},
+          {stress, "peak pressure"},
+          {"1", "increments in which the state was outside the range"},
+          {length, "what the solver's precision rounds off 1"},
+          {work, "what the solver's precision rounds off 2"}};
+}
+
+std::vector<std::string> remarks(const ForceRoutine& routine, const ExportRequest& request,
+                                 const std::vector<SolverInput>& inputs) {
+  std::vector<std::string> lines = {
+      fmt::format("{} (DEPVAR={}), by {}:", routine.state_name, explicit_states, routine.state_by)};
+  const std::vector<StateVariable> states = state_variables(request);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    lines.push_back(fmt::format("{} {}{}", i + 1, states[i].meaning,
+                                states[i].unit == "1" ? "" : " (" + states[i].unit + ")"));
+  lines.push_back("With a smaller DEPVAR those that it leaves out are not kept.");
+  const std::string absent = " with a smaller DEPVAR it is taken as ";
+  if (uses(inputs, Source::slip))
+    lines.push_back(fmt::format("The law needs {}(1):{}the slip of the increment alone.",
+                                routine.state_name, absent));
+  if (uses(inputs, Source::work))
+    lines.push_back(fmt::format("The law needs {}(2):{}0.", routine.state_name, absent));
+  if (uses(inputs, Source::peak_pressure))
+    lines.push_back(
+        fmt::format("The law needs {}(3):{}the present pressure.", routine.state_name, absent));
+  lines.push_back(fmt::format("NaN in gives NaN out; such a point's {} stay as they were. A point "
+                              "without area has no pressure to look up, and no friction.",
+                              routine.state_name));
+  return lines;
+}
+
+// The statements behind the declarations of the arguments.
+std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& inputs,
+                 std::size_t n_x) {
+  TemplateValues values;
+  values.text = {{"n_x", std::to_string(n_x)},
+                 {"fixed", explicit_fixed(inputs, routine.gives)},
+                 {"given", explicit_given(inputs, routine.names)},
+                 {"time_increment", routine.time_increment},
+                 {"points", routine.points},
+                 {"area", routine.area},
+                 {"states", routine.states},
+                 {"columns", routine.columns},
+                 {"state", routine.state}};
+  values.flags = {{"unknown", needs_unknown(inputs)},
+                  {"has_fixed", !values.text["fixed"].empty()},
+                  {"has_given", !values.text["given"].empty()}};
+  return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
+}
+
+// ftpnt and the state variables.
+std::string point(const ForceRoutine& routine, const ExportRequest& request,
+                  const std::vector<SolverInput>& inputs, std::size_t n_x) {
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  TemplateValues values;
+  values.text = {{"n_x", std::to_string(n_x)},
+                 {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
+  values.flags = {{"has_axes", !request.table.axes.empty()}, {"refuses", refuses(request.table)}};
+  values.lists["inputs"] =
+      only(inputs, routine.gives,
+           {Source::pressure, Source::speed, Source::slip, Source::work, Source::peak_pressure},
+           {"index", "comment", "convert"},
+           {"is_pressure", "is_speed", "is_slip", "is_work", "is_peak"});
+  return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
+}
+
+std::string source(const ForceRoutine& routine, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs) {
+  const Table& table = request.table;
+  const bool ends = refuses(table);
+  const fortran::Core core = fortran::core(table, {ends || needs_unknown(inputs)});
+  TemplateValues values;
+  values.text = {{"head", explicit_head(*find_exporter(routine.target), request, inputs,
+                                        remarks(routine, request, inputs))},
+                 {"body", body(routine, inputs, core.n_x)},
+                 {"point", point(routine, request, inputs, core.n_x)},
+                 {"core", (ends ? stop(table, Solver::explicit_) + "\n" : "") + core.text}};
+  return render_template(routine.target + "/frictab_" + routine.entry + ".f", values);
+}
+
+std::string recipe(const ForceRoutine& routine, const ExportRequest& request,
+                   const std::vector<SolverInput>& inputs, const SourceBundle& files,
+                   const std::string& file) {
+  json out = recipe_head(*find_exporter(routine.target), request, routine.entry, files);
+  out["arguments"] = recipe_arguments(inputs);
+  out["arguments_note"] = routine.arguments_note;
+  out["result"] = {{"name", "fTangential(1,k)"},
+                   {"meaning", "-min(tau_R*area, max(fStickForce, 0)); other components 0"}};
+  out["state_variables_by"] = routine.state_by;
+  json states = json::array();
+  for (const StateVariable& state : state_variables(request))
+    states.push_back(
+        {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
+  out["state_variables"] = states;
+  out["properties"] = recipe_properties(inputs);
+  add_compile(out, file);
+  out["input_deck"] = friction_lines(routine.user, explicit_states, inputs) + routine.deck_tail;
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+} // namespace
+
+std::string force_notes(const std::string& state_name, const std::string& state_by) {
+  return fmt::format(
+      "The force lies along the slip (the first local axis is the slip's own direction), never "
+      "above the stick force, 0 where that is negative; at rest it is still there. Surface "
+      "expansion and flow stress are not known to the solver: [export.inputs] says per state "
+      "constant:VALUE, property or field:N; a property or field the deck does not give takes the "
+      "middle of the range the table was made for, as the header of the source says. DEPVAR={}: "
+      "accumulated slip, friction work per area, peak pressure, increments outside the range, and "
+      "what single precision rounds off slip and work (increments are small against their sum: "
+      "with DEPVAR=4 a slip in steps of 1e-6 mm stops growing at 32 mm), each by {}. A law with "
+      "friction_work or peak_sigma_n takes it from {}: slip and peak include the present "
+      "increment, work ends before it. Beyond a side with outside = error the routine ends the "
+      "analysis through XPLB_ABQERR and names state and value: a NaN force would spread before "
+      "anybody sees it. Works with the single- and the double-precision solver; table and "
+      "arithmetic are double in both.",
+      explicit_states, state_by, state_name);
+}
+
+SourceBundle force_bundle(const ForceRoutine& routine, const ExportRequest& request) {
+  check_table(request.table);
+  const std::vector<SolverInput> inputs = solver_inputs(request, routine.gives);
+  const std::string file = "frictab_" + routine.entry + ".f";
+  SourceBundle files;
+  files[file] = source(routine, request, inputs);
+  files["recipe.json"] = recipe(routine, request, inputs, files, file);
+  return files;
+}
+
+} // namespace frictab::abaqus

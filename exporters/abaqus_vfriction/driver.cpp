@@ -1,0 +1,76 @@
+// A block of contact points behind VFRICTION's argument list.
+#include "driver.h"
+
+#include <cmath>
+
+#include "../abaqus/explicit.h"
+#include "../abaqus/explicit_driver.h"
+#include "call.h"
+#include "codegen/compile.h"
+
+namespace frictab::abaqus_vfriction {
+
+namespace {
+
+template <class Real> class Block : public abaqus::ExplicitBlock {
+public:
+  Block(void* function, std::size_t properties) : function_(function) {
+    call_.properties.assign(properties, Real(0));
+    call_.temperatures = true;
+    call_.states = int{abaqus::explicit_states};
+    call_.time_increment = Real(abaqus::driver_increment);
+  }
+
+  void resize(std::size_t points, std::size_t fields) override {
+    call_.fields = static_cast<int>(fields);
+    call_.resize(static_cast<int>(points));
+    for (std::size_t k = 0; k < points; ++k)
+      call_.area[k] = static_cast<Real>(abaqus::driver_area(k));
+  }
+  void property(std::size_t number, double value) override {
+    call_.properties[number] = static_cast<Real>(value);
+  }
+  void pressure(std::size_t k, double value) override {
+    call_.normal[k] = static_cast<Real>(value * abaqus::driver_area(k));
+  }
+  void speed(std::size_t k, double value) override {
+    call_.slip[3 * k] = static_cast<Real>(value * abaqus::driver_increment);
+  }
+  void temperature(std::size_t k, double value) override {
+    call_.temperature[k] = call_.temperature_main[k] = static_cast<Real>(value);
+  }
+  void field(std::size_t number, std::size_t k, double value) override {
+    const std::size_t at = k * static_cast<std::size_t>(call_.fields) + number;
+    call_.field[at] = call_.field_main[at] = static_cast<Real>(value);
+  }
+  void history(std::size_t k, double slip, double work, double peak) override {
+    const double before = slip - std::abs(static_cast<double>(call_.slip[3 * k]));
+    abaqus::put_history(&call_.state[std::size_t{abaqus::explicit_states} * k], before, work, peak);
+  }
+  void run() override { call_.run(function_); }
+  double stress(std::size_t k) const override {
+    return -static_cast<double>(call_.tangential[2 * k]) / abaqus::driver_area(k);
+  }
+
+private:
+  void* function_;
+  VfrictionCall<Real> call_;
+};
+
+template <class Real>
+void drive_as(void* function, const SolverGives& gives, const ExportRequest& request,
+              std::size_t rows, std::span<const double* const> columns, std::span<double> tau) {
+  Block<Real> block(function, property_count(solver_inputs(request, gives)));
+  abaqus::drive_explicit(block, gives, request, rows, columns, tau);
+}
+
+} // namespace
+
+void drive(const Built& built, const SolverGives& gives, const ExportRequest& request,
+           std::size_t rows, std::span<const double* const> columns, std::span<double> tau) {
+  void* function = Library::address(built.library, "vfriction_");
+  const auto as = built.variant.name == "single" ? drive_as<float> : drive_as<double>;
+  as(function, gives, request, rows, columns, tau);
+}
+
+} // namespace frictab::abaqus_vfriction

@@ -1,0 +1,134 @@
+// tau_R with its derivatives by every argument, in C.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "expr/derivative.h"
+#include "expr/several.h"
+#include "parts.h"
+
+namespace frictab::c_target {
+
+namespace {
+
+// The states by which the value inside the formula may change.
+bool behind_value(const Table& table, const InputArgument& input) {
+  return input.axis || (table.extension && symbols(*table.extension).count(input.name));
+}
+
+TemplateValues numbered(std::size_t index, std::size_t place) {
+  TemplateValues values;
+  values.text = {{"index", std::to_string(index)}, {"place", std::to_string(place)}};
+  return values;
+}
+
+void add_states(TemplateValues& values, const Table& table,
+                const std::vector<InputArgument>& inputs) {
+  std::size_t used = 0, of_piece = 0;
+  values.lists["behind"];
+  values.lists["of_piece"];
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!inputs[i].used) continue;
+    values.lists["used"][used++].text["place"] = std::to_string(i);
+    if (!behind_value(table, inputs[i])) continue;
+    TemplateValues state;
+    state.text["index"] = std::to_string(i + 1);
+    values.lists["behind"].push_back(state);
+    if (table.extension && symbols(*table.extension).count(inputs[i].name))
+      values.lists["of_piece"].push_back(numbered(i + 1, of_piece++));
+  }
+  values.flags["none_used"] = used == 0;
+  values.text["n_by"] = std::to_string(std::max<std::size_t>(of_piece, 1));
+  values.text["n_arguments"] = std::to_string(inputs.size());
+}
+
+void add_axes(TemplateValues& values, const Table& table,
+              const std::vector<InputArgument>& inputs) {
+  const auto rename = symbol_names(table, inputs);
+  Lines axes;
+  for (const TableAxis& axis : table.is_direct() ? std::vector<TableAxis>{} : table.axes) {
+    const std::string& x = rename.at(axis.name);
+    TemplateValues one;
+    one.text = {{"index", std::to_string(axes.size())},
+                {"variable", x},
+                {"state", x.substr(1)},
+                {"coordinate", axis.log ? "ft_log(" + x + ")" : x}};
+    one.flags["log"] = axis.log;
+    axes.push_back(one);
+  }
+  values.flags["interpolates"] = !axes.empty();
+  values.flags["tabulated"] = !table.is_direct();
+  values.flags["log_value"] = table.log_value;
+  values.text["n_axes"] = std::to_string(axes.size());
+  values.text["only_value"] = table.log_value ? "exp(ft_value[0])" : "ft_value[0]";
+  values.text["interpolate"] =
+      fmt::format("ft_{}_gradient_{}", is_cubic(table) ? "cubic" : "linear", axes.size());
+  values.lists["axes"] = axes;
+}
+
+// " * 1000.0": from MPa per canonical unit to the solver's stress per its unit.
+std::string conversion(const SolverUnit& stress, const SolverUnit& unit) {
+  const double factor = stress.over / stress.times * unit.times / unit.over;
+  return factor == 1 ? "" : " * " + c_number(factor);
+}
+
+void add_formula(TemplateValues& values, const ExportRequest& request,
+                 const std::vector<InputArgument>& inputs) {
+  const Table& table = request.table;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  std::vector<Expr> formulas{table.combine, derivative(table.combine, "value")};
+  for (const InputArgument& input : inputs)
+    formulas.push_back(derivative(table.combine, input.name));
+  const SeveralStatements code = to_statements(formulas, Language::c, symbol_names(table, inputs));
+  values.lists["statements"] = items(code.lines);
+  values.text["result"] =
+      stress.same() ? code.results[0] : code.results[0] + " * " + c_number(stress.over);
+  const bool by_value = !formulas[1].is_constant(0);
+  values.lists["slopes"];
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const bool direct = !formulas[2 + i].is_constant(0);
+    const bool through = by_value && behind_value(table, inputs[i]);
+    if (!direct && !through) continue; // 0
+    std::string sum = direct ? code.results[2 + i] : "";
+    if (through) sum += fmt::format("{}{} * d{}", direct ? " + " : "", code.results[1], i + 1);
+    const std::string factor = conversion(stress, inputs[i].solver);
+    TemplateValues slope =
+        item(factor.empty() || !direct || !through ? sum + factor : "(" + sum + ")" + factor);
+    slope.text["place"] = std::to_string(i);
+    values.lists["slopes"].push_back(slope);
+  }
+  if (by_value) return;
+  values.lists["unused"].push_back(item("value"));
+  for (const TemplateValues& state : values.lists["behind"])
+    values.lists["unused"].push_back(item("d" + state.text.at("index")));
+}
+
+} // namespace
+
+std::string gradient_functions(const ExportRequest& request,
+                               const std::vector<InputArgument>& inputs) {
+  const Table& table = request.table;
+  const std::vector<std::string> extending = extending_sides(table, inputs);
+  const bool has_piece = table.is_direct() || !extending.empty();
+  TemplateValues values;
+  add_state(values, table, inputs, table.combine);
+  add_states(values, table, inputs);
+  add_axes(values, table, inputs);
+  std::vector<std::string> unused;
+  for (const InputArgument& input : inputs)
+    if (!input.used) unused.push_back(input.argument);
+  values.lists["unused"] = items(unused);
+  add_formula(values, request, inputs);
+  values.lists["refusing"] = items(refusing_sides(table, inputs));
+  values.flags["has_piece"] = has_piece;
+  values.text["extending"] = join(extending, " || ");
+  values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
+  const std::string arguments = has_piece ? piece_arguments(table, inputs) : "";
+  values.text["piece_arguments"] = arguments.empty() ? "" : arguments + ", ";
+  // The head of frictab_tau_R stands alone there.
+  values.text.erase("names");
+  return without_last_break(render_template("c/frictab_gradient.c", values));
+}
+
+} // namespace frictab::c_target

@@ -1,0 +1,131 @@
+// Fills templates/deform_usrbcc/.
+#include "source.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
+#include "core/error.h"
+
+namespace frictab::deform_usrbcc {
+
+using fortran::Coefficient;
+
+namespace {
+
+constexpr std::size_t histories = 3; // USRNOD(1..3)
+
+const char* result_name(Coefficient kind) {
+  switch (kind) {
+  case Coefficient::coulomb:
+    return "friction coefficient mu";
+  case Coefficient::shear:
+    return "shear factor m";
+  case Coefficient::stress:
+    break;
+  }
+  return "frictional shear stress tau_R";
+}
+
+std::string result_text(Coefficient kind, const std::string& stress) {
+  switch (kind) {
+  case Coefficient::coulomb:
+    return fmt::format("VARIABLE: mu = tau_R/p, for Coulomb friction (FRCFAC type 2). Below {} MPa "
+                       "it is mu of that pressure: at 0 it would be 0/0.",
+                       fortran::least_pressure);
+  case Coefficient::shear:
+    return "VARIABLE: m = tau_R/k, for shear friction (FRCFAC type 1), k = flow stress/sqrt(3); 0 "
+           "without pressure or flow stress.";
+  case Coefficient::stress:
+    break;
+  }
+  return "VARIABLE: tau_R (" + stress +
+         "), for a constant shear stress (FRCFAC type 3); 0 without pressure.";
+}
+
+} // namespace
+
+Coefficient coefficient_kind(const ExportRequest& request) {
+  const std::string& word = find_exporter("deform_usrbcc")->option(request, "deform_friction");
+  return word == "shear"      ? Coefficient::shear
+         : word == "constant" ? Coefficient::stress
+                              : Coefficient::coulomb;
+}
+
+const SolverGives& gives() {
+  static const SolverGives all = {
+      {{Source::pressure, "|PRESS| of COMMON /UFHCOM/"},
+       {Source::speed, "|SLDVEL| of COMMON /UFHCOM/"},
+       {Source::slip, "USRNOD(1), mean of NODE1 and NODE2, kept by FTUPD"},
+       {Source::work, "USRNOD(2), mean of NODE1 and NODE2, kept by FTUPD"},
+       {Source::peak_pressure, "the larger of USRNOD(3), kept by FTUPD, and |PRESS|"},
+       {Source::temperature, "mean of TEMC(1) and TEMC(2)"},
+       {Source::flow_stress, "EFSTS of COMMON /UFHCOM2/ (meaning inferred)"},
+       {Source::expansion, "STRCH of COMMON /UFHCOM2/ (meaning inferred)"}},
+      "",
+      "mean of USRNOD({}) at NODE1 and NODE2"};
+  return all;
+}
+
+bool takes_history(const std::vector<SolverInput>& inputs) {
+  return uses(inputs, Source::slip) || uses(inputs, Source::work) ||
+         uses(inputs, Source::peak_pressure);
+}
+
+std::vector<SolverInput> inputs_of(const ExportRequest& request) {
+  std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  FaultList faults;
+  if (takes_history(inputs))
+    for (const SolverInput& input : inputs)
+      if (input.source == Source::field && input.field <= histories)
+        faults.add({"export.inputs." + input.argument.name, 0, 0},
+                   fmt::format("USRNOD({}) holds a history that the law needs", input.field),
+                   fmt::format("field:{} or higher", histories + 1));
+  faults.throw_if_any();
+  return inputs;
+}
+
+std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const Table& table = request.table;
+  const Coefficient kind = coefficient_kind(request);
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  TemplateValues values;
+  fortran::add_head(values, *find_exporter("deform_usrbcc"), request, inputs,
+                    "FTQUIT ends the simulation");
+  const bool refuses = values.flags["refuses"];
+  values.lists.erase("properties");
+  values.lists["result"] = fortran::comments({result_text(kind, stress.name)});
+  values.text["result_name"] = result_name(kind);
+  values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
+  values.text["work_convert"] = stress.same() ? "" : "/1.0D3"; // Pa*m in MPa*mm
+  values.text["result_convert"] =
+      kind == Coefficient::stress ? values.text.at("to_solver") : std::string();
+  values.text.erase("to_solver");
+  const auto flow = std::find_if(inputs.begin(), inputs.end(), [](const SolverInput& input) {
+    return input.argument.name == "sigma_f_MPa" && input.source != Source::flow_stress;
+  });
+  values.flags["given_flow"] = flow != inputs.end();
+  values.text["flow_index"] = std::to_string(flow - inputs.begin() + 1);
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.text["constants"] = fortran::constants_data(inputs);
+  values.text["coefficient"] = fortran::coefficient(table, kind);
+  values.text["stop"] =
+      refuses ? fortran::stop(table, "stop 1") : "";
+  values.text["core"] = fortran::core(table, {refuses}).text;
+  values.flags["histories"] = takes_history(inputs);
+  values.flags["uses_peak"] = uses(inputs, Source::peak_pressure);
+  values.lists["inputs"] = fortran::constant_inputs(inputs, gives());
+  return render_template("deform_usrbcc/frictab_usrbcc.f", values);
+}
+
+std::string usrupd_source(const ExportRequest& request) {
+  TemplateValues values;
+  values.text = {{"version", FRICTAB_VERSION},
+                 {"length", solver_unit("mm", request.units).name},
+                 {"stress", solver_unit("MPa", request.units).name}};
+  return render_template("deform_usrbcc/frictab_usrupd.f", values);
+}
+
+} // namespace frictab::deform_usrbcc

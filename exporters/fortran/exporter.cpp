@@ -1,0 +1,202 @@
+// Target `fortran`: the law as a module of Fortran 2008. Fills templates/fortran/frictab_tau_R.f90.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/call_entry.h"
+#include "codegen/entry_text.h"
+#include "codegen/fortran_core.h"
+#include "codegen/recipe.h"
+#include "core/text.h"
+#include "io/json.h"
+#include "table/outside.h"
+
+namespace frictab::fortran_target {
+
+namespace {
+
+// A list of arguments over several lines; the template sets them in.
+std::string continued(const std::vector<std::string>& pieces) {
+  std::string text = number_lines(pieces, 84, "");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3)
+    text.replace(at, 1, " &\n");
+  return text;
+}
+
+std::string canonical(const InputArgument& input, const std::string& element = "") {
+  const std::string argument = input.argument + element;
+  if (input.solver.times != 1) return argument + "*" + fortran_number(input.solver.times);
+  if (input.solver.over != 1) return argument + "/" + fortran_number(input.solver.over);
+  return argument;
+}
+
+// From MPa per canonical unit to the solver's stress per its unit.
+std::string slope_factor(const SolverUnit& stress, const SolverUnit& unit) {
+  const double factor = stress.over / stress.times * unit.times / unit.over;
+  return factor == 1 ? "" : "*" + fortran_number(factor);
+}
+
+void add_arguments(TemplateValues& values, const ExportRequest& request,
+                   const std::vector<InputArgument>& inputs) {
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const std::vector<std::string> order = request.table.inputs();
+  std::vector<std::string> names, elements, unused, not_axes;
+  for (const InputArgument& input : inputs) {
+    names.push_back(input.argument);
+    elements.push_back(input.used ? input.argument + "(ft_i)" : "0.0D0");
+    if (!input.used) unused.push_back(input.argument);
+    if (!input.axis) not_axes.push_back(input.argument);
+  }
+  values.lists["used"];
+  for (const std::string& name : order)
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].name != name) continue;
+      TemplateValues one;
+      one.text = {{"index", std::to_string(values.lists["used"].size() + 1)},
+                  {"place", std::to_string(i + 1)},
+                  {"name", comment_text(name)},
+                  {"canonical", canonical(inputs[i])},
+                  {"element", canonical(inputs[i], "(ft_i)")},
+                  {"factor", slope_factor(stress, inputs[i].solver)}};
+      values.lists["used"].push_back(one);
+    }
+  values.text["names"] = continued(names);
+  values.text["items"] = continued(elements);
+  values.text["n_arguments"] = std::to_string(inputs.size());
+  values.lists["unused"] = items(unused);
+  values.lists["not_axes"] = items(not_axes);
+  values.flags["none_used"] = order.empty();
+}
+
+void add_axes(TemplateValues& values, const Table& table,
+              const std::vector<InputArgument>& inputs) {
+  values.lists["axes"];
+  for (const AxisEnds& axis : axis_ends(table))
+    for (const InputArgument& input : inputs) {
+      if (input.name != axis.name) continue;
+      TemplateValues one;
+      one.text = {{"canonical", canonical(input)},
+                  {"low", fortran_number(axis.low)},
+                  {"high", fortran_number(axis.high)},
+                  {"bit", std::to_string(values.lists["axes"].size())}};
+      values.lists["axes"].push_back(one);
+    }
+}
+
+std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+  const Table& table = request.table;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const fortran::Core core =
+      fortran::core(table, {.unknown = true, .gradient = true, .units = fortran::Units::module});
+  TemplateValues values;
+  values.text = {{"tau_unit", stress.name},
+                 {"version", FRICTAB_VERSION},
+                 {"n_x", std::to_string(core.n_x)},
+                 {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)},
+                 {"data", fortran::free_form(core.data)},
+                 {"core", fortran::free_form(core.text)}};
+  values.flags["converts"] = !stress.same();
+  values.lists["about"] = items(about_entry(request));
+  values.lists["inputs"] = items(argument_lines(request, inputs));
+  values.lists["notes"] = items(entry_notes(table));
+  values.lists["bits"] = items(outside_bits(table, ""));
+  values.lists["refusing"] = fortran::sides(table, Outside::error);
+  add_arguments(values, request, inputs);
+  add_axes(values, table, inputs);
+  return render_template("fortran/frictab_tau_R.f90", values);
+}
+
+// Arithmetic in rows, which gcc 12 vectorises fully at -O3 only, as in C.
+std::string optimisation(const Table& table) {
+  return table.is_direct() ? "-O3" : "-O2";
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
+                   const SourceBundle& files) {
+  nlohmann::ordered_json out =
+      recipe_head(*find_exporter("fortran"), request, "frictab_tau_R", files);
+  std::vector<std::string> names;
+  for (const InputArgument& input : inputs)
+    names.push_back(input.argument);
+  const std::string all = join(names, ", ");
+  out["module"] = "frictab_law";
+  out["procedures"] = {"elemental function tau_R(" + all + ")",
+                       "pure function frictab_tau_R(" + all + ") bind(C)",
+                       "function frictab_tau_R_gradient(" + all + ", derivative) bind(C)",
+                       "pure subroutine frictab_tau_R_batch(n, " + all + ", tau) bind(C)",
+                       "subroutine frictab_tau_R_gradient_batch(n, " + all +
+                           ", tau, derivative) bind(C)",
+                       "pure function frictab_outside(" + all + ") bind(C)"};
+  out["arguments"] = nlohmann::ordered_json::array();
+  for (const InputArgument& input : inputs)
+    out["arguments"].push_back({{"name", input.argument},
+                                {"quantity", input.name},
+                                {"type", "real(c_double)"},
+                                {"unit", input.solver.name},
+                                {"meaning", input.meaning},
+                                {"used", input.used}});
+  out["result"] = {{"unit", solver_unit("MPa", request.units).name},
+                   {"meaning", "frictional shear stress tau_R"}};
+  out["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
+                        {"unit", "unit of the result per unit of the argument"},
+                        {"where_not_used", 0}};
+  out["state_variables"] = nlohmann::ordered_json::array();
+  out["properties"] = nlohmann::ordered_json::array();
+  const std::string gfortran =
+      "gfortran " + optimisation(request.table) + " -std=f2008 -ffp-contract=off ";
+  out["compile"] = {gfortran + "-c frictab_tau_R.f90",
+                    gfortran + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.f90"};
+  out["input_deck"] = nullptr;
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_table(request.table);
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  SourceBundle files;
+  files["frictab_tau_R.f90"] = source(request, inputs);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  BuildVariant build;
+  build.name = "f2008";
+  build.command = {"gfortran",
+                   optimisation(request.table),
+                   "-std=f2008",
+                   "-ffp-contract=off",
+                   "-fPIC",
+                   "-shared",
+                   "-o",
+                   "@{out}",
+                   "@{dir}/frictab_tau_R.f90"};
+  build.eps = 0x1p-53;
+  return {build};
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "fortran";
+  out.order = 15;
+  out.title = "Fortran 2008 module";
+  out.signature_source = "verified: ours, the C interface fixed by frictab's contract";
+  out.notes =
+      "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
+      "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
+      "programs of your own, and for solvers whose routine you write yourself; those with a target "
+      "here have their argument list written already. No state, safe from any thread.";
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive_entry;
+  out.batch = batch_entry;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::fortran_target

@@ -1,0 +1,19 @@
+// The Fortran source of USRFRC for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+
+namespace frictab::lsdyna_usrfrc {
+
+// What USRFRC's arguments hold.
+const SolverGives& gives();
+
+// Values of UFHIST per node that the routine keeps.
+int history_count(const Table& table);
+
+std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::lsdyna_usrfrc

@@ -1,0 +1,92 @@
+// Calls frictab_tau_R and frictab_tau_R_batch with as many arguments as they have.
+#include "codegen/call_entry.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "codegen/compile.h"
+#include "codegen/fill.h"
+
+namespace frictab {
+
+namespace {
+
+// At most this many arguments behind the contract's six.
+constexpr std::size_t most_arguments = 14;
+
+template <std::size_t> using Number = double;
+
+template <std::size_t... I>
+double call(void* function, const std::vector<double>& x, std::index_sequence<I...>) {
+  return reinterpret_cast<double (*)(Number<I>...)>(function)(x[I]...);
+}
+
+using Call = double (*)(void*, const std::vector<double>&);
+
+template <std::size_t N> double call_with(void* function, const std::vector<double>& x) {
+  return call(function, x, std::make_index_sequence<N>{});
+}
+
+template <std::size_t... N>
+constexpr std::array<Call, sizeof...(N)> all_calls(std::index_sequence<N...>) {
+  return {call_with<N>...};
+}
+
+template <std::size_t> using Array = const double*;
+
+template <std::size_t... I>
+void call_batch(void* function, std::size_t rows, const std::vector<const double*>& x, double* tau,
+                std::index_sequence<I...>) {
+  reinterpret_cast<void (*)(std::size_t, Array<I>..., double*)>(function)(rows, x[I]..., tau);
+}
+
+using CallBatch = void (*)(void*, std::size_t, const std::vector<const double*>&, double*);
+
+template <std::size_t N>
+void call_batch_with(void* function, std::size_t rows, const std::vector<const double*>& x,
+                     double* tau) {
+  call_batch(function, rows, x, tau, std::make_index_sequence<N>{});
+}
+
+template <std::size_t... N>
+constexpr std::array<CallBatch, sizeof...(N)> all_batch_calls(std::index_sequence<N...>) {
+  return {call_batch_with<N>...};
+}
+
+} // namespace
+
+void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
+                 std::span<const double* const> columns, std::span<double> tau) {
+  static constexpr auto calls = all_batch_calls(std::make_index_sequence<most_arguments + 1>{});
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
+  const std::vector<std::string> needed = request.table.inputs();
+  std::vector<const double*> x(inputs.size(), nullptr);
+  for (std::size_t c = 0; c < needed.size(); ++c)
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (inputs[i].name == needed[c]) x[i] = columns[c];
+  calls[inputs.size()](Library::address(library, "frictab_tau_R_batch"), rows, x, tau.data());
+}
+
+void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
+                 std::span<const double* const> columns, std::span<double> tau) {
+  static constexpr auto calls = all_calls(std::make_index_sequence<most_arguments + 1>{});
+  const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
+  const std::vector<std::string> needed = request.table.inputs();
+  if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
+  void* function = Library::address(built.library, "frictab_tau_R");
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  std::vector<double> x(inputs.size(), 0.0);
+  std::vector<std::size_t> argument_of(needed.size());
+  for (std::size_t c = 0; c < needed.size(); ++c)
+    while (inputs[argument_of[c]].name != needed[c])
+      ++argument_of[c];
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t c = 0; c < needed.size(); ++c)
+      x[argument_of[c]] = inputs[argument_of[c]].solver.from_canonical(columns[c][row]);
+    tau[row] = stress.to_canonical(calls[inputs.size()](function, x));
+  }
+}
+
+} // namespace frictab

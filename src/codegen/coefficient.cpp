@@ -1,0 +1,106 @@
+// Fills templates/fortran/frictab_coef.f and frictab_constants.f.
+#include "codegen/coefficient.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_parts.h"
+#include "core/error.h"
+
+namespace frictab::fortran {
+
+namespace {
+
+std::size_t n_states(const Table& table) {
+  return std::max<std::size_t>(table.inputs().size(), 1);
+}
+
+// From 1; 0 where the table does not take it.
+std::size_t number_of(const Table& table, const std::string& name) {
+  const std::vector<std::string> inputs = table.inputs();
+  const auto at = std::find(inputs.begin(), inputs.end(), name);
+  return at == inputs.end() ? 0 : static_cast<std::size_t>(at - inputs.begin()) + 1;
+}
+
+// All inputs at the low end, in the middle or at the high end of what is known of them.
+std::vector<double> state_at(const Table& table, int place) {
+  std::vector<double> state;
+  for (const std::string& name : table.inputs()) {
+    const auto range = table.range(name).value_or(std::pair{400.0, 600.0});
+    state.push_back(place == 0   ? range.first
+                    : place == 1 ? 0.5 * (range.first + range.second)
+                                 : range.second);
+  }
+  return state;
+}
+
+} // namespace
+
+std::string coefficient(const Table& table, Coefficient kind) {
+  const std::size_t pressure = number_of(table, "sigma_n_MPa");
+  TemplateValues values;
+  values.flags = {{"coulomb", kind == Coefficient::coulomb},
+                  {"shear", kind == Coefficient::shear},
+                  {"takes_pressure", pressure > 0}};
+  values.text = {{"n_x", std::to_string(n_states(table))},
+                 {"pressure", std::to_string(pressure)},
+                 {"least", fortran_number(least_pressure)}};
+  return without_last_break(render_template("fortran/frictab_coef.f", values));
+}
+
+bool same_at_every_pressure(const Table& table, Coefficient kind) {
+  const std::size_t pressure = number_of(table, "sigma_n_MPa");
+  if (kind != Coefficient::coulomb || pressure == 0)
+    return kind != Coefficient::coulomb && pressure == 0;
+  for (const TableAxis& axis : table.axes)
+    if (axis.name == "sigma_n_MPa") return false;
+  const TableFunction tau(table);
+  for (const int place : {0, 1, 2}) {
+    std::vector<double> state = state_at(table, place);
+    double first = 0;
+    for (const double p : {1e-6, 1.0, 1e3, 1e6, 1e12}) { // a shear limit would bind at the last
+      state[pressure - 1] = p;
+      const double mu = tau(state) / p;
+      if (p == 1e-6) first = mu;
+      if (!(std::abs(mu - first) <= 1e-12 * std::abs(first))) return false;
+    }
+  }
+  return true;
+}
+
+std::string constants_common(std::size_t n_x) {
+  return fmt::format("      double precision cst({})\n      common /ftcons/ cst", n_x);
+}
+
+std::string constants_data(const std::vector<SolverInput>& inputs) {
+  std::vector<double> values(std::max<std::size_t>(inputs.size(), 1), 0.0);
+  FaultList faults;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const SolverInput& input = inputs[i];
+    if (input.source != Source::constant && input.source != Source::field) continue;
+    if (!input.fallback)
+      faults.add({"export.inputs." + input.argument.name, 0, 0},
+                 "neither the solver nor the table knows a value of this state", "constant:1.5");
+    values[i] = input.fallback.value_or(0.0);
+  }
+  faults.throw_if_any();
+  TemplateValues fill;
+  fill.text = {{"common", constants_common(values.size())},
+               {"data", fixed_form_data("cst", values)}};
+  return without_last_break(render_template("fortran/frictab_constants.f", fill));
+}
+
+Lines constant_inputs(const std::vector<SolverInput>& inputs, const SolverGives& gives) {
+  Lines lines = fortran_inputs(inputs, gives);
+  for (TemplateValues& values : lines) {
+    values.text.erase("fallback");
+    values.text.erase("property");
+    if (gives.field.empty()) values.text.erase("field");
+    values.flags.erase("converts");
+  }
+  return lines;
+}
+
+} // namespace frictab::fortran

@@ -1,0 +1,42 @@
+// For solvers that want a coefficient instead of a stress: the part of a Fortran source that turns
+// tau_R into mu or m.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/exporter.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab::fortran {
+
+enum class Coefficient {
+  coulomb, // mu = tau_R/p
+  shear,   // m = tau_R/k, k = flow stress/sqrt(3)
+  stress   // tau_R itself
+};
+
+// Pressures (MPa) below this one have its mu: at 0 there is no tau_R/p, and a thousandth of a MPa
+// is no contact in forming.
+inline constexpr double least_pressure = 1e-3;
+
+// The function ftcoef(x, press, flow): the coefficient, tau_R in MPa; x as for fttau, press and
+// flow (used by m alone) in MPa. NaN where one of them is. mu: never 0/0; m and tau: 0 where there
+// is no pressure, m also where there is no flow stress.
+std::string coefficient(const Table& table, Coefficient kind);
+
+// Whether the coefficient of any state is the same at every pressure: mu of a law without shear
+// limit, m of a law that does not take the pressure.
+bool same_at_every_pressure(const Table& table, Coefficient kind);
+
+// States that the solver does not give are constants of the source. They lie in COMMON /FTCONS/
+// CST(n), by the number of the state, so that they can be read in the source at one place, and set
+// without editing it. Never written by the routine. The declaration, and the BLOCK DATA that fills
+// it. Throws InputError where a state is known neither to the solver nor to the table.
+std::string constants_common(std::size_t n_x);
+std::string constants_data(const std::vector<SolverInput>& inputs);
+
+// fortran_inputs of a solver without properties: what only those need is left out.
+Lines constant_inputs(const std::vector<SolverInput>& inputs, const SolverGives& gives);
+
+} // namespace frictab::fortran

@@ -1,0 +1,67 @@
+// Law, units, arguments, what lies outside.
+#include "codegen/entry_text.h"
+
+#include <fmt/format.h>
+
+namespace frictab {
+
+std::vector<std::string> about_entry(const ExportRequest& request) {
+  const Table& table = request.table;
+  std::vector<std::string> lines = {
+      fmt::format("Law: {}", comment_text(table.model)),
+      fmt::format("Data: {}", comment_text(origin_text(table))),
+      fmt::format("Units: {} (stress in {}, speed in {}, length in {}, temperature in degC)",
+                  request.units, solver_unit("MPa", request.units).name,
+                  solver_unit("mm/s", request.units).name, solver_unit("mm", request.units).name),
+      fmt::format("Worst drift from the law: {}", drift_text(table))};
+  for (const std::string& line : wrap_text("tau_R_MPa = " + to_text(table.combine), 92))
+    lines.push_back(comment_text(line));
+  return lines;
+}
+
+std::vector<std::string> argument_lines(const ExportRequest& request,
+                                        const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> lines;
+  for (const InputArgument& input : inputs) {
+    const std::string range =
+        input.used ? range_text(input, request.table) : "not used by this law";
+    const std::string text = comment_text(
+        fmt::format("{} ({}): {}; {}", input.argument, input.solver.name, input.meaning, range));
+    std::string indent;
+    for (const std::string& piece : wrap_text(text, 88)) {
+      lines.push_back(indent + piece);
+      indent = "    ";
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> outside_bits(const Table& table, const std::string& suffix) {
+  std::vector<std::string> names;
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    names.push_back(fmt::format("{}{} {}", 1u << a, suffix, comment_text(table.axes[a].name)));
+  if (names.empty()) names.push_back("none, the table has no axes");
+  return names;
+}
+
+std::vector<std::string> entry_notes(const Table& table) {
+  std::vector<std::string> text;
+  if (table.is_direct()) text.push_back("This is the law itself, not a table.");
+  const std::vector<std::string> sides = outside_lines(table);
+  if (sides.empty()) {
+    const std::string what = table.is_direct() ? "law's" : "table's";
+    text.push_back("Outside the range the " + what +
+                   " value at the nearest edge is used, while stress and flow");
+    text.push_back("stress enter the formula above unchanged; frictab_outside tells which axes are "
+                   "concerned.");
+  } else {
+    text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
+    for (const std::string& side : sides)
+      text.push_back("  " + comment_text(side));
+    text.push_back("Stress and flow stress enter the formula above unchanged.");
+  }
+  text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
+  return text;
+}
+
+} // namespace frictab

@@ -1,0 +1,67 @@
+// Fills templates/fortran/frictab_refuse.f.
+#include "codegen/fortran_stop.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_parts.h"
+#include "table/outside.h"
+
+namespace frictab::fortran {
+
+std::string quit(const std::string& statement) {
+  TemplateValues values;
+  values.text["statement"] = statement;
+  return without_last_break(render_template("fortran/frictab_quit.f", values));
+}
+
+std::string stop(const Table& table, const std::string& statement) {
+  TemplateValues values;
+  Lines refusing = sides(table, Outside::error);
+  std::size_t side = 0;
+  const auto say = [&](const AxisEnds& axis, const char* where, double end) {
+    std::string name = comment_text(axis.name).substr(0, 30);
+    std::replace(name.begin(), name.end(), '\'', ' ');
+    refusing[side++].text["name"] = fmt::format("{} {} {:.6g}", name, where, end);
+  };
+  for (const AxisEnds& axis : axis_ends(table)) {
+    if (axis.below == Outside::error) say(axis, "below", axis.low);
+    if (axis.above == Outside::error) say(axis, "above", axis.high);
+  }
+  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.text["quit"] = quit(statement);
+  values.lists["refusing"] = refusing;
+  return without_last_break(render_template("fortran/frictab_refuse.f", values));
+}
+
+bool refuses(const Table& table) {
+  return std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
+    return axis.below == Outside::error || axis.above == Outside::error;
+  });
+}
+
+BuildVariant fortran_variant(const Table& table, const std::string& name, double eps,
+                             const std::vector<std::string>& sources,
+                             const std::vector<std::string>& flags, bool quits) {
+  BuildVariant out;
+  out.name = name;
+  out.eps = eps;
+  out.command = {"gfortran",          "-O2",   "-std=legacy", "-ffixed-line-length-72",
+                 "-ffp-contract=off", "-fPIC", "-shared"};
+  out.command.insert(out.command.end(), flags.begin(), flags.end());
+  out.command.insert(out.command.end(), {"-o", "@{out}"});
+  if (quits || refuses(table)) { // of two definitions the linker takes the first
+    out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
+    out.extra["ftquit.f"] =
+        "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
+        "      subroutine ftquit(text)\n"
+        "      character*(*) text\n"
+        "      end\n";
+  }
+  for (const std::string& source : sources)
+    out.command.push_back("@{dir}/" + source);
+  return out;
+}
+
+} // namespace frictab::fortran

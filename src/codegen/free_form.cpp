@@ -1,0 +1,54 @@
+// Fixed form to free form, line by line: what fixed_form and the templates write, no more.
+#include <regex>
+#include <sstream>
+
+#include "codegen/fortran_core.h"
+
+namespace frictab::fortran {
+
+namespace {
+
+// "ftmin" of "pure double precision function ftmin(a, b)"; empty for another line.
+std::string unit_of(const std::string& line) {
+  static const std::regex head(R"(^(?:[a-z ]+ )?(function|subroutine) ([a-z]+)\()");
+  std::smatch found;
+  return std::regex_search(line, found, head) ? found[1].str() + " " + found[2].str() : "";
+}
+
+std::string statement(const std::string& line) {
+  static const std::regex bytes(R"(\binteger\*8)"),
+      implied(R"(data \((\w+)\(i\),i=(\d+),(\d+)\)/)");
+  const std::string kinds = std::regex_replace(line, bytes, "integer(c_int64_t)");
+  return std::regex_replace(kinds, implied, "data $1($2:$3)/");
+}
+
+} // namespace
+
+std::string free_form(const std::string& fixed) {
+  std::istringstream in(fixed);
+  std::string out, unit, indent = "  ";
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty()) continue;
+    if (line[0] == 'C') { // "C" alone stands between units
+      out += line.size() < 7 ? "\n" : indent + "! " + line.substr(6) + "\n";
+      continue;
+    }
+    if (line[5] == '&') { // both ends marked: the statement goes on where it was cut
+      out.back() = '&';
+      out += "\n" + indent + "  &" + line.substr(6) + "\n";
+      continue;
+    }
+    const std::string text = statement(line.substr(6)), name = unit_of(text);
+    if (text == "implicit none" || text == "return")
+      continue; // the module says so; the end says so
+    if (!name.empty() || text == "end") indent = "  ";
+    out += indent + text + (text == "end" ? " " + unit : "") + "\n";
+    if (name.empty()) continue;
+    unit = name;
+    indent = "    ";
+  }
+  if (!out.empty()) out.pop_back();
+  return out;
+}
+
+} // namespace frictab::fortran

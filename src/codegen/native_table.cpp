@@ -1,0 +1,371 @@
+// From a request to the numbers of a solver's own table.
+#include "codegen/native_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "data/quantity.h"
+#include "expr/program.h"
+#include "io/number.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr double usual_tolerance_MPa = 0.5;
+// Of the tolerance: what the grid's own check, on fewer states than verification, may miss.
+constexpr double share_of_tolerance = 0.93;
+constexpr double least_share = 0.05;
+
+Place input_place(const std::string& name) {
+  return {"export.inputs." + name, 0, 0};
+}
+
+const char* natural_name(Source source) {
+  switch (source) {
+  case Source::pressure:
+    return "sigma_n_MPa";
+  case Source::speed:
+    return "v_rel_mm_s";
+  case Source::slip:
+    return "s_mm";
+  case Source::temperature:
+    return "T_contact_C";
+  case Source::expansion:
+    return "psi";
+  default:
+    return "";
+  }
+}
+
+// A state that the table need not know: solver_inputs tells nothing about it.
+InputArgument argument_of(const ExportRequest& request, const std::string& name) {
+  const auto all = entry_arguments(request.table, request.units);
+  return *std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == name; });
+}
+
+std::optional<std::pair<double, double>> range_of(const Table& table, const std::string& name) {
+  if (const auto known = table.range(name)) return known;
+  const Quantity* quantity = find_quantity(name);
+  return quantity && quantity->paper_range ? quantity->paper_range : std::nullopt;
+}
+
+// `shear`: the coefficient is m, which needs a flow stress even where the law does not.
+bool asks_flow_stress(const ExportRequest& request, const NativeForm& form) {
+  const auto inputs = request.table.inputs();
+  return form.factor == NativeFactor::shear_yield &&
+         std::find(inputs.begin(), inputs.end(), "sigma_f_MPa") == inputs.end();
+}
+
+double flow_stress_of(const std::string& choice) {
+  const std::string number = choice.starts_with("constant:") ? choice.substr(9) : "";
+  double value = 0;
+  const char* const end = number.data() + number.size();
+  if (scan_number(number.data(), end, '.', value) != end || !(value > 0))
+    throw InputError(input_place("sigma_f_MPa"), "'" + choice + "' is no flow stress to hold",
+                     "constant:480");
+  return value;
+}
+
+[[noreturn]] void no_value(const std::string& name) {
+  throw InputError(input_place(name),
+                   "this table has no column for " + name + ", and no value to hold it at is known",
+                   fmt::format("{} = \"constant:{}\"", name, name == "sigma_f_MPa" ? 480 : 1));
+}
+
+void check_fields(const std::vector<NativeColumn>& columns, const NativeForm& form) {
+  std::vector<std::size_t> used;
+  for (const NativeColumn& column : columns) {
+    if (column.source != Source::field) continue;
+    if (column.field > form.most_fields)
+      throw InputError(input_place(column.argument.name),
+                       fmt::format("field {}: this table has columns for {} fields", column.field,
+                                   form.most_fields),
+                       "field:1");
+    if (std::find(used.begin(), used.end(), column.field) != used.end())
+      throw InputError(input_place(column.argument.name),
+                       fmt::format("two states are field {}", column.field));
+    used.push_back(column.field);
+  }
+}
+
+} // namespace
+
+std::vector<NativeColumn> native_columns(const ExportRequest& request, const NativeForm& form) {
+  const std::vector<SolverInput> inputs = solver_inputs(request, form.gives);
+  std::vector<NativeColumn> columns;
+  for (const SolverGives::State& state : form.gives.states) {
+    const std::string name = natural_name(state.source);
+    const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const SolverInput& input) {
+      return input.argument.name == name && input.source == state.source;
+    });
+    const bool factor = form.factor == NativeFactor::pressure && state.source == Source::pressure;
+    if (found != inputs.end() || factor || form.every_column)
+      columns.push_back({argument_of(request, name), state.source, 0, state.text});
+  }
+  std::vector<NativeColumn> fields;
+  for (const SolverInput& input : inputs)
+    if (input.source == Source::field)
+      fields.push_back({input.argument, Source::field, input.field, input.text});
+  std::sort(fields.begin(), fields.end(),
+            [](const auto& a, const auto& b) { return a.field < b.field; });
+  columns.insert(columns.end(), fields.begin(), fields.end());
+  check_fields(columns, form);
+  return columns;
+}
+
+HeldStates native_held(const ExportRequest& request, const NativeForm& form) {
+  HeldStates held;
+  for (const SolverInput& input : solver_inputs(request, form.gives)) {
+    if (input.source != Source::constant) continue;
+    if (!input.fallback) no_value(input.argument.name);
+    held[input.argument.name] = *input.fallback;
+  }
+  if (!asks_flow_stress(request, form)) return held;
+  const auto said = request.inputs.find("sigma_f_MPa");
+  if (said == request.inputs.end()) no_value("sigma_f_MPa");
+  held["sigma_f_MPa"] = flow_stress_of(said->second);
+  return held;
+}
+
+namespace {
+
+double shear_yield(double flow_stress) {
+  return flow_stress / std::sqrt(3.0);
+}
+
+// tau_R = min(rest, limit), where the limit is one number. No rest: the limit is all there is.
+struct Limited {
+  std::optional<Expr> rest;
+  std::optional<double> limit;
+};
+
+class LimitSplit {
+public:
+  LimitSplit(const Table& table, const HeldStates& held) {
+    for (const auto& [name, value] : table.constants)
+      known_.emplace(name, value);
+    for (const auto& [name, value] : held)
+      known_.emplace(name, value);
+  }
+
+  Limited split(const Expr& e) const {
+    if (const auto number = constant(e)) return {std::nullopt, number};
+    const auto& a = e.operands();
+    if (e.op() == Op::minimum) {
+      const auto first = constant(a[0]), second = constant(a[1]);
+      if (!first && !second) return {e, std::nullopt};
+      Limited out = split(first ? a[1] : a[0]);
+      const double limit = first ? *first : *second;
+      out.limit = out.limit ? std::min(*out.limit, limit) : limit;
+      return out;
+    }
+    if (e.op() == Op::maximum || e.op() == Op::multiply) {
+      const auto first = constant(a[0]), second = constant(a[1]);
+      const std::optional<double> number = first ? first : second;
+      if (!number || *number < 0) return {e, std::nullopt};
+      const Limited inner = split(first ? a[1] : a[0]);
+      if (!inner.limit || !inner.rest || *inner.limit < 0) return {e, std::nullopt};
+      if (e.op() == Op::multiply) return {*number * *inner.rest, *number * *inner.limit};
+      return {maximum(*inner.rest, *number), std::max(*inner.limit, *number)};
+    }
+    return {e, std::nullopt};
+  }
+
+private:
+  // Its value, where it depends on nothing that varies.
+  std::optional<double> constant(const Expr& e) const {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (const std::string& name : symbols(e)) {
+      const auto found = known_.find(name);
+      if (found == known_.end()) return std::nullopt;
+      names.push_back(name);
+      values.push_back(found->second);
+    }
+    const double value = Program(e, {}, names)({}, values);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
+
+  std::map<std::string, double> known_;
+};
+
+// A table at its held states, as a function of columns.
+class HeldTable {
+public:
+  HeldTable(const Table& table, const std::vector<NativeColumn>& columns, const HeldStates& held)
+      : function_(table) {
+    for (const std::string& name : function_.inputs()) {
+      const auto at = std::find_if(columns.begin(), columns.end(),
+                                   [&](const NativeColumn& c) { return c.argument.name == name; });
+      const auto constant = held.find(name);
+      column_.push_back(constant != held.end() ? none
+                                               : static_cast<std::size_t>(at - columns.begin()));
+      value_.push_back(constant != held.end() ? constant->second : 0);
+    }
+  }
+
+  void evaluate(std::size_t rows, std::span<const double* const> columns,
+                std::span<double> tau) const {
+    std::vector<std::vector<double>> constants(column_.size());
+    std::vector<const double*> all;
+    for (std::size_t i = 0; i < column_.size(); ++i) {
+      if (column_[i] == none) constants[i].assign(rows, value_[i]);
+      all.push_back(column_[i] == none ? constants[i].data() : columns[column_[i]]);
+    }
+    function_.evaluate(rows, all, tau);
+  }
+
+private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  TableFunction function_;
+  std::vector<std::size_t> column_;
+  std::vector<double> value_;
+};
+
+NativeAxis axis_of(const ExportRequest& request, const NativeForm& form,
+                   const NativeColumn& column) {
+  const std::string& name = column.argument.name;
+  const auto range = range_of(request.table, name);
+  const bool asked = column.argument.used;
+  if (!range && asked)
+    throw InputError(input_place(name), "the range of " + name + " is not known",
+                     "tabulate again, or hold it: \"constant:VALUE\"");
+  NativeAxis axis;
+  axis.state = name;
+  axis.unit = column.argument.solver;
+  axis.low = range ? range->first : 0;
+  axis.high = range ? range->second : 1;
+  axis.fewest = form.every_column ? 2 : 1;
+  const Quantity* quantity = find_quantity(name);
+  axis.log = quantity && quantity->log_axis;
+  for (const TableAxis& own : request.table.axes) {
+    if (own.name != name) continue;
+    axis.log = own.log;
+    if (!request.table.is_direct()) axis.kinks = own.nodes;
+  }
+  return axis;
+}
+
+double aim_of(const Table& table) {
+  const auto number = [&](const char* name, double otherwise) {
+    const auto found = table.number_attributes.find(name);
+    return found == table.number_attributes.end() ? otherwise : found->second;
+  };
+  const double tolerance = number("tolerance_MPa", usual_tolerance_MPa);
+  const double own = table.is_direct() ? 0 : number("worst_case_MPa", 0);
+  return std::max(share_of_tolerance * (tolerance - own), least_share * tolerance);
+}
+
+// The solver's limit is part of the text: rounded as that.
+double limit_as_written(double limit, const ExportRequest& request) {
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  return stress.to_canonical(as_written(stress.from_canonical(limit)));
+}
+
+NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
+                         const std::vector<NativeColumn>& columns, const HeldStates& held) {
+  NativeProblem problem;
+  for (const NativeColumn& column : columns) {
+    if (form.factor == NativeFactor::pressure && column.source == Source::pressure)
+      problem.pressure = problem.axes.size();
+    problem.axes.push_back(axis_of(request, form, column));
+  }
+  if (form.factor == NativeFactor::shear_yield)
+    problem.factor_MPa = shear_yield(held.at("sigma_f_MPa"));
+  Table table = request.table;
+  if (form.limits) {
+    const Limited parts = LimitSplit(table, held).split(table.combine);
+    if (parts.limit) problem.limit_MPa = limit_as_written(*parts.limit, request);
+    if (parts.limit && !parts.rest) { // Coulomb up to the lowest pressure, the limit from there on
+      const double slope = *parts.limit / std::max(problem.axes[problem.pressure].low, 1e-6);
+      problem.tau = [slope, p = problem.pressure](std::size_t rows, auto given, auto tau) {
+        for (std::size_t i = 0; i < rows; ++i)
+          tau[i] = slope * given[p][i];
+      };
+      return problem;
+    }
+    if (parts.rest) table.combine = *parts.rest;
+  }
+  const auto function = std::make_shared<HeldTable>(table, columns, held);
+  problem.tau = [function](std::size_t rows, auto given, auto tau) {
+    function->evaluate(rows, given, tau);
+  };
+  return problem;
+}
+
+} // namespace
+
+NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
+  check_table(request.table);
+  solver_unit("MPa", request.units); // refuses an unknown system
+  NativeTable out;
+  out.columns = native_columns(request, form);
+  out.held = native_held(request, form);
+  out.aim_MPa = aim_of(request.table);
+  const NativeProblem problem = problem_of(request, form, out.columns, out.held);
+  NativeGoal goal;
+  goal.aim_MPa = out.aim_MPa;
+  NativeGrid grid = make_native_grid(problem, goal);
+  out.values = std::move(grid.values);
+  out.found_MPa = grid.found_MPa;
+  out.met = grid.met;
+  if (problem.limit_MPa)
+    out.values.limit =
+        as_written(solver_unit("MPa", request.units).from_canonical(*problem.limit_MPa));
+  return out;
+}
+
+void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
+                  std::size_t rows, std::span<const double* const> given, std::span<double> tau) {
+  const std::vector<NativeColumn> columns = native_columns(request, form);
+  const HeldStates held = native_held(request, form);
+  if (values.nodes.size() != columns.size())
+    throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}",
+                                         columns.size(), values.nodes.size()));
+  const std::vector<std::string> inputs = request.table.inputs();
+  const auto column_of = [&](const std::string& name) -> const double* {
+    const auto at = std::find(inputs.begin(), inputs.end(), name);
+    return at == inputs.end() ? nullptr : given[static_cast<std::size_t>(at - inputs.begin())];
+  };
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const double* flow_stress = column_of("sigma_f_MPa");
+  const auto range = range_of(request.table, "sigma_n_MPa").value_or(std::pair{1.0, 1000.0});
+  std::vector<const double*> sources;
+  for (const NativeColumn& column : columns)
+    sources.push_back(column_of(column.argument.name));
+  std::vector<double> x(columns.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    double pressure = 0;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      // A pressure that the law does not ask for: all of its range in turn.
+      const double w = static_cast<double>(i % 97) / 96;
+      const double state = sources[c] ? sources[c][i]
+                           : columns[c].source == Source::pressure
+                               ? range.first + w * (range.second - range.first)
+                               : 0;
+      x[c] = columns[c].argument.solver.from_canonical(state);
+      if (columns[c].source == Source::pressure) pressure = x[c];
+    }
+    const double factor = form.factor == NativeFactor::pressure
+                              ? pressure
+                              : stress.from_canonical(shear_yield(
+                                    flow_stress ? flow_stress[i] : held.at("sigma_f_MPa")));
+    double answer = factor * values.at(x);
+    if (values.limit && answer > *values.limit) answer = *values.limit;
+    tau[i] = stress.to_canonical(answer);
+  }
+}
+
+std::vector<BuildVariant> native_variants(const ExportRequest&) {
+  BuildVariant deck;
+  deck.name = "deck";
+  deck.eps = 5e-10; // nine digits
+  return {deck};
+}
+
+} // namespace frictab

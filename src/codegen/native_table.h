@@ -1,0 +1,96 @@
+// A solver's own friction table as a target: which states it has columns for, the numbers it holds,
+// and what it gives when the solver reads them. A target adds its text: how the numbers are written
+// and read back.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codegen/native_grid.h"
+#include "codegen/solver_inputs.h"
+#include "table/plain_text.h"
+
+namespace frictab {
+
+enum class NativeFactor {
+  pressure,   // Coulomb: tau_R = mu * pressure
+  shear_yield // tau_R = m * k, k = sigma_f/sqrt(3) by the solver
+};
+
+// What a solver's table can hold.
+struct NativeForm {
+  // Its columns, the first varies fastest: natural sources, then fields where `field` is not empty.
+  SolverGives gives;
+  NativeFactor factor = NativeFactor::pressure;
+  bool limits = false;       // it has a largest shear stress beside the table
+  bool every_column = false; // a column on which nothing depends is there as well, two nodes
+  std::size_t most_fields = 0;
+  std::string interpolation; // how the solver reads it, and how sure that is; for comments
+};
+
+struct NativeColumn {
+  InputArgument argument;
+  Source source = Source::pressure;
+  std::size_t field = 0; // from 1, where the source is a field
+  std::string text;      // "column 2, slip rate"
+};
+
+// The columns of this request's table, in the order of its text. Throws InputError with the faults
+// of the job's [export.inputs], and where a state's value or range is not known.
+std::vector<NativeColumn> native_columns(const ExportRequest& request, const NativeForm& form);
+
+// The states without a column, at the job's constants or the middle of their ranges.
+HeldStates native_held(const ExportRequest& request, const NativeForm& form);
+
+struct NativeTable {
+  std::vector<NativeColumn> columns;
+  NativeValues values; // nodes per column; empty: the law does not depend on it
+  HeldStates held;
+  double aim_MPa = 0, found_MPa = 0;
+  bool met = false;
+};
+
+// Made to the attribute tolerance_MPa of the request's table (0.5 where it has none), of which its
+// own drift is taken off where it holds values.
+NativeTable native_table(const ExportRequest& request, const NativeForm& form);
+
+// Comment lines without their mark, of at most 90 columns: law, data, units, how the solver reads
+// the table, held states, drift of the grid.
+std::vector<std::string> native_comments(const Exporter& exporter, const ExportRequest& request,
+                                         const NativeForm& form, const NativeTable& table);
+
+// recipe.json: columns as `arguments`, `held`, `grid`. `input_deck`: lines to be pasted.
+std::string native_recipe(const Exporter& exporter, const ExportRequest& request,
+                          const NativeForm& form, const NativeTable& table,
+                          const SourceBundle& files, const std::string& entry,
+                          const std::string& input_deck);
+
+// tau_R as the solver computes it from values read back from a text. Throws std::runtime_error
+// where they do not fit the request.
+void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
+                  std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+
+// Nothing is compiled: the text is read.
+std::vector<BuildVariant> native_variants(const ExportRequest&);
+
+// For `frictab table convert`: the same text, with what the command holds as constants. Throws
+// InputError where a state is neither held nor a column.
+SourceBundle native_plain(const PlainRequest& request, const Exporter& exporter,
+                          const NativeForm& form);
+
+// The nodes at which value number i holds, one per column; NaN where the column is blank.
+std::vector<double> place_of(const NativeValues& values, std::size_t i);
+
+// Reading back, strict: what is no number, or a grid that is not complete, throws
+// std::runtime_error.
+double read_number(std::string_view text);
+std::vector<std::string_view> split_cells(std::string_view line, char separator); // trimmed
+// Lines without those that start with `comment` or are blank.
+std::vector<std::string_view> deck_lines(std::string_view text, std::string_view comment);
+// From one line per value, its place in each column (NaN: blank) before it, the first column
+// fastest.
+NativeValues values_of_rows(const std::vector<std::vector<double>>& places,
+                            const std::vector<double>& value);
+
+} // namespace frictab

@@ -1,0 +1,50 @@
+C     All that is computed is double precision, whatever the solver's
+C     precision.
+      double precision x(@{n_x}), pnorm, area, stick, slip, fprev
+      double precision dtime, fric, comp, hist(3), add(4)
+      logical lkeep
+@if unknown
+      double precision ftqnan
+      external ftqnan
+@end
+C
+@if has_fixed
+@{fixed}
+@end
+      dtime = @{time_increment}
+      do k = 1, @{points}
+        do i = 1, nFricDir
+          fTangential(i,k) = 0
+        end do
+        pnorm = fNormal(k)
+        area = @{area}
+        stick = fStickForce(k)
+        slip = 0.0D0
+        fprev = 0.0D0
+        do i = 1, nDir
+          comp = dSlipFric(i,k)
+          slip = slip + comp*comp
+          comp = fTangPrev(i,k)
+          fprev = fprev + comp*comp
+        end do
+        slip = sqrt(slip)
+        fprev = sqrt(fprev)
+@if has_given
+@{given}
+@end
+        do i = 1, 3
+          hist(i) = 0.0D0
+        end do
+        if (@{states} .ge. 1) call ftread(@{states}, @{columns},
+     &    @{state}, hist)
+        call ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
+     &    fric, add, lkeep)
+        if (lkeep .and. @{states} .ge. 1) call ftkeep(@{states},
+     &    @{columns}, @{state}, add)
+C       Along the slip, which is the first local axis.
+        if (nFricDir .ge. 1)
+     &    fTangential(1,k) = real(-fric, kind(fTangential))
+      end do
+      return
+      end
+C

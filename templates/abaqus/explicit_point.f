@@ -1,0 +1,148 @@
+C     One contact point, in double precision. In: x as far as the entry
+C     fills it; normal force, area, stick force, slip of the increment
+C     and its time, size of the friction force before it; hist: slip,
+C     work per area and peak pressure before it. Out: fric, against the
+C     slip; add: what the state variables gain, where lkeep.
+      subroutine ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
+     &  fric, add, lkeep)
+      implicit none
+      double precision x(@{n_x}), pnorm, area, stick, slip, dtime, fprev
+      double precision hist(3), fric, add(4), press, speed, fttau
+      logical lkeep, ftnan
+      integer i
+      external fttau, ftnan
+@if has_axes
+      logical ftout
+      external ftout
+@end
+@if refuses
+      double precision ftqnan
+      logical ftstop
+      external ftqnan, ftstop
+@end
+      lkeep = .false.
+      do i = 1, 4
+        add(i) = 0.0D0
+      end do
+C     NaN first: nothing below compares with one.
+      fric = 0.0D0
+      if (ftnan(pnorm)) then
+        fric = pnorm
+      else if (ftnan(area)) then
+        fric = area
+      else if (ftnan(stick)) then
+        fric = stick
+      else if (ftnan(slip)) then
+        fric = slip
+      else if (ftnan(dtime)) then
+        fric = dtime
+      else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
+        press = pnorm/area
+        speed = 0.0D0
+        if (dtime .gt. 0.0D0) speed = slip/dtime
+@for in in inputs
+C       @{in.comment}
+@if in.is_pressure
+        x(@{in.index}) = press@{in.convert}
+@end
+@if in.is_speed
+        x(@{in.index}) = speed@{in.convert}
+@end
+@if in.is_slip
+        x(@{in.index}) = (hist(1) + slip)@{in.convert}
+@end
+@if in.is_work
+        x(@{in.index}) = hist(2)@{in.convert}
+@end
+@if in.is_peak
+        x(@{in.index}) = hist(3)@{in.convert}
+        if (.not. ftnan(hist(3))) then
+          if (press .gt. hist(3)) x(@{in.index}) = press@{in.convert}
+        end if
+@end
+@end
+@if refuses
+        fric = ftqnan()
+        if (.not. ftstop(x)) fric = fttau(x)@{to_solver}
+@else
+        fric = fttau(x)@{to_solver}
+@end
+        if (ftnan(fric)) return
+        fric = fric*area
+        if (fric .gt. stick) fric = stick
+        if (fric .lt. 0.0D0) fric = 0.0D0
+        lkeep = .true.
+        add(1) = slip
+C       The increment that has just been done: mean of the force then
+C       and the force now, times its slip.
+        if (slip .gt. 0.0D0) add(2) = 0.5D0*(fprev + fric)/area*slip
+        add(3) = press
+@if has_axes
+        if (ftout(x)) add(4) = 1.0D0
+@end
+      end if
+      return
+      end
+C
+C     What the state variables of a point hold, as the mean of its
+C     columns: slip, work, peak pressure; 0 where there are none.
+      subroutine ftread(nst, ncol, st, hist)
+      include 'vaba_param.inc'
+      dimension st(nst,ncol)
+      double precision hist(3), part
+      do i = 1, 3
+        hist(i) = 0.0D0
+        if (nst .ge. i) then
+          do j = 1, ncol
+            part = st(i,j)
+            hist(i) = hist(i) + part
+            if (i .le. 2 .and. nst .ge. i + 4) then
+              part = st(i+4,j)
+              hist(i) = hist(i) + part
+            end if
+          end do
+          hist(i) = hist(i)/ncol
+        end if
+      end do
+      return
+      end
+C
+C     Adds an increment to each column. What the solver's precision
+C     rounds off slip and work is kept in 5 and 6: increments are small
+C     against their sum.
+      subroutine ftkeep(nst, ncol, st, add)
+      include 'vaba_param.inc'
+      dimension st(nst,ncol)
+      double precision add(4), both, part, lost
+      logical ftnan
+      external ftnan
+      do j = 1, ncol
+        do i = 1, min(2,nst)
+          both = st(i,j)
+          part = 0.0D0
+          if (nst .ge. i + 4) part = st(i+4,j)
+          both = both + part + add(i)
+          st(i,j) = real(both, kind(st))
+          if (nst .ge. i + 4) then
+            part = st(i,j)
+            lost = 0.0D0
+            if (.not. ftnan(part)) then
+              if (abs(part) .le. huge(part)) lost = both - part
+            end if
+            st(i+4,j) = real(lost, kind(st))
+          end if
+        end do
+        if (nst .ge. 3) then
+          part = st(3,j)
+          if (.not. ftnan(part)) then
+            if (add(3) .gt. part) st(3,j) = real(add(3), kind(st))
+          end if
+        end if
+        if (nst .ge. 4) then
+          part = st(4,j)
+          st(4,j) = real(part + add(4), kind(st))
+        end if
+      end do
+      return
+      end
+C

@@ -1,0 +1,105 @@
+@if has_piece
+@{piece_gradient}
+
+@end
+static double ft_no_gradient(double tau, double* derivative) {
+@for input in used
+  derivative[@{input.place}] = tau;
+@end
+@if none_used
+  (void)derivative;
+@end
+  return tau;
+}
+
+double frictab_tau_R_gradient(
+    @{parameters},
+    double* derivative) {
+@for input in used
+  const double x@{input.index} = @{input.canonical}; /* @{input.name} */
+@end
+@for constant in constants
+  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@end
+@for state in behind
+  double d@{state.index} = 0.0; /* of value by x@{state.index} */
+@end
+@if interpolates
+  double u[@{n_axes}], by_u[@{n_axes}];
+@end
+@if has_piece
+  double by[@{n_by}];
+@end
+  double value;
+  int i;
+@for name in unused
+  (void)@{name.text};
+@end
+  for (i = 0; i < @{n_arguments}; ++i)
+    derivative[i] = 0.0;
+@for input in used
+  if (x@{input.index} != x@{input.index}) return ft_no_gradient(x@{input.index}, derivative);
+@end
+@for side in refusing
+  if (@{side.text}) return ft_no_gradient((double)NAN, derivative); /* outside = error */
+@end
+@if interpolates
+@for axis in axes
+  u[@{axis.index}] = @{axis.coordinate};
+@end
+  value = @{interpolate}(ft_axes, ft_table, u, by_u, 0);
+@if log_value
+  value = exp(value);
+@end
+@for axis in axes
+@if axis.log
+  if (by_u[@{axis.index}] != 0.0) d@{axis.state} = by_u[@{axis.index}] / @{axis.variable};
+@else
+  d@{axis.state} = by_u[@{axis.index}];
+@end
+@if log_value
+  d@{axis.state} *= value;
+@end
+@end
+@else
+@if tabulated
+  value = @{only_value};
+@end
+@end
+@if has_piece
+@if tabulated
+  if (@{extending}) {
+@else
+  {
+@end
+    value = ft_piece_gradient(@{piece_arguments}by);
+@for state in of_piece
+    d@{state.index} = by[@{state.place}];
+@end
+  }
+@end
+  {
+@for statement in statements
+    const double @{statement.text};
+@end
+@for slope in slopes
+    derivative[@{slope.place}] = @{slope.text};
+@end
+    return @{result};
+  }
+}
+
+void frictab_tau_R_gradient_batch(
+    size_t n,
+    @{arrays},
+    double* tau,
+    double* derivative) {
+  size_t i;
+@for name in unused_arrays
+  (void)@{name.text};
+@end
+  for (i = 0; i < n; ++i)
+    tau[i] = frictab_tau_R_gradient(
+        @{items},
+        derivative + @{n_arguments} * i);
+}

@@ -1,0 +1,26 @@
+@if cubic
+      integer fc(@{n_cells})
+      double precision tb(@{n_basis})
+      save fc, tb
+@end
+      double precision un(@{n_nodes}), pc(@{n_cells})
+      double precision tv(@{n_values})
+      save un, pc, tv
+@if uses_guide
+      integer gd(@{n_guide})
+      save gd
+@end
+C     nodes (logarithms on logarithmic axes), 1/width of cells
+@{data_un}
+@{data_pc}
+@if uses_guide
+C     cells by the coordinate's place
+@{data_gd}
+@end
+@if cubic
+C     per cell: first coefficient; 4 polynomials of the cell's weight
+@{data_fc}
+@{data_tb}
+@end
+C     @{value_comment}
+@{data_tv}
