@@ -1,7 +1,6 @@
 // FRIC_COEF called as Abaqus/Standard calls it, by both argument lists, with bounds checked and
 // floating point traps on: every trap of the interface that is known, by name.
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 
 #include "../../exporters/abaqus_fric_coef/call.h"
 #include "core/error.h"
+#include "generated/standard_case.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -19,25 +19,7 @@ namespace {
 
 using abaqus_fric_coef::CoefCall;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
-constexpr double psi = 2.5, flow = 480;
-constexpr double bound = 1e-13; // the order of operations only
-
-const Table& four_axis() {
-  static const Table table = test::four_axis_table();
-  return table;
-}
+using namespace test;
 
 // By the argument list: "2024" or "2020".
 class FricCoef : public testing::TestWithParam<std::string> {
@@ -50,10 +32,10 @@ protected:
   static void* routine(const std::string& key, ExportRequest request,
                        const std::vector<std::string>& flags = strict) {
     request.options["abaqus_release"] = GetParam();
-    return Library::address(test::compiled(key + GetParam(), *find_exporter("abaqus_fric_coef"),
-                                           request, "double", flags)
-                                ->handle(),
-                            "fric_coef_");
+    return Library::address(
+        compiled(key + GetParam(), *find_exporter("abaqus_fric_coef"), request, "double", flags)
+            ->handle(),
+        "fric_coef_");
   }
   static void* four_axes() { return routine("four_axes", {four_axis(), "mm-t-s", {}}); }
 
@@ -76,7 +58,7 @@ protected:
   static void run(CoefCall& c, void* function) {
     std::fill(c.coefficient.begin(), c.coefficient.end(), 777);
     std::fill(c.derivative.begin(), c.derivative.end(), 777);
-    const test::FloatTraps traps;
+    const FloatTraps traps;
     c.run(function);
   }
   // i from 1: slip rate, pressure, temperature, and with the newer list equivalent slip as 6.
@@ -92,8 +74,6 @@ protected:
     return tau(pressure, speed, temperature) / pressure;
   }
 };
-
-#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, bound* std::abs(b))
 
 TEST_P(FricCoef, TakesBlocksOf0And1And136And512) {
   for (const int points : {0, 1, 136, 512}) {
@@ -153,7 +133,7 @@ TEST_P(FricCoef, GivesTheShearLimitAsACoefficientThatFallsWithPressure) {
 }
 
 TEST_P(FricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
-  const Table table = test::one_axis_table(); // tau_R by psi alone: tau_R/p has no limit
+  const Table table = one_axis_table(); // tau_R by psi alone: tau_R/p has no limit
   static const TableFunction function(table);
   const double state[] = {psi};
   for (const double pressure : {0.5, 0.0, -50.0}) {
@@ -167,7 +147,7 @@ TEST_P(FricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
 }
 
 TEST_P(FricCoef, DoesNotStopForAPointThatDoesNotPress) {
-  Table table = test::sides_table();
+  Table table = sides_table();
   table.axes[0].below = Outside::error; // pressure
   auto c = call(2);
   c.properties = {60, flow};
@@ -281,7 +261,7 @@ TEST_P(FricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
 }
 
 TEST_P(FricCoef, CompilesWithoutAWarningForEveryTable) {
-  for (const test::NamedTable& sample : test::sample_tables()) {
+  for (const NamedTable& sample : sample_tables()) {
     SCOPED_TRACE(sample.name);
     EXPECT_NO_THROW(routine("warnings " + sample.name, {sample.table, "m-kg-s", {}}));
   }
@@ -289,14 +269,14 @@ TEST_P(FricCoef, CompilesWithoutAWarningForEveryTable) {
 
 TEST_P(FricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
   const Exporter& exporter = *find_exporter("abaqus_fric_coef");
-  for (const test::NamedTable& sample : test::sample_tables()) {
+  for (const NamedTable& sample : sample_tables()) {
     SCOPED_TRACE(sample.name);
     const ExportRequest request{sample.table, "mm-t-s", {}, {{"abaqus_release", GetParam()}}};
-    const test::States states(request.table, 2000, 12, 0.1);
+    const States states(request.table, 2000, 12, 0.1);
     std::vector<double> found(states.rows(), -1);
     CompiledTarget(exporter, request, exporter.generate(request), exporter.variants(request)[0])
         .drive(states.rows(), states.columns(), found);
-    EXPECT_LE(test::worst_relative(found, test::expected(request.table, states)), bound);
+    EXPECT_LE(worst_relative(found, expected(request.table, states)), 1e-13);
   }
 }
 
@@ -327,171 +307,6 @@ TEST_P(FricCoef, MayRunInThreadsAtOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Releases, FricCoef, testing::Values("2024", "2020"),
                          [](const auto& given) { return given.param; });
-
-// The list of 2024 has slip and state variables.
-class FricCoef2024 : public testing::Test {
-protected:
-  void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  }
-  static void* routine(const std::string& key, const ExportRequest& request) {
-    return Library::address(test::compiled("states " + key, *find_exporter("abaqus_fric_coef"),
-                                           request, "double", strict)
-                                ->handle(),
-                            "fric_coef_");
-  }
-  static CoefCall call(std::vector<double> properties) {
-    CoefCall c;
-    c.temperatures = true;
-    c.states = 11;
-    c.properties = std::move(properties);
-    c.resize(1);
-    c.pressure[0] = 1000;
-    c.slip[0] = 50;
-    c.temperature[0] = 100;
-    return c;
-  }
-  static void run(CoefCall& c, void* function) {
-    const test::FloatTraps traps;
-    c.run(function);
-  }
-};
-
-TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
-  static const Table table = test::branching_table();
-  static const TableFunction function(table);
-  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
-    void* const compiled = routine("branching " + units, {table, units, {}});
-    auto c = call({flow * stress});
-    c.pressure[0] = 300 * stress;
-    c.slip[0] = 20 * length;
-    c.slip[3] = 7 * length;
-    run(c, compiled);
-    const double state[] = {300, 20, 7, flow}, up[] = {300, 20, 7.001, flow},
-                 down[] = {300, 20, 6.999, flow};
-    EXPECT_CLOSE(c.coefficient[0], function(state) / 300);
-    EXPECT_NEAR(c.derivative[5] * length, (function(up) - function(down)) / 300 / 0.002, 1e-9);
-    EXPECT_EQ(c.derivative[6], 0);
-  }
-}
-
-Table peaks() {
-  Table table;
-  table.model = "histories";
-  for (const auto& [name, unit, high] :
-       {std::tuple{"peak_sigma_n", "MPa", 2000.0}, {"friction_work", "MPa mm", 500.0}}) {
-    TableAxis axis;
-    axis.name = name;
-    axis.unit = unit;
-    axis.nodes = {0, high};
-    table.axes.push_back(axis);
-  }
-  table.value = {0.05, 0.09, 0.2, 0.3};
-  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
-  return table;
-}
-
-TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
-  static const Table table = peaks();
-  static const TableFunction function(table);
-  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
-  const std::vector<std::string> inputs = table.inputs();
-  const auto wanted = [&](double pressure, double peak, double work) {
-    std::vector<double> state;
-    for (const std::string& name : inputs)
-      state.push_back(name == "peak_sigma_n" ? peak : name == "friction_work" ? work : pressure);
-    return function(state);
-  };
-  for (const bool passes_start : {true, false}) {
-    SCOPED_TRACE(passes_start);
-    auto c = call({});
-    double work = 0, peak = 0;
-    for (int increment = 1; increment <= 3; ++increment) {
-      c.increment = increment;
-      const std::vector<double> start = c.state;
-      for (int iteration = 0; iteration < 5; ++iteration) {
-        if (passes_start) c.state = start;
-        c.pressure[0] = 900 - 100 * increment - 10 * iteration; // the last one counts
-        c.slip[3] = 0.1 * iteration + 0.4 * (increment - 1);
-        run(c, compiled);
-      }
-      peak = std::max(peak, c.pressure[0]);
-      const double tau = wanted(c.pressure[0], peak, work);
-      EXPECT_CLOSE(c.coefficient[0] * c.pressure[0], tau);
-      work += tau * 0.4;
-      EXPECT_NEAR(c.state[0], work, 1e-12 * work);
-      EXPECT_EQ(c.state[1], peak);
-    }
-  }
-}
-
-TEST_F(FricCoef2024, HasNoHistoryWithFewerStateVariablesOrInBlocks) {
-  static const Table table = peaks();
-  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
-  for (const int states : {0, 10}) {
-    auto c = call({});
-    c.states = states;
-    c.state.assign(static_cast<std::size_t>(states), 5);
-    run(c, compiled);
-    EXPECT_THAT(c.state, testing::Each(5));
-  }
-  auto c = call({});
-  c.resize(2);
-  c.state.assign(11, 5);
-  c.pressure = {1000, 500};
-  run(c, compiled);
-  EXPECT_THAT(c.state, testing::Each(5));
-  EXPECT_GT(c.coefficient[0], c.coefficient[1]) << "the peak pressure is the pressure";
-}
-
-TEST_F(FricCoef2024, CountsIncrementsOutsideTheRangeOnce) {
-  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
-  auto c = call({psi, 60, flow});
-  for (const double speed : {50.0, 900.0, 1000.0, 60.0}) {
-    c.slip[0] = speed;
-    for (int iteration = 0; iteration < 3; ++iteration)
-      run(c, compiled);
-    ++c.increment;
-  }
-  EXPECT_EQ(c.state[2], 2);
-}
-
-TEST_F(FricCoef2024, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
-  void* const compiled = routine(
-      "frozen", {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
-  static const TableFunction function(four_axis());
-  const auto mu = [](double pressure, double speed) {
-    const double state[] = {pressure, psi, speed, 100, flow};
-    return function(state) / pressure;
-  };
-  auto c = call({psi, 60, flow});
-  run(c, compiled);
-  EXPECT_CLOSE(c.coefficient[0], mu(1000, 50));
-  EXPECT_NE(c.derivative[1], 0);
-  c.increment = 2;
-  for (const double pressure : {700.0, 800.0, 900.0}) { // with a cutback among them
-    c.time_increment *= 0.5;
-    c.pressure[0] = pressure;
-    c.slip[0] = 200;
-    run(c, compiled);
-    EXPECT_CLOSE(c.coefficient[0], mu(1000, 50));
-    for (std::size_t i = 0; i < 20; ++i)
-      EXPECT_EQ(c.derivative[i], 0);
-  }
-  c.increment = 3;
-  run(c, compiled);
-  EXPECT_CLOSE(c.coefficient[0], mu(900, 200)) << "what increment 2 ended with";
-}
-
-TEST_F(FricCoef2024, GivesNaNForANaNHistoryAndKeepsIt) {
-  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
-  auto c = call({psi, 60, flow});
-  c.state[1] = nan;
-  run(c, compiled);
-  EXPECT_TRUE(std::isnan(c.coefficient[0]));
-  EXPECT_EQ(c.state[0], 0);
-}
 
 TEST(FricCoefRecipe, SaysTheReleaseAndRefusesToKeepACoefficientWithoutStateVariables) {
   const Exporter& exporter = *find_exporter("abaqus_fric_coef");

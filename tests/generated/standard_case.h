@@ -1,0 +1,53 @@
+// What the tests of routines for Abaqus/Standard share.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "support/sample_tables.h"
+
+namespace frictab::test {
+
+inline const std::vector<std::string> strict = {"-Wall",
+                                                "-Wextra",
+                                                "-Werror",
+                                                "-Wno-unused-dummy-argument",
+                                                "-Wno-unused-parameter",
+                                                "-fcheck=all",
+                                                "-g",
+                                                "-ffpe-trap=invalid,zero,overflow"};
+
+// psi, sigma_f: what the tests pass as properties.
+inline constexpr double psi = 2.5, flow = 480;
+
+inline constexpr double inf = std::numeric_limits<double>::infinity();
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+inline const Table& four_axis() {
+  static const Table table = four_axis_table();
+  return table;
+}
+
+// Peak pressure and friction work as states of the law.
+inline Table peak_and_work_table() {
+  Table table;
+  table.model = "histories";
+  for (const auto& [name, unit, high] :
+       {std::tuple{"peak_sigma_n", "MPa", 2000.0}, {"friction_work", "MPa mm", 500.0}}) {
+    TableAxis axis;
+    axis.name = name;
+    axis.unit = unit;
+    axis.nodes = {0, high};
+    table.axes.push_back(axis);
+  }
+  table.value = {0.05, 0.09, 0.2, 0.3};
+  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
+  return table;
+}
+
+// To the order of operations only.
+#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, 1e-13 * std::abs(b))
+
+} // namespace frictab::test
