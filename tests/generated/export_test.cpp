@@ -28,16 +28,19 @@ nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
   return nlohmann::json::parse(find_exporter(target)->generate(request).at("recipe.json"));
 }
 
-TEST(Export, FortranOfEveryTableCompilesWithoutAWarningInBothPrecisions) {
+TEST(Export, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  for (const test::NamedTable& sample : test::sample_tables())
-    for (const std::string variant : {"double", "single"}) {
-      SCOPED_TRACE(sample.name + " " + variant);
-      // The include's constants and the solver's other arguments are not ours to use.
-      EXPECT_NO_THROW(test::compiled(
-          sample.name + " warnings", *find_exporter("abaqus_vfric"), {sample.table, "mm-t-s", {}},
-          variant,
-          {"-Wall", "-Wextra", "-Werror", "-Wno-unused-dummy-argument", "-Wno-unused-parameter"}));
+  for (const Exporter& exporter : all_exporters())
+    for (const test::NamedTable& sample : test::sample_tables()) {
+      const ExportRequest request{sample.table, "mm-t-s", {}};
+      for (const BuildVariant& variant : exporter.variants(request)) {
+        if (variant.program() != "gfortran") continue;
+        SCOPED_TRACE(exporter.name + " " + sample.name + " " + variant.name);
+        // The include's constants and the solver's other arguments are not ours to use.
+        EXPECT_NO_THROW(test::compiled(sample.name + " warnings", exporter, request, variant.name,
+                                       {"-Wall", "-Wextra", "-Werror", "-Wno-unused-dummy-argument",
+                                        "-Wno-unused-parameter"}));
+      }
     }
 }
 

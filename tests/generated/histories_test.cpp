@@ -1,6 +1,7 @@
 // Histories as axes of a table: slip, friction work and peak pressure from the state variables of
 // VFRIC and VFRICTION, increment by increment, in both precisions and unit systems.
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +160,33 @@ TYPED_TEST(Histories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
     this->run(c, this->routine("path", table, "mm-t-s"));
     const double state[] = {500, 0, 500, 2};
     EXPECT_NEAR(c.tangential[0], -4 * function(state), 4 * function(state) * TestFixture::bound);
+  }
+}
+
+TYPED_TEST(Histories, TurnNaNWithTheForceBeforeThemAndSoDoesTheLaw) {
+  static const Table table = history_table();
+  void* routine = this->routine("path", table, "mm-t-s");
+  auto c = this->call();
+  c.normal[0] = 4 * 500;
+  c.slip[0] = 2;
+  c.previous[0] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
+  this->run(c, routine);
+  EXPECT_LT(c.tangential[0], 0) << "this force does not depend on the one before";
+  EXPECT_TRUE(std::isnan(c.state[1]));
+  this->run(c, routine);
+  EXPECT_TRUE(std::isnan(c.tangential[0]));
+  EXPECT_EQ(c.state[0], 2) << "and nothing is added to what is spoilt";
+}
+
+TYPED_TEST(Histories, ThatAreNaNGiveNaNWhereTheLawAsksForThem) {
+  static const Table table = history_table();
+  for (std::size_t spoilt = 0; spoilt < 6; ++spoilt) {
+    auto c = this->call();
+    c.normal[0] = 4 * 500;
+    c.slip[0] = 2;
+    c.state[spoilt] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
+    this->run(c, this->routine("path", table, "mm-t-s"));
+    EXPECT_EQ(std::isnan(c.tangential[0]), spoilt != 3) << "4 is a count: " << spoilt;
   }
 }
 
