@@ -164,15 +164,11 @@ SourceBundle generate(const ExportRequest& request) {
 std::vector<BuildVariant> variants(const ExportRequest& request) {
   BuildVariant build;
   build.name = "f2008";
-  build.command = {"gfortran",
-                   optimisation(request.table),
-                   "-std=f2008",
-                   "-ffp-contract=off",
-                   "-fPIC",
-                   "-shared",
-                   "-o",
-                   "@{out}",
-                   "@{dir}/frictab_tau_R.f90"};
+  build.command = {"gfortran",   optimisation(request.table),
+                   "-std=f2008", "-ffp-contract=off",
+                   "-fPIC",      "-J@{dir}",
+                   "-shared",    "-o",
+                   "@{out}",     "@{dir}/frictab_tau_R.f90"};
   build.eps = 0x1p-53;
   return {build};
 }

@@ -32,9 +32,6 @@ void add_coordinates(TemplateValues& values, const Table& table) {
   }
   values.text["n_axes"] = std::to_string(table.axes.size());
   values.text["only_value"] = table.is_direct() ? "ftpiec(x)" : fortran_number(table.value[0]);
-  values.text["value_comment"] =
-      clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
-                       table.log_value ? "ln " : "", table.quantity));
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["interpolates"] = !axes.empty();
   values.flags["uses_log"] = logarithm;
@@ -51,18 +48,6 @@ void add_ends(TemplateValues& values, const Table& table) {
   }
   values.lists["ends"]; // also where there are none
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
-}
-
-// The numbers of the interpolation, out of the values.
-std::string take_data(TemplateValues& values) {
-  TemplateValues data;
-  for (const char* name : {"n_nodes", "n_cells", "n_guide", "n_basis", "n_values", "data_un",
-                           "data_pc", "data_gd", "data_fc", "data_tb", "data_tv", "value_comment"})
-    data.text.insert(values.text.extract(name));
-  data.flags["cubic"] = values.flags.at("cubic");
-  data.flags.insert(values.flags.extract("uses_guide"));
-  if (!values.flags.at("interpolates")) return "";
-  return without_last_break(render_template("fortran/frictab_data.f", data));
 }
 
 // The program units of the piece and of the gradient, and the helpers that any unit calls. Gives
@@ -144,12 +129,13 @@ Core core(const Table& table, const CoreOptions& options) {
       options.unknown || (options.gradient && !sides(table, Outside::error).empty());
   values.lists["arguments"] = comments(argument_lines(table));
   add_coordinates(values, table);
-  add_interpolation(values, table, options.gradient);
   add_ends(values, table);
   add_units(values, options.units);
-  const std::string weights = add_formula(values, table, options), data = take_data(values);
-  values.text["data"] = options.units == Units::external ? data : "";
-  out.data = data + (data.empty() || weights.empty() ? "" : "\n") + weights;
+  values.text.erase("out"); // the functions here change nothing
+  const std::string weights = add_formula(values, table, options);
+  const Piece looked_up = interpolation(table, options.gradient, options.units);
+  values.text["interpolation"] = looked_up.text;
+  out.data = join(std::vector<std::string>{looked_up.data, weights}, "\n");
   out.text = without_last_break(render_template("fortran/frictab_core.f", values));
   return out;
 }

@@ -94,6 +94,7 @@ Piece gradient_unit(const Table& table, const TemplateValues& core, Units units)
                   {"extends", extends},
                   {"has_piece", table.is_direct()},
                   {"log_value", table.log_value}};
+  values.text["wish"] = units == Units::external ? ", .true." : "";
   add_units(values, units);
   out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
   return out;

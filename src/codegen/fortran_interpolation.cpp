@@ -115,12 +115,18 @@ Strings cubic_steps(const Table& table, const std::vector<long>& stride,
   return out;
 }
 
+// Of the value alone; `counters` are needed for the derivatives as well.
 Strings cubic_names(std::size_t axes) {
   Strings out{"double precision r(4)"};
-  for (std::size_t d = 1; d + 2 <= axes; ++d) {
+  for (std::size_t d = 1; d + 2 <= axes; ++d)
     out.push_back(fmt::format("double precision s{}(4)", d));
+  return out;
+}
+
+Strings counters(std::size_t axes) {
+  Strings out;
+  for (std::size_t d = 1; d + 2 <= axes; ++d)
     out.push_back(fmt::format("integer i{0}, j{0}", d));
-  }
   return out;
 }
 
@@ -163,59 +169,110 @@ void add_axis(TemplateValues& axis, const AxisSearch& search, long stride, const
                 {"bisected", n > 2 && !(search.scale > 0)}};
 }
 
-} // namespace
-
-void add_interpolation(TemplateValues& values, const Table& table, bool gradient) {
-  const std::size_t axes = table.is_direct() ? 0 : table.axes.size(); // the law has no nodes
-  const std::vector<long> stride = strides(table);
-  const bool cubic = is_cubic(table);
-  Data data;
-  bool bisection = false;
-  for (std::size_t a = 0; a < axes; ++a) {
+// How each axis is searched, and the numbers of all.
+std::vector<TemplateValues> search_axes(const Table& table, const std::vector<long>& stride,
+                                        Data& data) {
+  std::vector<TemplateValues> axes;
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
     const AxisSearch search = axis_search(table.axes[a].coordinates());
-    TemplateValues& axis = values.lists["axes"][a];
-    add_axis(axis, search, stride[a], data);
-    bisection = bisection || axis.flags["bisected"];
-    const auto append = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
+    axes.emplace_back();
+    axes.back().text["number"] = std::to_string(a + 1);
+    add_axis(axes.back(), search, stride[a], data);
     append(data.nodes, search.u);
     append(data.per_cell, search.per_cell);
     append(data.guide, search.guide);
-    if (!cubic) continue;
+    if (!is_cubic(table)) continue;
     const SplineAxis spline = spline_axis(table.axes[a]);
     append(data.first, spline.first);
     append(data.basis, spline.basis);
   }
+  return axes;
+}
+
+std::string data_text(const Table& table, const Data& data) {
+  TemplateValues values;
   const std::vector<double> baked = baked_values(table);
-  values.text["n_nodes"] = std::to_string(data.nodes.size());
-  values.text["n_cells"] = std::to_string(data.per_cell.size());
-  values.text["n_guide"] = std::to_string(data.guide.size());
-  values.text["n_basis"] = std::to_string(data.basis.size());
-  values.text["n_values"] = std::to_string(baked.size());
-  values.text["data_un"] = fixed_form_data("un", data.nodes);
-  values.text["data_pc"] = fixed_form_data("pc", data.per_cell);
-  values.text["data_gd"] = fixed_form_data("gd", data.guide);
-  values.text["data_fc"] = fixed_form_data("fc", data.first);
-  values.text["data_tb"] = fixed_form_data("tb", data.basis);
-  values.text["data_tv"] = fixed_form_data("tv", baked);
-  values.flags["cubic"] = cubic;
-  values.flags["uses_guide"] = !data.guide.empty();
-  values.flags["uses_bisection"] = bisection;
-  values.lists["names"];
-  values.lists["steps"];
-  values.lists["slopes"];
-  if (axes == 0) return;
-  const std::string result = gradient ? "val" : "ftintp";
-  Strings names = cubic ? cubic_names(axes) : linear_names(axes);
-  if (gradient) {
-    const Slopes slopes = cubic ? cubic_slopes(table, stride) : linear_slopes(stride);
-    names.insert(names.end(), slopes.names.begin(), slopes.names.end());
-    values.lists["slopes"] = statements(slopes.steps);
+  values.text = {
+      {"n_nodes", std::to_string(data.nodes.size())},
+      {"n_cells", std::to_string(data.per_cell.size())},
+      {"n_guide", std::to_string(data.guide.size())},
+      {"n_basis", std::to_string(data.basis.size())},
+      {"n_values", std::to_string(baked.size())},
+      {"data_un", fixed_form_data("un", data.nodes)},
+      {"data_pc", fixed_form_data("pc", data.per_cell)},
+      {"data_gd", fixed_form_data("gd", data.guide)},
+      {"data_fc", fixed_form_data("fc", data.first)},
+      {"data_tb", fixed_form_data("tb", data.basis)},
+      {"data_tv", fixed_form_data("tv", baked)},
+      {"value_comment",
+       clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
+                        table.log_value ? "ln " : "", table.quantity))}};
+  values.flags = {{"cubic", is_cubic(table)}, {"uses_guide", !data.guide.empty()}};
+  return without_last_break(render_template("fortran/frictab_data.f", values));
+}
+
+// One program unit: the value, its derivatives, or, chosen by a flag, both.
+struct Unit {
+  bool value, slopes;
+};
+
+void add_steps(TemplateValues& values, const Table& table, const std::vector<long>& stride,
+               Unit unit) {
+  const bool cubic = is_cubic(table);
+  const std::size_t axes = stride.size();
+  const std::string result = unit.slopes ? "val" : "ftintp";
+  Strings names, steps, slopes;
+  const auto append = [](Strings& to, const Strings& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  if (!cubic || unit.value) append(names, cubic ? cubic_names(axes) : linear_names(axes));
+  if (cubic) append(names, counters(axes));
+  if (unit.value) steps = cubic ? cubic_steps(table, stride, result) : linear_steps(stride, result);
+  if (unit.slopes) {
+    const Slopes all = cubic ? cubic_slopes(table, stride) : linear_slopes(stride);
+    append(names, all.names);
+    slopes = all.steps;
   }
   values.lists["names"] = statements(names);
-  values.lists["steps"] =
-      statements(cubic ? cubic_steps(table, stride, result) : linear_steps(stride, result));
+  values.lists["steps"] = statements(steps);
+  values.lists["slopes"] = statements(slopes);
+  values.flags["slopes_asked"] = unit.slopes;
+  values.flags["wrapped"] = unit.slopes && unit.value;
+}
+
+} // namespace
+
+Piece interpolation(const Table& table, bool gradient, Units units) {
+  Piece out;
+  if (table.is_direct() || table.axes.empty()) return out;
+  const std::vector<long> stride = strides(table);
+  Data data;
+  TemplateValues values;
+  values.lists["axes"] = search_axes(table, stride, data);
+  out.data = data_text(table, data);
+  add_units(values, units);
+  values.flags.erase("externals"); // none are called
+  values.text["data"] = units == Units::external ? out.data : "";
+  values.text["n_axes"] = std::to_string(table.axes.size());
+  values.flags["cubic"] = is_cubic(table);
+  values.flags["uses_bisection"] =
+      std::any_of(values.lists["axes"].begin(), values.lists["axes"].end(),
+                  [](const TemplateValues& axis) { return axis.flags.at("bisected"); });
+  const auto add = [&](Unit unit) {
+    add_steps(values, table, stride, unit);
+    out.text += render_template("fortran/frictab_interpolation.f", values);
+  };
+  if (!gradient)
+    add({true, false});
+  else if (units == Units::external)
+    add({true, true});
+  else
+    add({true, false}), add({false, true});
+  out.text = without_last_break(out.text);
+  return out;
 }
 
 } // namespace frictab::fortran

@@ -1,4 +1,4 @@
-// The interpolation of frictab_core.f, written out for one table: what frictab_kernel.h and
+// The interpolation, written out for one table: what frictab_kernel.h and
 // frictab_cubic.h do where the axes are constants, a Fortran compiler would not find by itself.
 #pragma once
 
@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "codegen/fill.h"
-#include "codegen/template.h"
+#include "codegen/fortran_parts.h"
 
 namespace frictab::fortran {
 
-// Adds to the values: data of axes and nodes, how each axis of the list "axes" is searched, and the
-// unrolled sum over corners ("steps") with its variables ("names"). With `gradient` also the same
-// sum with its derivatives by the axes' coordinates ("slopes"), as frictab_gradient.h has it.
-void add_interpolation(TemplateValues& values, const Table& table, bool gradient);
+// The function ftintp(u), one coordinate per axis; with `gradient` also the subroutine ftintg,
+// which gives the derivatives as well: on its own it holds the numbers for both and takes a flag,
+// in a module the two are apart. No text where there is nothing to interpolate.
+Piece interpolation(const Table& table, bool gradient, Units units);
 
 // Statements of ft_linear_gradient_N and ft_cubic_gradient_N, and what they declare.
 struct Slopes {

@@ -55,7 +55,7 @@ C     val and its derivatives by x
 @for axis in axes
       u(@{axis.number}) = @{axis.coordinate}
 @end
-      call ftintg(u, val, du, .true.)
+      call ftintg(u, val, du@{wish})
 @if log_value
       val = exp(val)
 @end

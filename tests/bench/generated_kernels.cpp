@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/fortran_core.h"
 #include "core/random.h"
 #include "io/atomic_file.h"
 
@@ -75,8 +76,9 @@ std::string loops(std::size_t axes, int taps, const char* nodes) {
 std::string additions(const Table& table) {
   const bool cubic = table.interpolation == "cubic";
   const std::string kernels = std::string(FRICTAB_SOURCE_DIR) + "/src/table/";
-  std::string text =
-      read_file(kernels + "frictab_cubic.h") + read_file(kernels + "frictab_gradient.h") + added;
+  std::string text = read_file(kernels + "frictab_cubic.h") +
+                     read_file(kernels + "frictab_gradient.h") +
+                     read_file(kernels + "frictab_cubic_gradient.h") + added;
   text = replaced(text, "{loops}", loops(table.axes.size(), cubic ? 4 : 2, cubic ? ".nodes" : ""));
   text = replaced(text, "{kernel}", cubic ? "ft_cubic" : "ft_linear");
   text = replaced(text, "{axes}", std::to_string(table.axes.size()));
@@ -131,12 +133,27 @@ CKernel::CKernel(const Table& table, const std::vector<std::string>& flags) {
   library_->find<void()>("bench_fill")();
 }
 
-FortranKernel::FortranKernel(const Table& table) {
-  const Exporter& fortran = *find_exporter("abaqus_vfric");
-  const ExportRequest request{table, "mm-t-s", {}};
-  library_ = std::make_unique<Library>(
-      compile_library(fortran.generate(request), fortran.variants(request)[0], directory_.path()));
+FortranKernel::FortranKernel(const Table& table, bool has_gradient) {
+  BuildVariant build;
+  build.name = "core";
+  build.command = {"gfortran", "-O2", "-std=legacy", "-ffp-contract=off", "-fPIC",
+                   "-shared",  "-o",  "@{out}",      "@{dir}/core.f"};
+  const std::string text = fortran::core(table, {.gradient = has_gradient}).text + "\n";
+  library_ =
+      std::make_unique<Library>(compile_library({{"core.f", text}}, build, directory_.path()));
   value = library_->find<double(const double*)>("ftintp_");
+  if (has_gradient)
+    gradient = library_->find<void(const double*, double*, double*, const int*)>("ftintg_");
+}
+
+BatchEntries::BatchEntries(const Table& table, const std::string& target) {
+  const Exporter& exporter = *find_exporter(target);
+  const ExportRequest request{table, "mm-t-s", {}};
+  library_ = std::make_unique<Library>(compile_library(
+      exporter.generate(request), exporter.variants(request)[0], directory_.path()));
+  value = library_->find<std::remove_pointer_t<decltype(value)>>("frictab_tau_R_batch");
+  gradient =
+      library_->find<std::remove_pointer_t<decltype(gradient)>>("frictab_tau_R_gradient_batch");
 }
 
 void write_generated(const std::filesystem::path& directory) {

@@ -28,11 +28,26 @@ private:
   std::unique_ptr<Library> library_;
 };
 
-// The generated Fortran function that looks the table up.
+// The generated Fortran core: what looks the table up, and the same with derivatives (flag: true).
 class FortranKernel {
 public:
-  explicit FortranKernel(const Table& table);
+  // `gradient`: a core that has ftgrad; its value then comes out of the same routine.
+  explicit FortranKernel(const Table& table, bool gradient = false);
   double (*value)(const double* u);
+  void (*gradient)(const double* u, double* value, double* by_u, const int* flag) = nullptr;
+
+private:
+  TemporaryDirectory directory_;
+  std::unique_ptr<Library> library_;
+};
+
+// The entries for many states of a target with the contract's interface.
+class BatchEntries {
+public:
+  BatchEntries(const Table& table, const std::string& target);
+  using Array = const double*;
+  void (*value)(std::size_t, Array, Array, Array, Array, Array, Array, double*);
+  void (*gradient)(std::size_t, Array, Array, Array, Array, Array, Array, double*, double*);
 
 private:
   TemporaryDirectory directory_;

@@ -84,6 +84,18 @@ void add_table(const std::string& grid, bool even, bool cubic) {
   add_generated_c(name, grid, table);
   const auto fortran = lazy<FortranKernel>(table);
   add(name + "/value/" + grid + "/fortran", axes, [fortran] { return fortran().value; });
+  const auto slopes = lazy<FortranKernel>(table, true);
+  add(name + "/value/" + grid + "/fortran with gradient", axes,
+      [slopes] { return slopes().value; });
+  add(name + "/gradient/" + grid + "/fortran", axes, [slopes] {
+    return [gradient = slopes().gradient](const double* u) {
+      double value, by_u[5];
+      const int flag = 1;
+      gradient(u, &value, by_u, &flag);
+      benchmark::DoNotOptimize(by_u);
+      return value;
+    };
+  });
   const auto function = std::make_shared<TableFunction>(table);
   add(name + "/value/" + grid + "/frictab", axes, [function, axes] {
     return [f = function.get(), axes](const double* u) { return (*f)({u, axes}); };
@@ -113,6 +125,41 @@ void add_gsl(const gsl_interp2d_type* type, const std::string& name) {
 }
 #endif
 
+using Columns = std::vector<std::vector<double>>;
+
+// The entries for many states of the targets that have the contract's, by as many as a solver
+// passes at once; columns: sigma_n, psi, v, T, sigma_f.
+void add_batches(const std::string& name, const Table& table,
+                 const std::shared_ptr<const Columns>& columns) {
+  for (const char* target : {"c", "fortran"}) {
+    const auto entries = lazy<BatchEntries>(table, std::string(target));
+    for (const std::size_t block : {1, 16, 136, 512}) {
+      const auto each = [=](const auto& call) {
+        const Columns& x = *columns;
+        for (std::size_t i = 0; i < queries; i += block)
+          call(std::min(block, queries - i), i, x);
+      };
+      const std::string tail = std::string(target) + "/" + std::to_string(block);
+      measure(name + "/value/" + tail, queries, [=, tau = std::vector<double>(queries)]() mutable {
+        each([&, batch = entries().value](std::size_t n, std::size_t i, const Columns& x) {
+          batch(n, &x[0][i], &x[1][i], &x[2][i], &x[3][i], nullptr, &x[4][i], &tau[i]);
+        });
+        benchmark::DoNotOptimize(tau.data());
+      });
+      measure(
+          name + "/gradient/" + tail, queries,
+          [=, tau = std::vector<double>(queries),
+           slopes = std::vector<double>(6 * queries)]() mutable {
+            each([&, batch = entries().gradient](std::size_t n, std::size_t i, const Columns& x) {
+              batch(n, &x[0][i], &x[1][i], &x[2][i], &x[3][i], nullptr, &x[4][i], &tau[i],
+                    &slopes[6 * i]);
+            });
+            benchmark::DoNotOptimize(slopes.data());
+          });
+    }
+  }
+}
+
 // The law of tests/support/kinked_law.h at 0.01 MPa: logarithms of three axes, lookup, exponential,
 // min; and the law itself.
 void add_kinked() {
@@ -124,7 +171,7 @@ void add_kinked() {
   const Table table = build_table(model, ranges, options);
   constexpr std::size_t n = 5;
   auto rows = std::make_shared<std::vector<double>>(states(n)); // states, one after the other
-  auto columns = std::make_shared<std::vector<std::vector<double>>>(n);
+  auto columns = std::make_shared<Columns>(n);
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const StateRange& range = ranges[i % n];
     double& x = (*rows)[i];
@@ -132,6 +179,7 @@ void add_kinked() {
     (*columns)[i % n].push_back(x);
   }
   const std::string tail = "/" + std::to_string(table.nodes());
+  add_batches("kinked/batch" + tail, table, columns);
   for (const char* flags : {"-O2", "-march=native"}) {
     const auto kernel = lazy<CKernel>(table, std::vector<std::string>{flags});
     add("kinked/tau" + tail + (std::string(flags) == "-O2" ? "/O2" : "/native"), rows->data(), n,

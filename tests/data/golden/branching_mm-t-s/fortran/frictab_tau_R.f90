@@ -299,7 +299,7 @@ contains
     end do
     u(1) = x(2)
     u(2) = x(3)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     by(2) = du(1)
     by(3) = du(2)
     t1 = val*x(1)
@@ -419,14 +419,64 @@ contains
   ! are never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(2)
-    double precision du(2)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 1.28D0)
+    parameter (sh1 = 0.0D0)
+    double precision sc2, sh2
+    parameter (sc2 = 0.2D0)
+    parameter (sh2 = 1.0D-08)
+    double precision w1, v1
+    double precision p1a, q1a
+    double precision w2, v2
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(4)) then
+      i = 2
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      i = gd(i+1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + i*9
+    w1 = t
+    v1 = 1.0D0 - t
+    ! axis 2: cell i (from 0), weight t of its upper node
+    x = u(2)
+    if (x .le. un(5)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(13)) then
+      i = 7
+      t = 1.0D0
+    else
+      i = int(x*sc2 - sh2)
+      do while (x .ge. un(i+6))
+        i = i + 1
+      end do
+      t = (x - un(i+5))*pc(i+4)
+    end if
+    at = at + i*1
+    w2 = t
+    v2 = 1.0D0 - t
+    p1a = v1*tv(at) + w1*tv(at+9)
+    q1a = v1*tv(at+1) + w1*tv(at+10)
+    ftintp = v2*p1a + w2*q1a
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Multilinear interpolation, the twin of frictab_kernel.h: same
+  ! nodes, same cells, same order of operations. The numbers below
+  ! are never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(2)
     double precision, intent(out) :: val, du(2)
     double precision x, t
@@ -485,26 +535,18 @@ contains
     at = at + i*1
     w2 = t
     v2 = 1.0D0 - t
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(4))&
-      &    g1 = 0.0D0
-      g2 = pc(k2+4)
-      if (u(2) .lt. un(5) .or.&
-      &    u(2) .gt. un(13))&
-      &    g2 = 0.0D0
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(4)) g1 = 0.0D0
+    g2 = pc(k2+4)
+    if (u(2) .lt. un(5) .or.&
+      &  u(2) .gt. un(13)) g2 = 0.0D0
     p1a = v1*tv(at) + w1*tv(at+9)
     p1a1 = tv(at+9) - tv(at)
     q1a = v1*tv(at+1) + w1*tv(at+10)
     q1a1 = tv(at+10) - tv(at+1)
     du(1) = (v2*p1a1 + w2*q1a1)*g1
     du(2) = (q1a - p1a)*g2
-    val = v2*p1a + w2*q1a
-      return
-    end if
-    p1a = v1*tv(at) + w1*tv(at+9)
-    q1a = v1*tv(at+1) + w1*tv(at+10)
     val = v2*p1a + w2*q1a
   end subroutine ftintg
 

@@ -459,7 +459,7 @@ contains
     u(2) = ftlog(x(2))
     u(3) = ftlog(x(3))
     u(4) = x(4)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     val = exp(val)
     if (abs(du(1)) .gt. 0.0D0)&
       &  by(1) = du(1)/x(1)
@@ -510,14 +510,125 @@ contains
   ! are never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(4)
-    double precision du(4)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 37.542203620222026D0)
+    parameter (sh1 = 233.3100826508467D0)
+    double precision sc2, sh2
+    parameter (sc2 = 1.0014246020860023D0)
+    parameter (sh2 = 1.0D-08)
+    double precision sc3, sh3
+    parameter (sc3 = 1.0857362047581296D0)
+    parameter (sh3 = 1.7474250208400468D0)
+    double precision sc4, sh4
+    parameter (sc4 = 0.17777777777777778D0)
+    parameter (sh4 = 3.555555555555556D0)
+    double precision w1, v1
+    double precision p1a, q1a
+    double precision w2, v2
+    double precision p2a, q2a
+    double precision p2b, q2b
+    double precision w3, v3
+    double precision p3a, q3a
+    double precision p3b, q3b
+    double precision w4, v4
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(5)) then
+      i = 3
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      i = gd(i+1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + i*96
+    w1 = t
+    v1 = 1.0D0 - t
+    ! axis 2: cell i (from 0), weight t of its upper node
+    x = u(2)
+    if (x .le. un(6)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(9)) then
+      i = 2
+      t = 1.0D0
+    else
+      i = int(x*sc2 - sh2)
+      do while (x .ge. un(i+7))
+        i = i + 1
+      end do
+      t = (x - un(i+6))*pc(i+5)
+    end if
+    at = at + i*24
+    w2 = t
+    v2 = 1.0D0 - t
+    ! axis 3: cell i (from 0), weight t of its upper node
+    x = u(3)
+    if (x .le. un(10)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(15)) then
+      i = 4
+      t = 1.0D0
+    else
+      i = int(x*sc3 - sh3)
+      do while (x .ge. un(i+11))
+        i = i + 1
+      end do
+      t = (x - un(i+10))*pc(i+8)
+    end if
+    at = at + i*4
+    w3 = t
+    v3 = 1.0D0 - t
+    ! axis 4: cell i (from 0), weight t of its upper node
+    x = u(4)
+    if (x .le. un(16)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(19)) then
+      i = 2
+      t = 1.0D0
+    else
+      i = int(x*sc4 - sh4)
+      i = gd(i+66)
+      do while (x .ge. un(i+17))
+        i = i + 1
+      end do
+      t = (x - un(i+16))*pc(i+13)
+    end if
+    at = at + i*1
+    w4 = t
+    v4 = 1.0D0 - t
+    p3a = v3*tv(at) + w3*tv(at+4)
+    q3a = v3*tv(at+1) + w3*tv(at+5)
+    p3b = v3*tv(at+24) + w3*tv(at+28)
+    q3b = v3*tv(at+25) + w3*tv(at+29)
+    p2a = v2*p3a + w2*p3b
+    q2a = v2*q3a + w2*q3b
+    p3a = v3*tv(at+96) + w3*tv(at+100)
+    q3a = v3*tv(at+97) + w3*tv(at+101)
+    p3b = v3*tv(at+120) + w3*tv(at+124)
+    q3b = v3*tv(at+121) + w3*tv(at+125)
+    p2b = v2*p3a + w2*p3b
+    q2b = v2*q3a + w2*q3b
+    p1a = v1*p2a + w1*p2b
+    q1a = v1*q2a + w1*q2b
+    ftintp = v4*p1a + w4*q1a
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Multilinear interpolation, the twin of frictab_kernel.h: same
+  ! nodes, same cells, same order of operations. The numbers below
+  ! are never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(4)
     double precision, intent(out) :: val, du(4)
     double precision x, t
@@ -639,23 +750,18 @@ contains
     at = at + i*1
     w4 = t
     v4 = 1.0D0 - t
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(5))&
-      &    g1 = 0.0D0
-      g2 = pc(k2+5)
-      if (u(2) .lt. un(6) .or.&
-      &    u(2) .gt. un(9))&
-      &    g2 = 0.0D0
-      g3 = pc(k3+8)
-      if (u(3) .lt. un(10) .or.&
-      &    u(3) .gt. un(15))&
-      &    g3 = 0.0D0
-      g4 = pc(k4+13)
-      if (u(4) .lt. un(16) .or.&
-      &    u(4) .gt. un(19))&
-      &    g4 = 0.0D0
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(5)) g1 = 0.0D0
+    g2 = pc(k2+5)
+    if (u(2) .lt. un(6) .or.&
+      &  u(2) .gt. un(9)) g2 = 0.0D0
+    g3 = pc(k3+8)
+    if (u(3) .lt. un(10) .or.&
+      &  u(3) .gt. un(15)) g3 = 0.0D0
+    g4 = pc(k4+13)
+    if (u(4) .lt. un(16) .or.&
+      &  u(4) .gt. un(19)) g4 = 0.0D0
     p3a = v3*tv(at) + w3*tv(at+4)
     p3a3 = tv(at+4) - tv(at)
     q3a = v3*tv(at+1) + w3*tv(at+5)
@@ -696,23 +802,6 @@ contains
     du(2) = (v4*p1a2 + w4*q1a2)*g2
     du(3) = (v4*p1a3 + w4*q1a3)*g3
     du(4) = (q1a - p1a)*g4
-    val = v4*p1a + w4*q1a
-      return
-    end if
-    p3a = v3*tv(at) + w3*tv(at+4)
-    q3a = v3*tv(at+1) + w3*tv(at+5)
-    p3b = v3*tv(at+24) + w3*tv(at+28)
-    q3b = v3*tv(at+25) + w3*tv(at+29)
-    p2a = v2*p3a + w2*p3b
-    q2a = v2*q3a + w2*q3b
-    p3a = v3*tv(at+96) + w3*tv(at+100)
-    q3a = v3*tv(at+97) + w3*tv(at+101)
-    p3b = v3*tv(at+120) + w3*tv(at+124)
-    q3b = v3*tv(at+121) + w3*tv(at+125)
-    p2b = v2*p3a + w2*p3b
-    q2b = v2*q3a + w2*q3b
-    p1a = v1*p2a + w1*p2b
-    q1a = v1*q2a + w1*q2b
     val = v4*p1a + w4*q1a
   end subroutine ftintg
 

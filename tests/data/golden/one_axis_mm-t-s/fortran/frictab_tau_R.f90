@@ -216,7 +216,7 @@ contains
       by(i) = 0.0D0
     end do
     u(1) = x(1)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     by(1) = du(1)
     tau = val
     dtau(1) = by(1)
@@ -235,14 +235,38 @@ contains
   ! are never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(1)
-    double precision du(1)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 0.21052631578947367D0)
+    parameter (sh1 = 0.21052632578947367D0)
+    double precision w1, v1
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(5)) then
+      i = 3
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + i*1
+    w1 = t
+    v1 = 1.0D0 - t
+    ftintp = v1*tv(at) + w1*tv(at+1)
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Multilinear interpolation, the twin of frictab_kernel.h: same
+  ! nodes, same cells, same order of operations. The numbers below
+  ! are never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(1)
     double precision, intent(out) :: val, du(1)
     double precision x, t
@@ -273,15 +297,10 @@ contains
     at = at + i*1
     w1 = t
     v1 = 1.0D0 - t
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(5))&
-      &    g1 = 0.0D0
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(5)) g1 = 0.0D0
     du(1) = (tv(at+1) - tv(at))*g1
-    val = v1*tv(at) + w1*tv(at+1)
-      return
-    end if
     val = v1*tv(at) + w1*tv(at+1)
   end subroutine ftintg
 

@@ -279,7 +279,7 @@ contains
     u(1) = ftlog(x(1))
     u(2) = ftlog(x(2))
     u(3) = x(3)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     val = exp(val)
     if (abs(du(1)) .gt. 0.0D0)&
       &  by(1) = du(1)/x(1)
@@ -420,14 +420,93 @@ contains
   ! are never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(3)
-    double precision du(3)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 18.771101810111013D0)
+    parameter (sh1 = 116.65504132542335D0)
+    double precision sc2, sh2
+    parameter (sc2 = 0.6514417228548778D0)
+    parameter (sh2 = 1.048455016504028D0)
+    double precision sc3, sh3
+    parameter (sc3 = 0.17777777777777778D0)
+    parameter (sh3 = 3.555555555555556D0)
+    double precision w1, v1
+    double precision p1a, q1a
+    double precision w2, v2
+    double precision p2a, q2a
+    double precision p2b, q2b
+    double precision w3, v3
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(3)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      i = gd(i+1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + i*12
+    w1 = t
+    v1 = 1.0D0 - t
+    ! axis 2: cell i (from 0), weight t of its upper node
+    x = u(2)
+    if (x .le. un(4)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(7)) then
+      i = 2
+      t = 1.0D0
+    else
+      i = int(x*sc2 - sh2)
+      do while (x .ge. un(i+5))
+        i = i + 1
+      end do
+      t = (x - un(i+4))*pc(i+3)
+    end if
+    at = at + i*3
+    w2 = t
+    v2 = 1.0D0 - t
+    ! axis 3: cell i (from 0), weight t of its upper node
+    x = u(3)
+    if (x .le. un(8)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(10)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc3 - sh3)
+      i = gd(i+34)
+      do while (x .ge. un(i+9))
+        i = i + 1
+      end do
+      t = (x - un(i+8))*pc(i+6)
+    end if
+    at = at + i*1
+    w3 = t
+    v3 = 1.0D0 - t
+    p2a = v2*tv(at) + w2*tv(at+3)
+    q2a = v2*tv(at+1) + w2*tv(at+4)
+    p2b = v2*tv(at+12) + w2*tv(at+15)
+    q2b = v2*tv(at+13) + w2*tv(at+16)
+    p1a = v1*p2a + w1*p2b
+    q1a = v1*q2a + w1*q2b
+    ftintp = v3*p1a + w3*q1a
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Multilinear interpolation, the twin of frictab_kernel.h: same
+  ! nodes, same cells, same order of operations. The numbers below
+  ! are never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(3)
     double precision, intent(out) :: val, du(3)
     double precision x, t
@@ -517,19 +596,15 @@ contains
     at = at + i*1
     w3 = t
     v3 = 1.0D0 - t
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(3))&
-      &    g1 = 0.0D0
-      g2 = pc(k2+3)
-      if (u(2) .lt. un(4) .or.&
-      &    u(2) .gt. un(7))&
-      &    g2 = 0.0D0
-      g3 = pc(k3+6)
-      if (u(3) .lt. un(8) .or.&
-      &    u(3) .gt. un(10))&
-      &    g3 = 0.0D0
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(3)) g1 = 0.0D0
+    g2 = pc(k2+3)
+    if (u(2) .lt. un(4) .or.&
+      &  u(2) .gt. un(7)) g2 = 0.0D0
+    g3 = pc(k3+6)
+    if (u(3) .lt. un(8) .or.&
+      &  u(3) .gt. un(10)) g3 = 0.0D0
     p2a = v2*tv(at) + w2*tv(at+3)
     p2a2 = tv(at+3) - tv(at)
     q2a = v2*tv(at+1) + w2*tv(at+4)
@@ -547,15 +622,6 @@ contains
     du(1) = (v3*p1a1 + w3*q1a1)*g1
     du(2) = (v3*p1a2 + w3*q1a2)*g2
     du(3) = (q1a - p1a)*g3
-    val = v3*p1a + w3*q1a
-      return
-    end if
-    p2a = v2*tv(at) + w2*tv(at+3)
-    q2a = v2*tv(at+1) + w2*tv(at+4)
-    p2b = v2*tv(at+12) + w2*tv(at+15)
-    q2b = v2*tv(at+13) + w2*tv(at+16)
-    p1a = v1*p2a + w1*p2b
-    q1a = v1*q2a + w1*q2b
     val = v3*p1a + w3*q1a
   end subroutine ftintg
 

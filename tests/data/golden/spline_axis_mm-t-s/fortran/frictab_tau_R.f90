@@ -258,7 +258,7 @@ contains
       by(i) = 0.0D0
     end do
     u(1) = x(1)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     by(1) = du(1)
     tau = val
     dtau(1) = by(1)
@@ -277,14 +277,47 @@ contains
   ! never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(1)
-    double precision du(1)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 3.3684210526315788D0)
+    parameter (sh1 = 3.3684210526315788D0)
+    double precision r(4)
+    integer l
+    double precision w(4,1)
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(6)) then
+      i = 4
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      i = gd(i+1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + fc(i+1)*1
+    i = 16*(i + 0)
+    do l = 1, 4
+      w(l,1) = tb(i+l) + t*(tb(i+l+4)&
+      &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+    end do
+    do l = 1, 4
+      r(l) = tv(at+l-1)
+    end do
+    ftintp = (w(1,1)*r(1) + w(2,1)*r(2)) + (w(3,1)*r(3) + w(4,1)*r(4))
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Cubic spline, the twin of frictab_cubic.h: same cells, same
+  ! polynomials, same order of operations. The numbers below are
+  ! never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(1)
     double precision, intent(out) :: val, du(1)
     double precision x, t
@@ -292,7 +325,6 @@ contains
     double precision sc1, sh1
     parameter (sc1 = 3.3684210526315788D0)
     parameter (sh1 = 3.3684210526315788D0)
-    double precision r(4)
     double precision g1
     integer k1
     double precision t1
@@ -324,17 +356,15 @@ contains
       w(l,1) = tb(i+l) + t*(tb(i+l+4)&
       &    + t*(tb(i+l+8) + t*tb(i+l+12)))
     end do
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(6))&
-      &    g1 = 0.0D0
-      i = 16*(k1 + 0)
-      do l = 1, 4
-        sl(l,1) = g1*(tb(i+l+4)&
-      &      + t1*(2.0D0*tb(i+l+8)&
-      &      + t1*(3.0D0*tb(i+l+12))))
-      end do
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(6)) g1 = 0.0D0
+    i = 16*(k1 + 0)
+    do l = 1, 4
+      sl(l,1) = g1*(tb(i+l+4)&
+      &    + t1*(2.0D0*tb(i+l+8)&
+      &    + t1*(3.0D0*tb(i+l+12))))
+    end do
     do l = 1, 4
     rr(l,0) = tv(at+l-1)
     end do
@@ -342,12 +372,6 @@ contains
       &sl(4,1)*rr(4,0))
     val = (w(1,1)*rr(1,0) + w(2,1)*rr(2,0)) + (w(3,1)*rr(3,0) + w(4,&
       &1)*rr(4,0))
-      return
-    end if
-    do l = 1, 4
-      r(l) = tv(at+l-1)
-    end do
-    val = (w(1,1)*r(1) + w(2,1)*r(2)) + (w(3,1)*r(3) + w(4,1)*r(4))
   end subroutine ftintg
 
   ! A quiet NaN, without arithmetic that could trap.

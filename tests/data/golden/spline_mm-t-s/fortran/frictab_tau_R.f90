@@ -421,7 +421,7 @@ contains
     u(2) = ftlog(x(1))
     u(3) = x(4)
     u(4) = x(2)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     val = exp(val)
     if (abs(du(1)) .gt. 0.0D0)&
       &  by(3) = du(1)/x(3)
@@ -471,16 +471,6 @@ contains
   ! never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(4)
-    double precision du(4)
-    call ftintg(u, ftintp, du, .false.)
-  end function ftintp
-
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
-    double precision, intent(in) :: u(4)
-    double precision, intent(out) :: val, du(4)
     double precision x, t
     integer i, at
     double precision sc1, sh1
@@ -494,8 +484,144 @@ contains
     parameter (sh3 = 3.555555555555556D0)
     double precision r(4)
     double precision s1(4)
-    integer i1, j1
     double precision s2(4)
+    integer i1, j1
+    integer i2, j2
+    integer l
+    double precision w(4,4)
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(7)) then
+      i = 5
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + fc(i+1)*30
+    i = 16*(i + 0)
+    do l = 1, 4
+      w(l,1) = tb(i+l) + t*(tb(i+l+4)&
+      &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+    end do
+    ! axis 2: cell i (from 0), weight t of its upper node
+    x = u(2)
+    if (x .le. un(8)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(12)) then
+      i = 3
+      t = 1.0D0
+    else
+      i = int(x*sc2 - sh2)
+      i = gd(i+1)
+      do while (x .ge. un(i+9))
+        i = i + 1
+      end do
+      t = (x - un(i+8))*pc(i+7)
+    end if
+    at = at + fc(i+7)*6
+    i = 16*(i + 6)
+    do l = 1, 4
+      w(l,2) = tb(i+l) + t*(tb(i+l+4)&
+      &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+    end do
+    ! axis 3: cell i (from 0), weight t of its upper node
+    x = u(3)
+    if (x .le. un(13)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(15)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc3 - sh3)
+      i = gd(i+66)
+      do while (x .ge. un(i+14))
+        i = i + 1
+      end do
+      t = (x - un(i+13))*pc(i+11)
+    end if
+    at = at + fc(i+11)*2
+    i = 16*(i + 10)
+    do l = 1, 4
+      w(l,3) = tb(i+l) + t*(tb(i+l+4)&
+      &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+    end do
+    ! axis 4: cell i (from 0), weight t of its upper node
+    x = u(4)
+    if (x .le. un(16)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(17)) then
+      i = 0
+      t = 1.0D0
+    else
+      i = 0
+      t = (x - un(i+16))*pc(i+13)
+    end if
+    at = at + fc(i+13)*1
+    i = 16*(i + 12)
+    do l = 1, 4
+      w(l,4) = tb(i+l) + t*(tb(i+l+4)&
+      &    + t*(tb(i+l+8) + t*tb(i+l+12)))
+    end do
+    do l = 1, 4
+      s1(l) = 0.0D0
+    end do
+    do j1 = 0, 3
+      i1 = at + j1*30
+      do l = 1, 4
+        s2(l) = 0.0D0
+      end do
+      do j2 = 0, 3
+        i2 = i1 + j2*6
+        do l = 1, 4
+          r(l) = w(1,3)*tv(i2+l-1) + w(2,3)*tv(i2+l+1)
+          r(l) = r(l) + w(3,3)*tv(i2+l+3)
+        end do
+        do l = 1, 4
+          s2(l) = s2(l) + w(j2+1,2)*r(l)
+        end do
+      end do
+      do l = 1, 4
+        r(l) = s2(l)
+      end do
+      do l = 1, 4
+        s1(l) = s1(l) + w(j1+1,1)*r(l)
+      end do
+    end do
+    do l = 1, 4
+      r(l) = s1(l)
+    end do
+    ftintp = (w(1,4)*r(1) + w(2,4)*r(2)) + (w(3,4)*r(3) + w(4,4)*r(4))
+  end function ftintp
+
+  ! Cubic spline, the twin of frictab_cubic.h: same cells, same
+  ! polynomials, same order of operations. The numbers below are
+  ! never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
+    double precision, intent(in) :: u(4)
+    double precision, intent(out) :: val, du(4)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 1.3028834457097556D0)
+    parameter (sh1 = 2.096910023008056D0)
+    double precision sc2, sh2
+    parameter (sc2 = 37.542203620222026D0)
+    parameter (sh2 = 233.3100826508467D0)
+    double precision sc3, sh3
+    parameter (sc3 = 0.17777777777777778D0)
+    parameter (sh3 = 3.555555555555556D0)
+    integer i1, j1
     integer i2, j2
     double precision g1
     integer k1
@@ -606,47 +732,42 @@ contains
       w(l,4) = tb(i+l) + t*(tb(i+l+4)&
       &    + t*(tb(i+l+8) + t*tb(i+l+12)))
     end do
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(7))&
-      &    g1 = 0.0D0
-      i = 16*(k1 + 0)
-      do l = 1, 4
-        sl(l,1) = g1*(tb(i+l+4)&
-      &      + t1*(2.0D0*tb(i+l+8)&
-      &      + t1*(3.0D0*tb(i+l+12))))
-      end do
-      g2 = pc(k2+7)
-      if (u(2) .lt. un(8) .or.&
-      &    u(2) .gt. un(12))&
-      &    g2 = 0.0D0
-      i = 16*(k2 + 6)
-      do l = 1, 4
-        sl(l,2) = g2*(tb(i+l+4)&
-      &      + t2*(2.0D0*tb(i+l+8)&
-      &      + t2*(3.0D0*tb(i+l+12))))
-      end do
-      g3 = pc(k3+11)
-      if (u(3) .lt. un(13) .or.&
-      &    u(3) .gt. un(15))&
-      &    g3 = 0.0D0
-      i = 16*(k3 + 10)
-      do l = 1, 4
-        sl(l,3) = g3*(tb(i+l+4)&
-      &      + t3*(2.0D0*tb(i+l+8)&
-      &      + t3*(3.0D0*tb(i+l+12))))
-      end do
-      g4 = pc(k4+13)
-      if (u(4) .lt. un(16) .or.&
-      &    u(4) .gt. un(17))&
-      &    g4 = 0.0D0
-      i = 16*(k4 + 12)
-      do l = 1, 4
-        sl(l,4) = g4*(tb(i+l+4)&
-      &      + t4*(2.0D0*tb(i+l+8)&
-      &      + t4*(3.0D0*tb(i+l+12))))
-      end do
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(7)) g1 = 0.0D0
+    i = 16*(k1 + 0)
+    do l = 1, 4
+      sl(l,1) = g1*(tb(i+l+4)&
+      &    + t1*(2.0D0*tb(i+l+8)&
+      &    + t1*(3.0D0*tb(i+l+12))))
+    end do
+    g2 = pc(k2+7)
+    if (u(2) .lt. un(8) .or.&
+      &  u(2) .gt. un(12)) g2 = 0.0D0
+    i = 16*(k2 + 6)
+    do l = 1, 4
+      sl(l,2) = g2*(tb(i+l+4)&
+      &    + t2*(2.0D0*tb(i+l+8)&
+      &    + t2*(3.0D0*tb(i+l+12))))
+    end do
+    g3 = pc(k3+11)
+    if (u(3) .lt. un(13) .or.&
+      &  u(3) .gt. un(15)) g3 = 0.0D0
+    i = 16*(k3 + 10)
+    do l = 1, 4
+      sl(l,3) = g3*(tb(i+l+4)&
+      &    + t3*(2.0D0*tb(i+l+8)&
+      &    + t3*(3.0D0*tb(i+l+12))))
+    end do
+    g4 = pc(k4+13)
+    if (u(4) .lt. un(16) .or.&
+      &  u(4) .gt. un(17)) g4 = 0.0D0
+    i = 16*(k4 + 12)
+    do l = 1, 4
+      sl(l,4) = g4*(tb(i+l+4)&
+      &    + t4*(2.0D0*tb(i+l+8)&
+      &    + t4*(3.0D0*tb(i+l+12))))
+    end do
     do l = 1, 4
     a1(l,0) = 0.0D0
     a1(l,1) = 0.0D0
@@ -702,37 +823,6 @@ contains
       &sl(4,4)*rr(4,0))
     val = (w(1,4)*rr(1,0) + w(2,4)*rr(2,0)) + (w(3,4)*rr(3,0) + w(4,&
       &4)*rr(4,0))
-      return
-    end if
-    do l = 1, 4
-      s1(l) = 0.0D0
-    end do
-    do j1 = 0, 3
-      i1 = at + j1*30
-      do l = 1, 4
-        s2(l) = 0.0D0
-      end do
-      do j2 = 0, 3
-        i2 = i1 + j2*6
-        do l = 1, 4
-          r(l) = w(1,3)*tv(i2+l-1) + w(2,3)*tv(i2+l+1)
-          r(l) = r(l) + w(3,3)*tv(i2+l+3)
-        end do
-        do l = 1, 4
-          s2(l) = s2(l) + w(j2+1,2)*r(l)
-        end do
-      end do
-      do l = 1, 4
-        r(l) = s2(l)
-      end do
-      do l = 1, 4
-        s1(l) = s1(l) + w(j1+1,1)*r(l)
-      end do
-    end do
-    do l = 1, 4
-      r(l) = s1(l)
-    end do
-    val = (w(1,4)*r(1) + w(2,4)*r(2)) + (w(3,4)*r(3) + w(4,4)*r(4))
   end subroutine ftintg
 
   ! Zero and negative values lie below every logarithmic axis.

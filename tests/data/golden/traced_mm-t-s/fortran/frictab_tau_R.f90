@@ -483,7 +483,7 @@ contains
     u(4) = x(4)
     u(5) = x(5)
     u(6) = x(7)
-    call ftintg(u, val, du, .true.)
+    call ftintg(u, val, du)
     if (abs(du(1)) .gt. 0.0D0)&
       &  by(1) = du(1)/x(1)
     if (abs(du(2)) .gt. 0.0D0)&
@@ -537,14 +537,216 @@ contains
   ! are never changed: safe in threads and parallel domains.
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(6)
-    double precision du(6)
-    call ftintg(u, ftintp, du, .false.)
+    double precision x, t
+    integer i, at
+    double precision sc1, sh1
+    parameter (sc1 = 1.1731938631319383D0)
+    parameter (sh1 = 7.29094009283896D0)
+    double precision sc2, sh2
+    parameter (sc2 = 10.68186242225069D0)
+    parameter (sh2 = 0.0D0)
+    double precision sc3, sh3
+    parameter (sc3 = 0.43429448190325187D0)
+    parameter (sh3 = 0.6989700143360189D0)
+    double precision sc5, sh5
+    parameter (sc5 = 0.8D0)
+    parameter (sh5 = 0.0D0)
+    double precision sc6, sh6
+    parameter (sc6 = 0.5333333333333333D0)
+    parameter (sh6 = 10.666666666666666D0)
+    double precision w1, v1
+    double precision p1a, q1a
+    double precision w2, v2
+    double precision p2a, q2a
+    double precision p2b, q2b
+    double precision w3, v3
+    double precision p3a, q3a
+    double precision p3b, q3b
+    double precision w4, v4
+    double precision p4a, q4a
+    double precision p4b, q4b
+    double precision w5, v5
+    double precision p5a, q5a
+    double precision p5b, q5b
+    double precision w6, v6
+    at = 1
+    ! axis 1: cell i (from 0), weight t of its upper node
+    x = u(1)
+    if (x .le. un(1)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(3)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc1 - sh1)
+      do while (x .ge. un(i+2))
+        i = i + 1
+      end do
+      t = (x - un(i+1))*pc(i+1)
+    end if
+    at = at + i*162
+    w1 = t
+    v1 = 1.0D0 - t
+    ! axis 2: cell i (from 0), weight t of its upper node
+    x = u(2)
+    if (x .le. un(4)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(6)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc2 - sh2)
+      i = gd(i+1)
+      do while (x .ge. un(i+5))
+        i = i + 1
+      end do
+      t = (x - un(i+4))*pc(i+3)
+    end if
+    at = at + i*54
+    w2 = t
+    v2 = 1.0D0 - t
+    ! axis 3: cell i (from 0), weight t of its upper node
+    x = u(3)
+    if (x .le. un(7)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(9)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc3 - sh3)
+      do while (x .ge. un(i+8))
+        i = i + 1
+      end do
+      t = (x - un(i+7))*pc(i+5)
+    end if
+    at = at + i*18
+    w3 = t
+    v3 = 1.0D0 - t
+    ! axis 4: cell i (from 0), weight t of its upper node
+    x = u(4)
+    if (x .le. un(10)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(11)) then
+      i = 0
+      t = 1.0D0
+    else
+      i = 0
+      t = (x - un(i+10))*pc(i+7)
+    end if
+    at = at + i*9
+    w4 = t
+    v4 = 1.0D0 - t
+    ! axis 5: cell i (from 0), weight t of its upper node
+    x = u(5)
+    if (x .le. un(12)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(14)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc5 - sh5)
+      i = gd(i+34)
+      do while (x .ge. un(i+13))
+        i = i + 1
+      end do
+      t = (x - un(i+12))*pc(i+8)
+    end if
+    at = at + i*3
+    w5 = t
+    v5 = 1.0D0 - t
+    ! axis 6: cell i (from 0), weight t of its upper node
+    x = u(6)
+    if (x .le. un(15)) then
+      i = 0
+      t = 0.0D0
+    else if (x .ge. un(17)) then
+      i = 1
+      t = 1.0D0
+    else
+      i = int(x*sc6 - sh6)
+      i = gd(i+67)
+      do while (x .ge. un(i+16))
+        i = i + 1
+      end do
+      t = (x - un(i+15))*pc(i+10)
+    end if
+    at = at + i*1
+    w6 = t
+    v6 = 1.0D0 - t
+    p5a = v5*tv(at) + w5*tv(at+3)
+    q5a = v5*tv(at+1) + w5*tv(at+4)
+    p5b = v5*tv(at+9) + w5*tv(at+12)
+    q5b = v5*tv(at+10) + w5*tv(at+13)
+    p4a = v4*p5a + w4*p5b
+    q4a = v4*q5a + w4*q5b
+    p5a = v5*tv(at+18) + w5*tv(at+21)
+    q5a = v5*tv(at+19) + w5*tv(at+22)
+    p5b = v5*tv(at+27) + w5*tv(at+30)
+    q5b = v5*tv(at+28) + w5*tv(at+31)
+    p4b = v4*p5a + w4*p5b
+    q4b = v4*q5a + w4*q5b
+    p3a = v3*p4a + w3*p4b
+    q3a = v3*q4a + w3*q4b
+    p5a = v5*tv(at+54) + w5*tv(at+57)
+    q5a = v5*tv(at+55) + w5*tv(at+58)
+    p5b = v5*tv(at+63) + w5*tv(at+66)
+    q5b = v5*tv(at+64) + w5*tv(at+67)
+    p4a = v4*p5a + w4*p5b
+    q4a = v4*q5a + w4*q5b
+    p5a = v5*tv(at+72) + w5*tv(at+75)
+    q5a = v5*tv(at+73) + w5*tv(at+76)
+    p5b = v5*tv(at+81) + w5*tv(at+84)
+    q5b = v5*tv(at+82) + w5*tv(at+85)
+    p4b = v4*p5a + w4*p5b
+    q4b = v4*q5a + w4*q5b
+    p3b = v3*p4a + w3*p4b
+    q3b = v3*q4a + w3*q4b
+    p2a = v2*p3a + w2*p3b
+    q2a = v2*q3a + w2*q3b
+    p5a = v5*tv(at+162) + w5*tv(at+165)
+    q5a = v5*tv(at+163) + w5*tv(at+166)
+    p5b = v5*tv(at+171) + w5*tv(at+174)
+    q5b = v5*tv(at+172) + w5*tv(at+175)
+    p4a = v4*p5a + w4*p5b
+    q4a = v4*q5a + w4*q5b
+    p5a = v5*tv(at+180) + w5*tv(at+183)
+    q5a = v5*tv(at+181) + w5*tv(at+184)
+    p5b = v5*tv(at+189) + w5*tv(at+192)
+    q5b = v5*tv(at+190) + w5*tv(at+193)
+    p4b = v4*p5a + w4*p5b
+    q4b = v4*q5a + w4*q5b
+    p3a = v3*p4a + w3*p4b
+    q3a = v3*q4a + w3*q4b
+    p5a = v5*tv(at+216) + w5*tv(at+219)
+    q5a = v5*tv(at+217) + w5*tv(at+220)
+    p5b = v5*tv(at+225) + w5*tv(at+228)
+    q5b = v5*tv(at+226) + w5*tv(at+229)
+    p4a = v4*p5a + w4*p5b
+    q4a = v4*q5a + w4*q5b
+    p5a = v5*tv(at+234) + w5*tv(at+237)
+    q5a = v5*tv(at+235) + w5*tv(at+238)
+    p5b = v5*tv(at+243) + w5*tv(at+246)
+    q5b = v5*tv(at+244) + w5*tv(at+247)
+    p4b = v4*p5a + w4*p5b
+    q4b = v4*q5a + w4*q5b
+    p3b = v3*p4a + w3*p4b
+    q3b = v3*q4a + w3*q4b
+    p2b = v2*p3a + w2*p3b
+    q2b = v2*q3a + w2*q3b
+    p1a = v1*p2a + w1*p2b
+    q1a = v1*q2a + w1*q2b
+    ftintp = v6*p1a + w6*q1a
   end function ftintp
 
-  ! The same, and where asked for the derivatives du by u: 0 beyond
-  ! the ends of an axis.
-  pure subroutine ftintg(u, val, du, deriv)
-    logical, intent(in) :: deriv
+  ! Multilinear interpolation, the twin of frictab_kernel.h: same
+  ! nodes, same cells, same order of operations. The numbers below
+  ! are never changed: safe in threads and parallel domains.
+  pure subroutine ftintg(u, val, du)
     double precision, intent(in) :: u(6)
     double precision, intent(out) :: val, du(6)
     double precision x, t
@@ -731,31 +933,24 @@ contains
     at = at + i*1
     w6 = t
     v6 = 1.0D0 - t
-    if (deriv) then
-      g1 = pc(k1+1)
-      if (u(1) .lt. un(1) .or.&
-      &    u(1) .gt. un(3))&
-      &    g1 = 0.0D0
-      g2 = pc(k2+3)
-      if (u(2) .lt. un(4) .or.&
-      &    u(2) .gt. un(6))&
-      &    g2 = 0.0D0
-      g3 = pc(k3+5)
-      if (u(3) .lt. un(7) .or.&
-      &    u(3) .gt. un(9))&
-      &    g3 = 0.0D0
-      g4 = pc(k4+7)
-      if (u(4) .lt. un(10) .or.&
-      &    u(4) .gt. un(11))&
-      &    g4 = 0.0D0
-      g5 = pc(k5+8)
-      if (u(5) .lt. un(12) .or.&
-      &    u(5) .gt. un(14))&
-      &    g5 = 0.0D0
-      g6 = pc(k6+10)
-      if (u(6) .lt. un(15) .or.&
-      &    u(6) .gt. un(17))&
-      &    g6 = 0.0D0
+    g1 = pc(k1+1)
+    if (u(1) .lt. un(1) .or.&
+      &  u(1) .gt. un(3)) g1 = 0.0D0
+    g2 = pc(k2+3)
+    if (u(2) .lt. un(4) .or.&
+      &  u(2) .gt. un(6)) g2 = 0.0D0
+    g3 = pc(k3+5)
+    if (u(3) .lt. un(7) .or.&
+      &  u(3) .gt. un(9)) g3 = 0.0D0
+    g4 = pc(k4+7)
+    if (u(4) .lt. un(10) .or.&
+      &  u(4) .gt. un(11)) g4 = 0.0D0
+    g5 = pc(k5+8)
+    if (u(5) .lt. un(12) .or.&
+      &  u(5) .gt. un(14)) g5 = 0.0D0
+    g6 = pc(k6+10)
+    if (u(6) .lt. un(15) .or.&
+      &  u(6) .gt. un(17)) g6 = 0.0D0
     p5a = v5*tv(at) + w5*tv(at+3)
     p5a5 = tv(at+3) - tv(at)
     q5a = v5*tv(at+1) + w5*tv(at+4)
@@ -938,71 +1133,6 @@ contains
     du(4) = (v6*p1a4 + w6*q1a4)*g4
     du(5) = (v6*p1a5 + w6*q1a5)*g5
     du(6) = (q1a - p1a)*g6
-    val = v6*p1a + w6*q1a
-      return
-    end if
-    p5a = v5*tv(at) + w5*tv(at+3)
-    q5a = v5*tv(at+1) + w5*tv(at+4)
-    p5b = v5*tv(at+9) + w5*tv(at+12)
-    q5b = v5*tv(at+10) + w5*tv(at+13)
-    p4a = v4*p5a + w4*p5b
-    q4a = v4*q5a + w4*q5b
-    p5a = v5*tv(at+18) + w5*tv(at+21)
-    q5a = v5*tv(at+19) + w5*tv(at+22)
-    p5b = v5*tv(at+27) + w5*tv(at+30)
-    q5b = v5*tv(at+28) + w5*tv(at+31)
-    p4b = v4*p5a + w4*p5b
-    q4b = v4*q5a + w4*q5b
-    p3a = v3*p4a + w3*p4b
-    q3a = v3*q4a + w3*q4b
-    p5a = v5*tv(at+54) + w5*tv(at+57)
-    q5a = v5*tv(at+55) + w5*tv(at+58)
-    p5b = v5*tv(at+63) + w5*tv(at+66)
-    q5b = v5*tv(at+64) + w5*tv(at+67)
-    p4a = v4*p5a + w4*p5b
-    q4a = v4*q5a + w4*q5b
-    p5a = v5*tv(at+72) + w5*tv(at+75)
-    q5a = v5*tv(at+73) + w5*tv(at+76)
-    p5b = v5*tv(at+81) + w5*tv(at+84)
-    q5b = v5*tv(at+82) + w5*tv(at+85)
-    p4b = v4*p5a + w4*p5b
-    q4b = v4*q5a + w4*q5b
-    p3b = v3*p4a + w3*p4b
-    q3b = v3*q4a + w3*q4b
-    p2a = v2*p3a + w2*p3b
-    q2a = v2*q3a + w2*q3b
-    p5a = v5*tv(at+162) + w5*tv(at+165)
-    q5a = v5*tv(at+163) + w5*tv(at+166)
-    p5b = v5*tv(at+171) + w5*tv(at+174)
-    q5b = v5*tv(at+172) + w5*tv(at+175)
-    p4a = v4*p5a + w4*p5b
-    q4a = v4*q5a + w4*q5b
-    p5a = v5*tv(at+180) + w5*tv(at+183)
-    q5a = v5*tv(at+181) + w5*tv(at+184)
-    p5b = v5*tv(at+189) + w5*tv(at+192)
-    q5b = v5*tv(at+190) + w5*tv(at+193)
-    p4b = v4*p5a + w4*p5b
-    q4b = v4*q5a + w4*q5b
-    p3a = v3*p4a + w3*p4b
-    q3a = v3*q4a + w3*q4b
-    p5a = v5*tv(at+216) + w5*tv(at+219)
-    q5a = v5*tv(at+217) + w5*tv(at+220)
-    p5b = v5*tv(at+225) + w5*tv(at+228)
-    q5b = v5*tv(at+226) + w5*tv(at+229)
-    p4a = v4*p5a + w4*p5b
-    q4a = v4*q5a + w4*q5b
-    p5a = v5*tv(at+234) + w5*tv(at+237)
-    q5a = v5*tv(at+235) + w5*tv(at+238)
-    p5b = v5*tv(at+243) + w5*tv(at+246)
-    q5b = v5*tv(at+244) + w5*tv(at+247)
-    p4b = v4*p5a + w4*p5b
-    q4b = v4*q5a + w4*q5b
-    p3b = v3*p4a + w3*p4b
-    q3b = v3*q4a + w3*q4b
-    p2b = v2*p3a + w2*p3b
-    q2b = v2*q3a + w2*q3b
-    p1a = v1*p2a + w1*p2b
-    q1a = v1*q2a + w1*q2b
     val = v6*p1a + w6*q1a
   end subroutine ftintg
 
