@@ -42,15 +42,18 @@ void compare(const Exporter& exporter, const ExportRequest& request, std::size_t
   }
 }
 
-TEST_P(Agreement, OfTheRoutineWithFrictabItselfOverAMillionPoints) {
+// The law alone, in C and in Fortran, over two million states; what stands around the same core in
+// a solver's routine over a tenth of them.
+TEST_P(Agreement, OfTheRoutineWithFrictabItself) {
   const Exporter& exporter = *find_exporter(GetParam().target);
+  const std::size_t rows = exporter.batch ? 200000 : 20000;
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
     const ExportRequest request{sample.table, GetParam().units, {}};
     // Properties are constants of a call: most points share them, as in a solver.
     const std::map<std::string, double> fixed = {
         {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};
-    compare(exporter, request, 200000, fixed);
+    compare(exporter, request, rows, fixed);
     compare(exporter, request, 2000, {});
   }
 }
