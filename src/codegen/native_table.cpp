@@ -364,7 +364,7 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
 std::vector<BuildVariant> native_variants(const ExportRequest&) {
   BuildVariant deck;
   deck.name = "deck";
-  deck.eps = 5e-10; // nine digits
+  deck.eps = 5e-9; // nine digits
   return {deck};
 }
 

@@ -45,11 +45,10 @@ std::string grid_text(const ExportRequest& request, const NativeTable& table) {
 std::string range_of_column(const ExportRequest& request, const NativeColumn& column,
                             const std::vector<double>& nodes) {
   if (nodes.size() < 2) return "no matter to this law";
-  return fmt::format("{:.6g} .. {:.6g} {}, {} nodes{}", nodes.front(), nodes.back(),
-                     column.argument.solver.name, nodes.size(),
-                     request.table.range(column.argument.name) || !column.argument.used
-                         ? ""
-                         : " (range not known: Table 1 of the paper)");
+  return fmt::format(
+      "{:.6g} .. {:.6g} {}, {} nodes{}", nodes.front(), nodes.back(), column.argument.solver.name,
+      nodes.size(),
+      request.table.range(column.argument.name) ? "" : " (range not known: Table 1 of the paper)");
 }
 
 } // namespace

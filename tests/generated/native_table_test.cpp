@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using Inputs = std::map<std::string, std::string>;
 
 // Nine digits in the text, half of the last one off.
-constexpr double nine_digits = 5.1e-10;
+constexpr double nine_digits = 5.1e-9;
 const std::vector<std::string> natives = {"abaqus_table", "lsdyna_table", "ansys_table",
                                           "deform_table"};
 const std::map<std::string, std::string> files = {{"abaqus_table", "frictab_friction.inp"},
@@ -285,7 +285,7 @@ TEST(NativeTables, InMetreKilogramSecondAreTheSameFriction) {
 TEST(NativeTables, DriverReadsTheFileAndNothingElse) {
   const Table table = four_axes();
   const ExportRequest request{table, "mm-t-s", {}};
-  const test::States states(table, 200, 5, 0.0, {{"sigma_f_MPa", 480}});
+  const test::States states(table, 20000, 5, 0.0, {{"sigma_f_MPa", 480}});
   for (const std::string& target : natives) {
     const std::string text = text_of(target, table);
     const std::vector<double> before = driven(target, request, text, states);
@@ -293,7 +293,7 @@ TEST(NativeTables, DriverReadsTheFileAndNothingElse) {
     const std::size_t number = text.find("0.", text.find("500", text.rfind("Source: ")));
     std::string changed = text;
     changed[number + 2] = changed[number + 2] == '9' ? '1' : '9';
-    EXPECT_NE(driven(target, request, changed, states), before) << target;
+    EXPECT_TRUE(driven(target, request, changed, states) != before) << target;
     std::string cut = text.substr(0, text.size() / 2);
     cut = cut.substr(0, cut.rfind('\n') + 1);
     EXPECT_THROW(driven(target, request, cut, states), std::runtime_error) << target;

@@ -119,8 +119,8 @@ TEST_P(QFormLua, HoldsTablesOfManyValues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Interpreters, QFormLua, testing::Values("luajit", "lua5.4"),
-                         [](const auto& info) {
-                           return info.param == "luajit" ? std::string("luajit")
+                         [](const auto& given) {
+                           return given.param == "luajit" ? std::string("luajit")
                                                          : std::string("lua54");
                          });
 
