@@ -137,9 +137,16 @@ C       that would hold the node; magnitude of the force before.
 C
 C       NaN first: nothing below compares with one.
         fric = 0.0D0
-        if (ftnan(pnorm) .or. ftnan(area) .or. ftnan(hold)
-     &    .or. ftnan(slip) .or. ftnan(rate)) then
-          fric = ftqnan()
+        if (ftnan(pnorm)) then
+          fric = pnorm
+        else if (ftnan(area)) then
+          fric = area
+        else if (ftnan(hold)) then
+          fric = hold
+        else if (ftnan(slip)) then
+          fric = slip
+        else if (ftnan(rate)) then
+          fric = rate
         else if (pnorm .gt. 0.0D0 .and. area .le. 0.0D0) then
 C         A contact of another type: tau_R has nothing to act on.
           call ftarea

@@ -182,7 +182,8 @@ TYPED_TEST(LsDyna, GivesNoForceAlongTheNormalAndCountsTangentialSlipOnly) {
   // 0.6 and 0.8 are no unit vector in single precision to more than its last bits.
   EXPECT_NEAR(along, 0, 1e-6 * this->tau());
   EXPECT_NEAR(std::sqrt(size), this->tau(), 2e-5 * this->tau());
-  EXPECT_GT(c.force[0][0], 0);
+  EXPECT_GT(c.force[1][0], 0);
+  EXPECT_NEAR(c.force[0][0] / c.force[1][0], (1 - 0.6 * 3) / 2, 1e-5);
   EXPECT_NEAR(c.history[0], 50 / double(c.rate), 2e-5 * 50 / double(c.rate));
 }
 
