@@ -116,8 +116,8 @@ Finding target_finding(const Exporter& target) {
     std::vector<std::string> lacking;
     for (const BuildVariant& variant : variants) {
       const std::string& program = variant.program();
-      const bool there = program.empty() ||
-                         (program.find('/') == program.npos && !on_path(program).empty());
+      const bool there =
+          program.empty() || (program.find('/') == program.npos && !on_path(program).empty());
       if (!there && std::count(lacking.begin(), lacking.end(), program) == 0)
         lacking.push_back(program);
     }

@@ -284,7 +284,8 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
       implicit none
       double precision x(4)
       double precision val
-      double precision u(2), ftintp
+      double precision u(2)
+      double precision ftintp
       double precision ftmin
       double precision ftmax
       double precision ftwhle
@@ -350,7 +351,8 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      double precision u(2), x, t
+      double precision u(2)
+      double precision x, t
       integer i, at
       double precision sc1, sh1
       parameter (sc1 = 1.28D0)

@@ -232,7 +232,8 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
       implicit none
       double precision x(4)
       double precision val
-      double precision u(2), ftintp
+      double precision u(2)
+      double precision ftintp
       double precision ftmin
       double precision ftmax
       double precision ftwhle
@@ -286,13 +287,15 @@ C     canonical unit. 0 by an axis at whose end the table stops, NaN
 C     where x holds one.
       subroutine ftgrad(x, tau, dtau)
       implicit none
-      double precision x(4), tau, dtau(4)
+      double precision x(4)
+      double precision tau, dtau(4)
       double precision val
       double precision by(4)
       double precision u(2), du(2)
       double precision ftmin
       double precision ftmax
       double precision ftwhle
+      logical ftnan
       double precision t1, t2, t3, t4, t5, t6, t7, t8
       double precision t9, t10, t11, t12, t13, t14, t15, t16
       double precision t17, t18, t19, t20, t21, t22, t23, t24
@@ -311,7 +314,6 @@ C     n
       double precision c2
 C     shape number
       parameter (c2 = 1.25D0)
-      logical ftnan
       integer i, j
       do i = 1, 4
         if (ftnan(x(i))) then
@@ -451,7 +453,8 @@ C     nodes, same cells, same order of operations. The numbers below
 C     are never changed: safe in threads and parallel domains.
       double precision function ftintp(u)
       implicit none
-      double precision u(2), du(2)
+      double precision u(2)
+      double precision du(2)
       call ftintg(u, ftintp, du, .false.)
       return
       end
@@ -461,7 +464,9 @@ C     the ends of an axis.
       subroutine ftintg(u, val, du, deriv)
       implicit none
       logical deriv
-      double precision u(2), val, du(2), x, t
+      double precision u(2)
+      double precision val, du(2)
+      double precision x, t
       integer i, at
       double precision sc1, sh1
       parameter (sc1 = 1.28D0)
@@ -553,14 +558,12 @@ C     axis 2: cell i (from 0), weight t of its upper node
       w2 = t
       v2 = 1.0D0 - t
       if (deriv) then
-        g1 = pc(k1+1)
-        if (u(1) .lt. un(1) .or.
-     &    u(1) .gt. un(4))
-     &    g1 = 0.0D0
-        g2 = pc(k2+4)
-        if (u(2) .lt. un(5) .or.
-     &    u(2) .gt. un(13))
-     &    g2 = 0.0D0
+      g1 = pc(k1+1)
+      if (u(1) .lt. un(1) .or.
+     &  u(1) .gt. un(4)) g1 = 0.0D0
+      g2 = pc(k2+4)
+      if (u(2) .lt. un(5) .or.
+     &  u(2) .gt. un(13)) g2 = 0.0D0
       p1a = v1*tv(at) + w1*tv(at+9)
       p1a1 = tv(at+9) - tv(at)
       q1a = v1*tv(at+1) + w1*tv(at+10)

@@ -22,30 +22,35 @@ C     sigma_f_MPa: property 3; 240 .. 960 MPa (no axis: any value,
 C       verified there)
 C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
-C     NaN in gives NaN out; such a point's STATEV stay as they were.
 C
 C     PROPS (PROPERTIES=3; a property the deck does not give
 C     takes the value in brackets):
 C     1 surface expansion ratio A1/A0, 1 (4.47214)
 C     2 contact temperature, degC (110), reference where nTemp = 0
 C     3 flow stress of the workpiece, MPa (480)
-C     STATEV (DEPVAR=4), by surface node:
-C     1 accumulated slip (mm), 2 friction work per area
-C     (MPa*mm), 3 peak pressure (MPa), 4 increments in
-C     which the state was outside the range.
 C
-C     Where a node has no area (areaSec <= 0) there is no pressure
-C     to look up, and its friction force is 0.
-C     Signature: the argument list of releases 2022 and later; older
-C     ones name the arguments differently but in the same order.
+C     STATEV (DEPVAR=6), by surface node:
+C     1 accumulated slip under pressure (mm)
+C     2 friction work per area (MPa*mm)
+C     3 peak pressure (MPa)
+C     4 increments in which the state was outside the range
+C     5 what the solver's precision rounds off 1 (mm)
+C     6 what the solver's precision rounds off 2 (MPa*mm)
+C     With a smaller DEPVAR those that it leaves out are not kept.
+C     NaN in gives NaN out; such a point's STATEV stay as they were. A
+C       point without area has no pressure to look up, and no friction.
+C
+C     Argument list:
 C     verified: full text of the argument list in a public copy of the
 C       manual page, names as in the v2024 reference; order and count
 C       the same in older releases. Recalled, check against your
 C       release: nTemp = 1 where temperatures exist, numDefTfv = 1 for
 C       an analytical rigid surface, negative fStickForce, area 1 of
-C       node-based surfaces. XPLB_ABQERR (only where outside = error) is
-C       called as public routines do
+C       node-based surfaces, STATEV = 0 at the start. XPLB_ABQERR (only
+C       where outside = error) is called as public routines do
 C
+C     Names are those of releases 2022 and later; older ones differ, in
+C     the same order.
       subroutine vfric(
 C Write only -
      1 fTangential,
@@ -78,13 +83,9 @@ C
 C
 C     All that is computed is double precision, whatever the solver's
 C     precision.
-      double precision x(5), pnorm, area, stick, slip, comp
-      double precision speed, dtime, press, fric, fprev, ssum
-      double precision fttau
-      logical ftnan
-      external fttau, ftnan
-      logical ftout
-      external ftout
+      double precision x(5), pnorm, area, stick, slip, fprev
+      double precision dtime, fric, comp, hist(3), add(4)
+      logical lkeep
 C
 C     psi: property 1
       x(2) = 4.47213595499958D0
@@ -101,83 +102,160 @@ C     sigma_f_MPa: property 3
         do i = 1, nFricDir
           fTangential(i,k) = 0
         end do
-        node = jConSecid(k)
         pnorm = fNormal(k)
-        area = areaSec(node)
+        area = areaSec(jConSecid(k))
         stick = fStickForce(k)
         slip = 0.0D0
+        fprev = 0.0D0
         do i = 1, nDir
           comp = dSlipFric(i,k)
           slip = slip + comp*comp
+          comp = fTangPrev(i,k)
+          fprev = fprev + comp*comp
         end do
         slip = sqrt(slip)
-C
-C       NaN first: nothing below compares with one.
-        fric = 0.0D0
-        if (ftnan(pnorm)) then
-          fric = pnorm
-        else if (ftnan(area)) then
-          fric = area
-        else if (ftnan(stick)) then
-          fric = stick
-        else if (ftnan(slip)) then
-          fric = slip
-        else if (ftnan(dtime)) then
-          fric = dtime
-        else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
-          press = pnorm/area
-          speed = 0.0D0
-          if (dtime .gt. 0.0D0) speed = slip/dtime
-          ssum = 0.0D0
-          if (nStateVar .ge. 1) then
-            ssum = statev(1,node)
-            ssum = ssum + slip
-            statev(1,node) = real(ssum, kind(statev))
+        fprev = sqrt(fprev)
+C       T_contact_C: mean of both surfaces; property 2 where nTemp = 0
+        if (nTemp .gt. 0) then
+          x(4) = tempSec(k)
+          if (numDefTfv .ge. 1) then
+            comp = tempMain(min(k,numDefTfv))
+            x(4) = 0.5D0*(x(4) + comp)
           end if
-          x(1) = press
-          x(3) = speed
-C         T_contact_C: mean of both surfaces; property 2 where nTemp = 0
-          if (nTemp .gt. 0) then
-            x(4) = tempSec(k)
-            if (numDefTfv .ge. 1) then
-              comp = tempMain(min(k,numDefTfv))
-              x(4) = 0.5D0*(x(4) + comp)
-            end if
-          else
-            x(4) = 110.0D0
-            if (nProps .ge. 2)
-     &        x(4) = props(2)
-          end if
-          fric = fttau(x)
-          if (.not. ftnan(fric)) then
-            fric = fric*area
-            if (fric .gt. stick) fric = stick
-            if (fric .lt. 0.0D0) fric = 0.0D0
-            fprev = 0.0D0
-            do i = 1, nDir
-              comp = fTangPrev(i,k)
-              fprev = fprev + comp*comp
-            end do
-            fprev = sqrt(fprev)
-C           Work of the increment that has just been done: mean of
-C           the force then and the force now, times its slip.
-            if (nStateVar .ge. 2) then
-              comp = statev(2,node)
-              comp = comp + 0.5D0*(fprev + fric)/area*slip
-              statev(2,node) = real(comp, kind(statev))
-            end if
-            if (nStateVar .ge. 3) then
-              comp = statev(3,node)
-              if (press .gt. comp)
-     &          statev(3,node) = real(press, kind(statev))
-            end if
-            if (nStateVar .ge. 4) then
-              if (ftout(x)) statev(4,node) = statev(4,node) + 1
-            end if
-          end if
+        else
+          x(4) = 110.0D0
+          if (nProps .ge. 2)
+     &      x(4) = props(2)
         end if
+        do i = 1, 3
+          hist(i) = 0.0D0
+        end do
+        if (nStateVar .ge. 1) call ftread(nStateVar, 1,
+     &    statev(1,jConSecid(k)), hist)
+        call ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
+     &    fric, add, lkeep)
+        if (lkeep .and. nStateVar .ge. 1) call ftkeep(nStateVar,
+     &    1, statev(1,jConSecid(k)), add)
+C       Along the slip, which is the first local axis.
         if (nFricDir .ge. 1)
      &    fTangential(1,k) = real(-fric, kind(fTangential))
+      end do
+      return
+      end
+C
+C     One contact point, in double precision. In: x as far as the entry
+C     fills it; normal force, area, stick force, slip of the increment
+C     and its time, size of the friction force before it; hist: slip,
+C     work per area and peak pressure before it. Out: fric, against the
+C     slip; add: what the state variables gain, where lkeep.
+      subroutine ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
+     &  fric, add, lkeep)
+      implicit none
+      double precision x(5), pnorm, area, stick, slip, dtime, fprev
+      double precision hist(3), fric, add(4), press, speed, fttau
+      logical lkeep, ftnan
+      integer i
+      external fttau, ftnan
+      logical ftout
+      external ftout
+      lkeep = .false.
+      do i = 1, 4
+        add(i) = 0.0D0
+      end do
+C     NaN first: nothing below compares with one.
+      fric = 0.0D0
+      if (ftnan(pnorm)) then
+        fric = pnorm
+      else if (ftnan(area)) then
+        fric = area
+      else if (ftnan(stick)) then
+        fric = stick
+      else if (ftnan(slip)) then
+        fric = slip
+      else if (ftnan(dtime)) then
+        fric = dtime
+      else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
+        press = pnorm/area
+        speed = 0.0D0
+        if (dtime .gt. 0.0D0) speed = slip/dtime
+C       sigma_n_MPa: fNormal/areaSec of the surface node
+        x(1) = press
+C       v_rel_mm_s: |dSlipFric|/dTimCur (0 where dTimCur = 0)
+        x(3) = speed
+        fric = fttau(x)
+        if (ftnan(fric)) return
+        fric = fric*area
+        if (fric .gt. stick) fric = stick
+        if (fric .lt. 0.0D0) fric = 0.0D0
+        lkeep = .true.
+        add(1) = slip
+C       The increment that has just been done: mean of the force then
+C       and the force now, times its slip.
+        if (slip .gt. 0.0D0) add(2) = 0.5D0*(fprev + fric)/area*slip
+        add(3) = press
+        if (ftout(x)) add(4) = 1.0D0
+      end if
+      return
+      end
+C
+C     What the state variables of a point hold, as the mean of its
+C     columns: slip, work, peak pressure; 0 where there are none.
+      subroutine ftread(nst, ncol, st, hist)
+      include 'vaba_param.inc'
+      dimension st(nst,ncol)
+      double precision hist(3), part
+      do i = 1, 3
+        hist(i) = 0.0D0
+        if (nst .ge. i) then
+          do j = 1, ncol
+            part = st(i,j)
+            hist(i) = hist(i) + part
+            if (i .le. 2 .and. nst .ge. i + 4) then
+              part = st(i+4,j)
+              hist(i) = hist(i) + part
+            end if
+          end do
+          hist(i) = hist(i)/ncol
+        end if
+      end do
+      return
+      end
+C
+C     Adds an increment to each column. What the solver's precision
+C     rounds off slip and work is kept in 5 and 6: increments are small
+C     against their sum.
+      subroutine ftkeep(nst, ncol, st, add)
+      include 'vaba_param.inc'
+      dimension st(nst,ncol)
+      double precision add(4), both, part, lost
+      logical ftnan
+      external ftnan
+      do j = 1, ncol
+        do i = 1, min(2,nst)
+          both = st(i,j)
+          part = 0.0D0
+          if (nst .ge. i + 4) part = st(i+4,j)
+          both = both + part + add(i)
+          st(i,j) = real(both, kind(st))
+          if (nst .ge. i + 4) then
+            part = st(i,j)
+            lost = 0.0D0
+            if (.not. ftnan(part)) then
+              if (abs(part) .le. huge(part)) lost = both - part
+            end if
+            st(i+4,j) = real(lost, kind(st))
+          end if
+        end do
+        if (nst .ge. 3) then
+          part = st(3,j)
+          if (.not. ftnan(part)) then
+            if (add(3) .gt. part) st(3,j) = real(add(3), kind(st))
+          end if
+        end if
+        if (nst .ge. 4) then
+          part = st(4,j)
+          st(4,j) = real(part + add(4), kind(st))
+        end if
       end do
       return
       end
