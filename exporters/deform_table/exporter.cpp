@@ -6,6 +6,7 @@
 
 #include "codegen/native_table.h"
 #include "codegen/template.h"
+#include "core/error.h"
 #include "io/atomic_file.h"
 
 namespace frictab::deform_table {
@@ -21,9 +22,14 @@ const std::vector<ExportOption> options = {
      "what DEFORM multiplies: coulomb = mu, by pressure (FricType 2); shear = m, by the shear "
      "yield stress (FricType 1)"}};
 
+// The routine of the same name knows a third word.
 bool is_shear(const ExportRequest& request) {
-  const auto said = request.options.find(friction_option);
-  return said != request.options.end() && said->second == "shear";
+  const std::string& said = find_exporter("deform_table")->option(request, friction_option);
+  if (said != "shear" && said != "coulomb")
+    throw InputError({std::string("export.options.") + friction_option, 0, 0},
+                     "a FRCFAC table holds mu or m, not '" + said + "'",
+                     "coulomb or shear; only deform_usrbcc takes constant");
+  return said == "shear";
 }
 
 NativeForm form(const ExportRequest& request) {

@@ -111,7 +111,9 @@ std::string subject_text(const DriftRecord& r) {
   return r.held ? name + "<br>" + svg::escape(cost_text(r)) : name;
 }
 
-TemplateValues record_row(const DriftRecord& r) {
+// `table`: the record of the table that the source was made from; most sources are furthest where
+// it is.
+TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
   const bool any_rows = r.n_rows > r.n_outside || r.rows.max_abs > 0; // the law goes on outside
   const auto on_rows = [&](double value) { return any_rows ? drift_figures(value) : "\u2013"; };
   TemplateValues row;
@@ -120,7 +122,8 @@ TemplateValues record_row(const DriftRecord& r) {
               {"subject", subject_text(r)},
               {"worst", drift_figures(r.worst_case_MPa)},
               {"proven", proven_text(r)},
-              {"state", state_text(r)},
+              {"state",
+               &r != &table && r.worst_state == table.worst_state ? "as the table" : state_text(r)},
               {"vs_table", r.subject == "table" ? "\u2013" : drift_figures(r.max_vs_table_MPa)},
               {"max", on_rows(r.rows.max_abs)},
               {"mean", on_rows(r.rows.mean_abs)},
@@ -155,8 +158,11 @@ void add_tables(TemplateValues& page, const ReportInput& input) {
 
 void add_drift(TemplateValues& page, const ReportInput& input) {
   std::vector<TemplateValues>& records = page.lists["records"];
-  for (const DriftRecord& record : input.verification.records)
-    records.push_back(record_row(record));
+  const DriftRecord* table = nullptr;
+  for (const DriftRecord& record : input.verification.records) {
+    if (!table || record.subject == "table" || record.model != table->model) table = &record;
+    records.push_back(record_row(record, *table));
+  }
   page.flags["has_records"] = !records.empty();
   page.text["allowed"] = short_figures(input.verification.max_drift_MPa);
 }

@@ -194,6 +194,11 @@ TEST(DeformTable, NeedsAFlowStressForTheShearFactorOfALawWithoutOne) {
             "accepted");
 }
 
+TEST(DeformTable, RefusesTheWordThatOnlyTheRoutineKnows) {
+  EXPECT_THAT(refusal("deform_table", four_axes(), {}, {{"deform_friction", "constant"}}),
+              HasSubstr("a FRCFAC table holds mu or m, not 'constant'"));
+}
+
 TEST(AnsysTable, FieldsStayActiveAndAscendWithThePressureFastest) {
   const auto lines = lines_of(text_of("ansys_table", four_axes()), "!", ",");
   EXPECT_EQ(lines[0], (std::vector<std::string>{"TB", "FRIC", "ft_mat", "ISO"}));

@@ -99,7 +99,7 @@ TEST_P(QFormLua, HoldsFormulasOfMoreOperationsThanAFunctionHasLocals) {
   Table table = test::constant_table();
   Expr sum = Expr::symbol("sigma_n_MPa");
   for (int i = 1; i <= 400; ++i)
-    sum = sum + sqrt(sum + i);
+    sum = sum + sqrt(Expr::symbol("sigma_n_MPa") + i);
   table.combine = sum;
   const double state[] = {100};
   EXPECT_EQ(run(source(table), "print(string.format('%.10g', frictab_tau_R(100)))\n"),
