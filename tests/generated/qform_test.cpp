@@ -121,7 +121,7 @@ TEST_P(QFormLua, HoldsTablesOfManyValues) {
 INSTANTIATE_TEST_SUITE_P(Interpreters, QFormLua, testing::Values("luajit", "lua5.4"),
                          [](const auto& given) {
                            return given.param == "luajit" ? std::string("luajit")
-                                                         : std::string("lua54");
+                                                          : std::string("lua54");
                          });
 
 TEST(QFormSource, MarksTheWrapperAsRecalled) {
