@@ -1,11 +1,48 @@
 // Compiles generated sources for tests and keeps the libraries loaded.
 #include "support/generated.h"
 
+#include <filesystem>
 #include <map>
 
 #include <fenv.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "core/text.h"
 
 namespace frictab::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// ctest runs every test as a process of its own: what one has compiled lies beside the tests for
+// the others, by its text and its compiler's command.
+fs::path kept_library(const SourceBundle& bundle, const BuildVariant& build) {
+  std::string all = join(build.command, "\n");
+  for (const SourceBundle* files : {&bundle, &build.extra})
+    for (const auto& [path, text] : *files)
+      all += "\n" + path + "\n" + text;
+  const std::string name = fmt::format("{:016x}.so", XXH3_64bits(all.data(), all.size()));
+  return fs::path(FRICTAB_BINARY).parent_path() / "tests" / "compiled" / name;
+}
+
+std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVariant& build) {
+  const fs::path kept = kept_library(bundle, build);
+  if (!fs::exists(kept)) {
+    const TemporaryDirectory work;
+    const fs::path made = compile_library(bundle, build, work.path());
+    const fs::path own = kept.string() + "." + std::to_string(getpid());
+    fs::create_directories(kept.parent_path());
+    fs::copy_file(made, own);
+    fs::rename(own, kept); // whole or not at all, whoever else makes it
+  }
+  return std::make_unique<Library>(kept);
+}
+
+} // namespace
 
 const Library* compiled(const std::string& key, const Exporter& exporter,
                         const ExportRequest& request, const std::string& variant,
@@ -17,10 +54,8 @@ const Library* compiled(const std::string& key, const Exporter& exporter,
     if (build.name != variant) continue;
     if (!have_program(build.command[0])) return nullptr;
     build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
-    const TemporaryDirectory work;
-    const SourceBundle bundle = exporter.generate(request);
-    auto library = std::make_unique<Library>(compile_library(bundle, build, work.path()));
-    return libraries.emplace(name, std::move(library)).first->second.get();
+    return libraries.emplace(name, library_of(exporter.generate(request), build))
+        .first->second.get();
   }
   throw std::logic_error("no variant " + name);
 }
