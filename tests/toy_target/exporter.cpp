@@ -1,0 +1,59 @@
+// A target that exists in no release: what adding one takes. It is this file alone, linked to the
+// program; nothing else names it. Tables without axes become a text that holds their formula.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "codegen/exporter.h"
+#include "codegen/recipe.h"
+#include "core/error.h"
+#include "expr/program.h"
+#include "io/atomic_file.h"
+#include "io/json.h"
+
+namespace frictab {
+
+namespace {
+
+SourceBundle generate(const ExportRequest& request) {
+  if (!request.table.axes.empty())
+    throw InputError({}, "the toy target knows no axes", "a law of one coefficient");
+  std::map<std::string, Expr> numbers = {{"value", request.table.value.at(0)}};
+  for (const auto& [name, number] : request.table.constants)
+    numbers[name] = number;
+  SourceBundle files;
+  files["toy.txt"] = to_text(substitute(request.table.combine, numbers)) + "\n";
+  files["recipe.json"] = json_text(recipe_head(*find_exporter("toy"), request, "toy.txt", files));
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest&) {
+  BuildVariant text;
+  text.name = "text";
+  text.eps = 0x1p-53;
+  return {text};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  std::string text = read_file(built.directory / "toy.txt");
+  text.pop_back();
+  Program(parse_expr(text), request.table.inputs(), {}).evaluate(rows, columns, {}, tau.data());
+}
+
+const Registered<Exporter> registered{[] {
+  Exporter out;
+  out.name = "toy";
+  out.order = 1000;
+  out.title = "A toy";
+  out.signature_source = "verified: by its own test";
+  out.notes = "Tables without axes only.";
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}};
+
+} // namespace
+
+} // namespace frictab
