@@ -68,9 +68,10 @@ bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& e
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, section.path),
                  "possible: " + join(names, ", "));
   else
-    reader.fault(entry.key_place,
-                 fmt::format("unknown quantity {} in [{}]", in_quotes(entry.key), section.path),
-                 suggest(entry.key, names));
+    reader.fault(
+        entry.key_place,
+        fmt::format("unknown {} {} in [{}]", section.child, in_quotes(entry.key), section.path),
+        suggest(entry.key, names));
   return false;
 }
 

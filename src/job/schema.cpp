@@ -97,7 +97,7 @@ const std::vector<SectionRule>& section_rules() {
       {"export.inputs", "where states come from that the solver does not give",
        "psi = \"constant:1.0\"", schema::state_names, nullptr},
       {"export.options", "choices that targets offer, by the names `frictab explain TARGET` lists",
-       "", schema::option_names, nullptr},
+       "", schema::option_names, nullptr, "option"},
       {"verify", "the proof of drift", "", nullptr, nullptr},
       {"trace", "the search for effects a law lacks", "", nullptr, nullptr},
       {"output", "where results go", "", nullptr, nullptr},

@@ -68,6 +68,7 @@ struct SectionRule {
   std::string example; // TOML lines for `init`, where the keys below are named by the user
   std::vector<std::string> (*children)() = nullptr;
   Place* (*place)(Job&, const std::string& name) = nullptr; // where the job remembers the place
+  std::string child = "quantity";                           // what a name of the user's stands for
 };
 
 const std::vector<KeyRule>& key_rules();

@@ -182,6 +182,15 @@ TEST(JobMessages, SayTheAllowedWords) {
             "job.toml:4:8: error: export.form must be \"table\" or \"direct\", not the text "
             "\"drect\"\n"
             "  hint: did you mean \"direct\"?");
+  EXPECT_EQ(
+      with("[export.options]\n"
+           "abaqus_release = \"2019\"\n"
+           "marc_fricton = \"shear\""),
+      "job.toml:4:18: error: export.options.abaqus_release must be one of 2024, 2020, not the "
+      "text \"2019\"\n"
+      "  hint: did you mean '2024'?\n"
+      "job.toml:5:1: error: unknown option 'marc_fricton' in [export.options]\n"
+      "  hint: did you mean 'marc_friction'?");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"const:1\""),
             "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "
