@@ -28,6 +28,16 @@ bool kept(const Exporter& exporter, const test::NamedTable& sample) {
   return whole.count(exporter.name) || tables.count(sample.name);
 }
 
+// The core ends a fixed-form source. It is the same text in all of them: VFRIC's keep it, the
+// others stop where it begins.
+std::string own_text(const Exporter& exporter, const std::string& path,
+                     const std::string& content) {
+  const std::size_t core = content.find("C     tau_R in MPa of the state x in canonical units:");
+  if (!path.ends_with(".f") || exporter.name == "abaqus_vfric" || core == content.npos)
+    return content;
+  return content.substr(0, core) + "C     (here goes the core: see abaqus_vfric)\n";
+}
+
 // By path below the root.
 SourceBundle generated() {
   SourceBundle all;
@@ -38,7 +48,8 @@ SourceBundle generated() {
           continue; // one text per thing that differs
         const test::SampleRequest request(exporter, sample.table, units);
         for (auto& [path, content] : exporter.generate(request.get()))
-          all[sample.name + "_" + units + "/" + exporter.name + "/" + path] = content;
+          all[sample.name + "_" + units + "/" + exporter.name + "/" + path] =
+              own_text(exporter, path, content);
       }
   return all;
 }
