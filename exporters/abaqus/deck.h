@@ -1,10 +1,8 @@
-// What all targets for Abaqus say alike: keyword lines of the input deck, parts of recipe.json.
+// Keyword lines of the input deck that all targets for Abaqus share.
 #pragma once
 
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "codegen/solver_inputs.h"
 
@@ -16,8 +14,7 @@ namespace frictab::abaqus {
 std::string friction_lines(const std::string& user, unsigned depvar,
                            const std::vector<SolverInput>& inputs);
 
-// Where each state comes from; each property with unit and what stands in for it.
-nlohmann::ordered_json recipe_arguments(const std::vector<SolverInput>& inputs);
-nlohmann::ordered_json recipe_properties(const std::vector<SolverInput>& inputs);
+// The numbers of property lines, eight to a line.
+std::string property_deck(const std::vector<std::string>& values);
 
 } // namespace frictab::abaqus

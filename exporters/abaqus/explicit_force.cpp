@@ -6,6 +6,7 @@
 
 #include "codegen/fortran_core.h"
 #include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
 #include "core/text.h"
 #include "deck.h"
 #include "io/json.h"
@@ -110,7 +111,7 @@ std::string recipe(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs, const SourceBundle& files,
                    const std::string& file) {
   json out = recipe_head(*find_exporter(routine.target), request, routine.entry, files);
-  out["arguments"] = recipe_arguments(inputs);
+  out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = routine.arguments_note;
   out["result"] = {{"name", "fTangential(1,k)"},
                    {"meaning", "-min(tau_R*area, max(fStickForce, 0)); other components 0"}};

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "codegen/fortran_core.h"
 #include "stop.h"
@@ -14,8 +13,6 @@
 namespace frictab::abaqus {
 
 namespace {
-
-using json = nlohmann::ordered_json;
 
 // Templates ask for every source, also where this argument list has none.
 Lines all_flags(Lines inputs) {
@@ -136,40 +133,6 @@ std::vector<BuildVariant> variants(const ExportRequest& request, const std::stri
   };
   const std::vector<TableAxis>& axes = request.table.axes;
   return {variant(file, std::any_of(axes.begin(), axes.end(), refuses))};
-}
-
-json states_json(const std::vector<SolverInput>& inputs) {
-  json out = json::array();
-  for (const SolverInput& input : inputs)
-    out.push_back({{"quantity", input.argument.name},
-                   {"unit", input.argument.solver.name},
-                   {"meaning", input.argument.meaning},
-                   {"source", input.text}});
-  return out;
-}
-
-json properties_json(const std::vector<SolverInput>& inputs) {
-  json out = json::array();
-  for (const SolverInput& input : inputs) {
-    if (!input.property) continue;
-    json one = {{"number", input.property},
-                {"quantity", input.argument.name},
-                {"unit", input.argument.solver.name},
-                {"meaning", input.argument.meaning},
-                {"used_when", input.without.empty() ? "always" : input.without},
-                {"where_absent", nullptr}};
-    if (input.fallback) one["where_absent"] = input.argument.solver.from_canonical(*input.fallback);
-    out.push_back(one);
-  }
-  return out;
-}
-
-std::string property_deck(const std::vector<std::string>& values) {
-  std::string deck;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    deck +=
-        (i % 8 == 0 ? " " : ", ") + values[i] + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
-  return deck;
 }
 
 std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,

@@ -1,12 +1,9 @@
-// What the targets for Abaqus/Standard share: choices, units, states, how they are compiled here
-// and their part of the recipe.
+// What the targets for Abaqus/Standard share: choices, units, states, how they are compiled here.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
@@ -33,12 +30,6 @@ std::size_t history_size(std::size_t n); // state variables it takes
 
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
 std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file);
-
-// One entry per state: quantity, unit, meaning, source.
-nlohmann::ordered_json states_json(const std::vector<SolverInput>& inputs);
-nlohmann::ordered_json properties_json(const std::vector<SolverInput>& inputs);
-// The numbers of the deck's property lines, eight to a line.
-std::string property_deck(const std::vector<std::string>& values);
 
 // MPa mm, the unit of friction work per area, in the solver's units: divide to get it.
 double work_over(std::string_view units);

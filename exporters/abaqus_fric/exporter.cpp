@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "../abaqus/deck.h"
 #include "../abaqus/standard.h"
 #include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -47,7 +49,7 @@ json state_variables(std::string_view units) {
 }
 
 json properties(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  json out = abaqus::properties_json(inputs);
+  json out = recipe_properties(inputs);
   out.push_back({{"number", property_count(inputs) + 1},
                  {"quantity", "critical_slip"},
                  {"unit", solver_unit("mm", request.units).name},
@@ -62,7 +64,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   const Exporter& exporter = *find_exporter("abaqus_fric");
   json out = recipe_head(exporter, request, "fric", files);
   out["options"] = {{"abaqus_coefficient", exporter.option(request, "abaqus_coefficient")}};
-  out["arguments"] = abaqus::states_json(inputs);
+  out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
   out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
                    {"meaning",

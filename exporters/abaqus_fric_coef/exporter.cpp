@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "../abaqus/deck.h"
 #include "../abaqus/standard.h"
 #include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -53,7 +55,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   json out = recipe_head(exporter, request, "fric_coef", files);
   for (const ExportOption& option : exporter.options)
     out["options"][option.name] = exporter.option(request, option.name);
-  out["arguments"] = abaqus::states_json(inputs);
+  out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
                           "listed is where each state comes from";
   out["result"] = {
@@ -62,7 +64,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                       std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
   out["state_variables_by"] = "contact point";
   out["state_variables"] = state_variables(request);
-  out["properties"] = abaqus::properties_json(inputs);
+  out["properties"] = recipe_properties(inputs);
   out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
                     "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
                     "frictab_fric_coef.f"};

@@ -10,6 +10,7 @@
 #include "../abaqus/stop.h"
 #include "codegen/fortran_core.h"
 #include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
 #include "driver.h"
 #include "io/json.h"
 
@@ -80,7 +81,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                    const SourceBundle& files) {
   nlohmann::ordered_json out =
       recipe_head(*find_exporter("abaqus_vfric_coef"), request, "vfric_coef", files);
-  out["arguments"] = abaqus::recipe_arguments(inputs);
+  out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "VFRIC_COEF's own 16 arguments; listed is where each state comes from";
   out["result"] = {
       {"name", "fCoef(k)"},
@@ -89,7 +90,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                               solver_unit("MPa", request.units).from_canonical(least_pressure),
                               solver_unit("MPa", request.units).name)}};
   out["state_variables"] = nlohmann::ordered_json::array();
-  out["properties"] = abaqus::recipe_properties(inputs);
+  out["properties"] = recipe_properties(inputs);
   abaqus::add_compile(out, file);
   out["input_deck"] = abaqus::friction_lines("user=coefficient", 0, inputs) +
                       "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
