@@ -1,9 +1,11 @@
-// Rows that share their properties share a call.
+// Fills blocks of contact points, row by row.
 #include "explicit_driver.h"
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
+#include <limits>
+
+#include "codegen/driver_rows.h"
 
 namespace frictab::abaqus {
 
@@ -22,36 +24,6 @@ public:
       if (inputs_[c].source == source)
         return inputs_[c].argument.solver.from_canonical(columns_[c][row]);
     return std::nullopt;
-  }
-
-  bool possible(std::size_t row) const {
-    const auto slip = solver_value(Source::slip, row);
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
-      if (inputs_[c].source == Source::slip &&
-          inputs_[c].argument.solver.from_canonical(columns_[c][row]) != *slip)
-        return false;
-    const auto peak = solver_value(Source::peak_pressure, row);
-    const auto pressure = solver_value(Source::pressure, row);
-    return !peak || (pressure ? !(*peak < *pressure) : !(*peak <= 0));
-  }
-
-  // Groups of rows that agree in what is passed as a property stand together.
-  std::vector<std::size_t> possible_by_properties(std::size_t rows) const {
-    std::vector<std::size_t> order;
-    for (std::size_t row = 0; row < rows; ++row)
-      if (possible(row)) order.push_back(row);
-    for (std::size_t c = inputs_.size(); c-- > 0;)
-      if (inputs_[c].source == Source::property)
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-          return std::strong_order(columns_[c][a], columns_[c][b]) < 0;
-        });
-    return order;
-  }
-
-  bool same_properties(std::size_t a, std::size_t b) const {
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
-      if (inputs_[c].source == Source::property && columns_[c][a] != columns_[c][b]) return false;
-    return true;
   }
 
 private:
@@ -91,13 +63,16 @@ void drive_explicit(ExplicitBlock& block, const SolverGives& gives, const Export
   std::size_t fields = 0;
   for (const SolverInput& input : inputs)
     fields = std::max(fields, input.field);
-  const std::vector<std::size_t> order = states.possible_by_properties(rows);
-  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
-    for (last = first + 1; last < order.size() && last - first < block_size; ++last)
-      if (!states.same_properties(order[first], order[last])) break;
-    block.resize(last - first, fields);
-    for (std::size_t k = 0; k < last - first; ++k) {
-      const std::size_t row = order[first + k];
+  // Where a law does not ask for a pressure its peak stands for it, which has to be one.
+  constexpr double no_pressure = std::numeric_limits<double>::denorm_min();
+  std::vector<std::size_t> asked;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (posed(inputs, columns, row, no_pressure)) asked.push_back(row);
+  for (const std::vector<std::size_t>& group :
+       call_groups(inputs, std::move(asked), columns, block_size)) {
+    block.resize(group.size(), fields);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      const std::size_t row = group[k];
       const auto peak = states.solver_value(Source::peak_pressure, row);
       // A pressure for laws that do not ask for one: without it there is no friction.
       if (!uses(inputs, Source::pressure))
@@ -108,8 +83,8 @@ void drive_explicit(ExplicitBlock& block, const SolverGives& gives, const Export
                     states.solver_value(Source::work, row).value_or(0), peak.value_or(0));
     }
     block.run();
-    for (std::size_t k = 0; k < last - first; ++k)
-      tau[order[first + k]] = stress.to_canonical(block.stress(k));
+    for (std::size_t k = 0; k < group.size(); ++k)
+      tau[group[k]] = stress.to_canonical(block.stress(k));
   }
 }
 

@@ -2,6 +2,7 @@
 // routines.
 #pragma once
 
+#include "codegen/compile.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus {
@@ -44,5 +45,19 @@ template <class Real> void put_history(Real* states, double slip_before, double 
 void drive_explicit(ExplicitBlock& block, const SolverGives& gives, const ExportRequest& request,
                     std::size_t rows, std::span<const double* const> columns,
                     std::span<double> tau);
+
+// As Exporter::drive, for a routine of either precision behind Block<Real>(function, properties).
+template <template <class> class Block>
+void drive_blocks(const char* symbol, const Built& built, const SolverGives& gives,
+                  const ExportRequest& request, std::size_t rows,
+                  std::span<const double* const> columns, std::span<double> tau) {
+  void* function = Library::address(built.library, symbol);
+  const std::size_t properties = property_count(solver_inputs(request, gives));
+  const auto drive = [&](auto block) { drive_explicit(block, gives, request, rows, columns, tau); };
+  if (built.variant.name == "single")
+    drive(Block<float>(function, properties));
+  else
+    drive(Block<double>(function, properties));
+}
 
 } // namespace frictab::abaqus

@@ -2,8 +2,6 @@
 #include "standard.h"
 
 #include <algorithm>
-#include <compare>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -133,25 +131,6 @@ std::vector<BuildVariant> variants(const ExportRequest& request, const std::stri
   };
   const std::vector<TableAxis>& axes = request.table.axes;
   return {variant(file, std::any_of(axes.begin(), axes.end(), refuses))};
-}
-
-std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
-                                       std::span<const double* const> columns) {
-  std::vector<std::size_t> order(rows);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t c = inputs.size(); c-- > 0;)
-    if (inputs[c].source == Source::property)
-      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::strong_order(columns[c][a], columns[c][b]) < 0;
-      });
-  return order;
-}
-
-bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
-                     std::size_t a, std::size_t b) {
-  for (std::size_t c = 0; c < inputs.size(); ++c)
-    if (inputs[c].source == Source::property && columns[c][a] != columns[c][b]) return false;
-  return true;
 }
 
 } // namespace frictab::abaqus

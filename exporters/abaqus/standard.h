@@ -34,13 +34,6 @@ std::vector<BuildVariant> variants(const ExportRequest& request, const std::stri
 // MPa mm, the unit of friction work per area, in the solver's units: divide to get it.
 double work_over(std::string_view units);
 
-// Rows that agree in what is passed as a property can share a call: the rows sorted by those
-// states, and whether two of them agree.
-std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
-                                       std::span<const double* const> columns);
-bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
-                     std::size_t a, std::size_t b);
-
 // A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
 inline constexpr double any_pressure = 1024;
 

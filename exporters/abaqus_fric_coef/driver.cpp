@@ -6,6 +6,7 @@
 #include "../abaqus/standard.h"
 #include "call.h"
 #include "codegen/compile.h"
+#include "codegen/driver_rows.h"
 #include "source.h"
 
 namespace frictab::abaqus_fric_coef {
@@ -92,15 +93,9 @@ private:
 void drive(const Built& built, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
   Block call(Library::address(built.library, "fric_coef_"), request);
-  const std::vector<std::size_t> order = abaqus::by_properties(call.inputs(), rows, columns);
-  for (std::size_t first = 0; first < rows;) {
-    std::size_t last = first + 1;
-    while (last < rows && last - first < call.most() &&
-           abaqus::same_properties(call.inputs(), columns, order[first], order[last]))
-      ++last;
-    call.run(std::span(order).subspan(first, last - first), columns, tau);
-    first = last;
-  }
+  for (const std::vector<std::size_t>& group :
+       call_groups(call.inputs(), all_rows(rows), columns, call.most()))
+    call.run(group, columns, tau);
 }
 
 } // namespace frictab::abaqus_fric_coef

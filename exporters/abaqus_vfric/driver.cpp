@@ -6,7 +6,6 @@
 #include "../abaqus/explicit.h"
 #include "../abaqus/explicit_driver.h"
 #include "call.h"
-#include "codegen/compile.h"
 
 namespace frictab::abaqus_vfric {
 
@@ -63,20 +62,11 @@ private:
   VfricCall<Real> call_;
 };
 
-template <class Real>
-void drive_as(void* function, const SolverGives& gives, const ExportRequest& request,
-              std::size_t rows, std::span<const double* const> columns, std::span<double> tau) {
-  Block<Real> block(function, property_count(solver_inputs(request, gives)));
-  abaqus::drive_explicit(block, gives, request, rows, columns, tau);
-}
-
 } // namespace
 
 void drive(const Built& built, const SolverGives& gives, const ExportRequest& request,
            std::size_t rows, std::span<const double* const> columns, std::span<double> tau) {
-  void* function = Library::address(built.library, "vfric_");
-  const auto as = built.variant.name == "single" ? drive_as<float> : drive_as<double>;
-  as(function, gives, request, rows, columns, tau);
+  abaqus::drive_blocks<Block>("vfric_", built, gives, request, rows, columns, tau);
 }
 
 } // namespace frictab::abaqus_vfric

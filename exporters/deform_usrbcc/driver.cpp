@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "codegen/compile.h"
-#include "codegen/posed.h"
+#include "codegen/driver_rows.h"
 #include "source.h"
 
 namespace frictab::deform_usrbcc {

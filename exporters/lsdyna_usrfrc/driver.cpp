@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 
 #include "call.h"
 #include "codegen/compile.h"
-#include "codegen/posed.h"
+#include "codegen/driver_rows.h"
 #include "source.h"
 
 namespace frictab::lsdyna_usrfrc {
@@ -23,27 +22,6 @@ double node_area(std::size_t k) {
 }
 
 constexpr double some_pressure = 1; // in the solver's unit, for laws that do not ask for one
-
-// Rows that agree in what is passed as a constant of the interface can share a call.
-std::vector<std::size_t> by_properties(const std::vector<SolverInput>& inputs, std::size_t rows,
-                                       std::span<const double* const> columns) {
-  std::vector<std::size_t> order;
-  for (std::size_t row = 0; row < rows; ++row)
-    if (posed(inputs, columns, row, some_pressure)) order.push_back(row);
-  for (std::size_t c = inputs.size(); c-- > 0;)
-    if (inputs[c].source == Source::property)
-      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::strong_order(columns[c][a], columns[c][b]) < 0;
-      });
-  return order;
-}
-
-bool same_properties(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
-                     std::size_t a, std::size_t b) {
-  for (std::size_t c = 0; c < inputs.size(); ++c)
-    if (inputs[c].source == Source::property && columns[c][a] != columns[c][b]) return false;
-  return true;
-}
 
 template <class Real, class Int> class Block {
 public:
@@ -123,15 +101,12 @@ void drive_as(const Built& built, const ExportRequest& request, std::size_t rows
   Block<Real, Int> call(Library::address(built.library, "usrfrc_"), request);
   if (uses(call.inputs(), Source::temperature))
     *static_cast<Int*>(Library::address(built.library, "thropt_")) = 999;
-  const std::vector<std::size_t> order = by_properties(call.inputs(), rows, columns);
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t last = first + 1;
-    while (last < order.size() && last - first < block &&
-           same_properties(call.inputs(), columns, order[first], order[last]))
-      ++last;
-    call.run(std::span(order).subspan(first, last - first), columns, tau);
-    first = last;
-  }
+  std::vector<std::size_t> asked;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (posed(call.inputs(), columns, row, some_pressure)) asked.push_back(row);
+  for (const std::vector<std::size_t>& group :
+       call_groups(call.inputs(), std::move(asked), columns, block))
+    call.run(group, columns, tau);
 }
 
 } // namespace
