@@ -9,7 +9,7 @@ namespace frictab::abaqus_fric_coef {
 
 namespace {
 
-const Exporter& exporter() {
+const Exporter& target() {
   return *find_exporter("abaqus_fric_coef");
 }
 
@@ -43,7 +43,7 @@ std::vector<std::string> release_lines(bool release_2024) {
 } // namespace
 
 bool is_2024(const ExportRequest& request) {
-  return exporter().option(request, "abaqus_release") == "2024";
+  return target().option(request, "abaqus_release") == "2024";
 }
 
 const SolverGives& gives(bool release_2024) {
@@ -53,14 +53,14 @@ const SolverGives& gives(bool release_2024) {
 
 std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool newer = is_2024(request);
-  if (!newer && abaqus::coefficient_is_frozen(exporter(), request))
+  if (!newer && abaqus::coefficient_is_frozen(target(), request))
     throw InputError({"export.options.abaqus_coefficient", 0, 0},
                      "abaqus_fric_coef keeps no coefficient with abaqus_release = \"2020\": that "
                      "argument list has no state variables",
                      "\"current\", or the target abaqus_fric");
   TemplateValues values;
   values.flags["uses_unknown"] =
-      abaqus::add_routine(values, exporter(), request, inputs, gives(newer), false);
+      abaqus::add_routine(values, target(), request, inputs, gives(newer), false);
   values.text.erase("to_solver"); // a coefficient has no unit
   values.flags["new"] = newer;
   values.text["release"] = newer ? "2024" : "2020";

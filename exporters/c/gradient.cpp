@@ -43,8 +43,8 @@ void add_states(TemplateValues& values, const Table& table,
   values.text["n_arguments"] = std::to_string(inputs.size());
 }
 
-void add_axes(TemplateValues& values, const Table& table,
-              const std::vector<InputArgument>& inputs) {
+void add_axis_slopes(TemplateValues& values, const Table& table,
+                     const std::vector<InputArgument>& inputs) {
   const auto rename = symbol_names(table, inputs);
   Lines axes;
   for (const TableAxis& axis : table.is_direct() ? std::vector<TableAxis>{} : table.axes) {
@@ -114,7 +114,7 @@ std::string gradient_functions(const ExportRequest& request,
   TemplateValues values;
   add_state(values, table, inputs, table.combine);
   add_states(values, table, inputs);
-  add_axes(values, table, inputs);
+  add_axis_slopes(values, table, inputs);
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
     if (!input.used) unused.push_back(input.argument);

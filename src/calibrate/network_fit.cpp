@@ -90,9 +90,9 @@ GainDirection gain_direction(const NetworkBins& bins, double mu0) {
 namespace {
 
 // The loss of one net: half of r' V^-1 r, with V of the scatter, plus half the decay of w'w.
-class Loss {
+class NetworkLoss {
 public:
-  explicit Loss(const NetworkProblem& problem)
+  explicit NetworkLoss(const NetworkProblem& problem)
       : problem_(problem), direction_(gain_direction(problem.training, problem.mu0)),
         decay_(VectorXd::Constant(problem.shape.weights(), problem.decay)) {
     decay_(decay_.size() - 1) = 0;
@@ -161,7 +161,7 @@ double held_out_square(const NetworkProblem& problem, const VectorXd& weights) {
 NetworkFit fit_network(const NetworkProblem& problem, VectorXd start) {
   constexpr std::size_t max_iterations = 30, patience = 5;
   constexpr double smallest_gain = 1e-4; // relative; what is left is far below the scatter
-  const Loss loss(problem);
+  const NetworkLoss loss(problem);
   NetworkFit fit{start, std::move(start), std::numeric_limits<double>::infinity(), 0};
   VectorXd& w = fit.last;
   double damping = 1e-2;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/columns.h"
 #include "table/drift.h"
 
 namespace frictab {
@@ -131,11 +132,8 @@ std::vector<double> Maker::coefficients(const States& given) const {
   if (pressed())
     for (double& p : states[problem_.pressure])
       p = std::max(p, smallest_pressure * problem_.axes[problem_.pressure].high);
-  std::vector<const double*> columns;
-  for (const auto& column : states)
-    columns.push_back(column.data());
   std::vector<double> out(rows);
-  problem_.tau(rows, columns, out);
+  problem_.tau(rows, pointers(states), out);
   for (std::size_t i = 0; i < rows; ++i)
     out[i] /= pressed() ? states[problem_.pressure][i] : problem_.factor_MPa;
   return out;

@@ -86,7 +86,7 @@ Expr power(const Expr& base, const Expr& exponent) {
   return exp(exponent * log_of(base));
 }
 
-Expr rebuild(Op op, const std::vector<Expr>& a) {
+Expr with_monomials(Op op, const std::vector<Expr>& a) {
   const auto first = a.empty() ? std::nullopt : monomial(a[0]);
   const auto second = a.size() < 2 ? std::nullopt : monomial(a[1]);
   switch (op) {
@@ -102,20 +102,13 @@ Expr rebuild(Op op, const std::vector<Expr>& a) {
     return second && second->factor != 0
                ? a[0] * formula_of({1 / second->factor, -second->exponent})
                : a[0] / a[1];
-  case Op::add:
-    return a[0] + a[1];
-  case Op::subtract:
-    return a[0] - a[1];
   case Op::power:
     return power(a[0], a[1]);
   case Op::log:
     return log_of(a[0]);
   default:
-    break;
+    return rebuild(op, a);
   }
-  if (a.size() == 1) return Expr::make(op, {a[0]});
-  if (a.size() == 2) return Expr::make(op, {a[0], a[1]});
-  return Expr::make(op, {a[0], a[1], a[2], a[3]});
 }
 
 using Done = std::unordered_map<const Expr::Node*, Expr>;
@@ -129,7 +122,7 @@ Expr rewrite(const Expr& e, const std::set<std::string>& logarithmic, Done& done
     std::vector<Expr> operands;
     for (const Expr& operand : e.operands())
       operands.push_back(rewrite(operand, logarithmic, done));
-    result = rebuild(e.op(), operands);
+    result = with_monomials(e.op(), operands);
   }
   done.emplace(e.id(), result);
   return result;
@@ -143,7 +136,7 @@ Expr in_coordinates(const Expr& formula, const std::set<std::string>& logarithmi
 }
 
 Expr log_in_coordinates(const Expr& formula) {
-  return shared(rebuild(Op::log, {formula}));
+  return shared(with_monomials(Op::log, {formula}));
 }
 
 } // namespace frictab

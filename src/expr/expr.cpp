@@ -111,19 +111,8 @@ Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y) {
   return Expr::make(Op::where_le, {a, b, x, y});
 }
 
-namespace {
-
-void collect(const Expr& e, std::set<std::string>& names, std::set<const Expr::Node*>& seen) {
-  if (!seen.insert(e.id()).second) return;
-  if (e.op() == Op::symbol) names.insert(e.name());
-  for (const Expr& operand : e.operands())
-    collect(operand, names, seen);
-}
-
-using Replaced = std::unordered_map<const Expr::Node*, Expr>;
-
 Expr rebuild(Op op, const std::vector<Expr>& a) {
-  switch (op) { // through the operators, so that the simplifications apply again
+  switch (op) {
   case Op::add:
     return a[0] + a[1];
   case Op::subtract:
@@ -139,6 +128,17 @@ Expr rebuild(Op op, const std::vector<Expr>& a) {
   if (a.size() == 2) return Expr::make(op, {a[0], a[1]});
   return Expr::make(op, {a[0], a[1], a[2], a[3]});
 }
+
+namespace {
+
+void collect(const Expr& e, std::set<std::string>& names, std::set<const Expr::Node*>& seen) {
+  if (!seen.insert(e.id()).second) return;
+  if (e.op() == Op::symbol) names.insert(e.name());
+  for (const Expr& operand : e.operands())
+    collect(operand, names, seen);
+}
+
+using Replaced = std::unordered_map<const Expr::Node*, Expr>;
 
 Expr replace(const Expr& e, const std::map<std::string, Expr>& with, Replaced& done) {
   if (const auto found = done.find(e.id()); found != done.end()) return found->second;

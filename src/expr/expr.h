@@ -79,6 +79,9 @@ Expr substitute(const Expr& formula, const std::map<std::string, Expr>& replacem
 // The formula with some of its nodes (compared by id) replaced.
 Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& nodes);
 
+// An operation over operands, through the operators: what they simplify is simplified again.
+Expr rebuild(Op op, const std::vector<Expr>& operands);
+
 // The same formula with equal subformulas stored once.
 Expr shared(const Expr& formula);
 

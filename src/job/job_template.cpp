@@ -36,15 +36,11 @@ std::string parent(const std::string& path) {
   return dot == path.npos ? "" : path.substr(0, dot);
 }
 
-std::string leaf(const std::string& path) {
-  return path.substr(path.rfind('.') + 1);
-}
-
 void add_key(std::string& out, const KeyRule& rule) {
   const std::string normal = default_text(rule);
   add_prose(out, rule.absent.empty() ? rule.meaning : rule.meaning + "; absent: " + rule.absent);
   const bool required = rule.path == "data.training";
-  out += fmt::format("{}{} = {}\n", required ? "" : "#", leaf(rule.path),
+  out += fmt::format("{}{} = {}\n", required ? "" : "#", last_part(rule.path),
                      normal.empty() ? rule.example : normal);
 }
 
@@ -53,7 +49,7 @@ void add_named_keys(std::string& out, const std::string& section) {
   for (const KeyRule& rule : key_rules()) {
     if (rule.path == section + ".*") add_prose(out, rule.meaning);
     if (parent(rule.path) == section + ".*")
-      add_prose(out, fmt::format("{}: {}; absent: {}", leaf(rule.path), rule.meaning, rule.absent));
+      add_prose(out, fmt::format("{}: {}; absent: {}", last_part(rule.path), rule.meaning, rule.absent));
   }
 }
 

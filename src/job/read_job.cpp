@@ -18,16 +18,12 @@ std::string below(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-std::string leaf(const std::string& path) {
-  return path.substr(path.rfind('.') + 1);
-}
-
 std::vector<std::string> known_children(const std::string& rule_path) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& path) {
     const std::size_t dot = path.rfind('.');
     const std::string parent = dot == path.npos ? "" : path.substr(0, dot);
-    if (parent == rule_path && leaf(path) != "*") names.push_back(leaf(path));
+    if (parent == rule_path && last_part(path) != "*") names.push_back(last_part(path));
   };
   for (const SectionRule& section : section_rules())
     add(section.path);
@@ -39,7 +35,7 @@ std::vector<std::string> known_children(const std::string& rule_path) {
 // A key that belongs elsewhere: "table.tolerance_MPa" for tolerance_MPa in [data].
 std::string home_of(const std::string& key) {
   for (const KeyRule& rule : key_rules())
-    if (rule.path.find('*') == rule.path.npos && leaf(rule.path) == key) return rule.path;
+    if (rule.path.find('*') == rule.path.npos && last_part(rule.path) == key) return rule.path;
   return "";
 }
 

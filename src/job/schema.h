@@ -71,6 +71,11 @@ struct SectionRule {
   std::string child = "quantity";                           // what a name of the user's stands for
 };
 
+// "unit" of "data.columns.*.unit".
+inline std::string last_part(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
 const std::vector<KeyRule>& key_rules();
 const std::vector<SectionRule>& section_rules();
 const KeyRule* find_key(const std::string& path);

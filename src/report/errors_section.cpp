@@ -13,15 +13,15 @@ namespace frictab {
 
 namespace {
 
-std::string with_interval(double value, const Interval& interval, int decimals) {
+std::string marked_up(double value, const Interval& interval, int decimals) {
   return fmt::format("{} <span class=\"interval\">{}</span>", fixed(value, decimals),
                      interval_text(interval, decimals));
 }
 
 void put_errors(TemplateValues& row, const std::string& part, const Metrics& m, int decimals) {
-  row.text[part + "_mae"] = with_interval(m.mae_MPa, m.mae_interval, decimals);
-  row.text[part + "_rmse"] = with_interval(m.rmse_MPa, m.rmse_interval, decimals);
-  row.text[part + "_bias"] = with_interval(m.bias_MPa, m.bias_interval, decimals);
+  row.text[part + "_mae"] = marked_up(m.mae_MPa, m.mae_interval, decimals);
+  row.text[part + "_rmse"] = marked_up(m.rmse_MPa, m.rmse_interval, decimals);
+  row.text[part + "_bias"] = marked_up(m.bias_MPa, m.bias_interval, decimals);
 }
 
 } // namespace
@@ -44,8 +44,8 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
     floors.push_back(
         {{{"name", noise_floor_name(floor)},
           {"part", floor.part},
-          {"mae", with_interval(floor.mae_MPa, floor.mae_interval, decimals)},
-          {"rmse", with_interval(floor.rmse_MPa, floor.rmse_interval, decimals)},
+          {"mae", marked_up(floor.mae_MPa, floor.mae_interval, decimals)},
+          {"rmse", marked_up(floor.rmse_MPa, floor.rmse_interval, decimals)},
           {"size",
            count_of(floor.n_rows, "row") + " of " + count_of(floor.n_experiments, "experiment")},
           {"bound", floor.lower_bound ? "lower bound: scatter between experiments not included"
@@ -72,11 +72,10 @@ void add_conditional(TemplateValues& page, const ReportInput& input) {
     rows.push_back(
         {{{"law", svg::escape(fit.law)},
           {"plain", fixed(fit.unconditional.mae_MPa, decimals)},
-          {"mae", with_interval(fit.conditional.mae_MPa, fit.conditional.mae_interval, decimals)},
-          {"rmse",
-           with_interval(fit.conditional.rmse_MPa, fit.conditional.rmse_interval, decimals)},
+          {"mae", marked_up(fit.conditional.mae_MPa, fit.conditional.mae_interval, decimals)},
+          {"rmse", marked_up(fit.conditional.rmse_MPa, fit.conditional.rmse_interval, decimals)},
           {"bias", fixed(fit.conditional.bias_MPa, decimals)},
-          {"gain", with_interval(fit.gain.value_MPa, fit.gain.interval, decimals)},
+          {"gain", marked_up(fit.gain.value_MPa, fit.gain.interval, decimals)},
           {"trust", fixed(100 * fit.trust, 0)}},
          {},
          {}});

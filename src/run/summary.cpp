@@ -11,6 +11,7 @@
 #include "calibrate/noise_floor.h"
 #include "core/text.h"
 #include "io/json.h"
+#include "report/numbers.h"
 #include "run/pipeline.h"
 #include "table/bound.h"
 #include "verify/beyond.h"
@@ -42,12 +43,6 @@ std::string parameters(const ModelFit& fit) {
   return text;
 }
 
-// Decimals that show three digits of the best law's error, whatever the level of stress.
-int error_decimals(const Calibration& calibration) {
-  const double best = calibration.fits.front().validation.mae_MPa;
-  return best > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(best))), 2, 6) : 2;
-}
-
 // "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
 void add_left_out(std::string& out, const Calibration& calibration) {
   std::map<std::string, std::string> laws;
@@ -60,7 +55,7 @@ void add_left_out(std::string& out, const Calibration& calibration) {
     out += fmt::format("  left out, for want of {}: {}\n", reason, list);
 }
 
-std::string interval_text(const Interval& interval, int decimals) {
+std::string range_of(const Interval& interval, int decimals) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "-";
   return fmt::format("{:.{}f} .. {:.{}f}", interval.low, decimals, interval.high, decimals);
 }
@@ -70,7 +65,7 @@ void add_floor(std::string& out, const Calibration& calibration, int decimals) {
     const NoiseFloor& f = calibration.noise_floors.front();
     out += fmt::format("  {:<14}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor",
                        (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
-                       interval_text(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
+                       range_of(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
                        noise_floor_name(f), f.part == "training" ? ", training data" : "");
   }
   const std::string advice = noise_floor_advice(calibration);
@@ -91,9 +86,9 @@ void add_conditional(std::string& out, const Conditional& c) {
                   c.condition_on_mm, "law", "MAE", "without gain", "gained, 95 % interval");
   for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i) {
     const ConditionalFit& fit = c.laws[i];
-    out += fmt::format("  {:<14}{:>8.2f}{:>14.2f}   {:.2f}, {}\n", fit.law, fit.conditional.mae_MPa,
-                       fit.unconditional.mae_MPa, fit.gain.value_MPa,
-                       interval_text(fit.gain.interval, 2));
+    out +=
+        fmt::format("  {:<14}{:>8.2f}{:>14.2f}   {:.2f}, {}\n", fit.law, fit.conditional.mae_MPa,
+                    fit.unconditional.mae_MPa, fit.gain.value_MPa, range_of(fit.gain.interval, 2));
   }
   if (c.n_without_start > 0)
     out += fmt::format("  {} of {} experiments have no row in the first {:g} mm: without a gain\n",
@@ -107,7 +102,7 @@ void add_ranking(std::string& out, const Calibration& calibration) {
                      "RMSE", "bias", "train MAE", "parameters");
   for (const ModelFit& fit : calibration.fits) {
     const Metrics& v = fit.validation;
-    const std::string interval = interval_text(v.mae_interval, decimals);
+    const std::string interval = range_of(v.mae_interval, decimals);
     out += fmt::format("  {:<14}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
                        fit.model.law->name, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
                        v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));

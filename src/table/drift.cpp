@@ -6,6 +6,7 @@
 
 #include <nlopt.hpp>
 
+#include "core/columns.h"
 #include "core/parallel.h"
 #include "core/random.h"
 
@@ -87,13 +88,6 @@ States probe_points(const std::vector<StateRange>& ranges, const std::vector<Tab
 }
 
 namespace {
-
-std::vector<const double*> pointers(const States& states) {
-  std::vector<const double*> columns;
-  for (const auto& column : states)
-    columns.push_back(column.data());
-  return columns;
-}
 
 // Both undefined is agreement; one undefined is the worst there is.
 double difference(double a, double b) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/columns.h"
 #include "core/random.h"
 #include "table/spline.h"
 
@@ -28,13 +29,6 @@ double straight(const std::vector<double>& from, const std::vector<double>& to, 
   const auto i = static_cast<std::size_t>(above - from.begin());
   const double w = (x - from[i - 1]) / (from[i] - from[i - 1]);
   return to[i - 1] + (to[i] - to[i - 1]) * std::clamp(w, 0.0, 1.0);
-}
-
-std::vector<const double*> pointers(const std::vector<std::vector<double>>& columns) {
-  std::vector<const double*> out;
-  for (const auto& column : columns)
-    out.push_back(column.data());
-  return out;
 }
 
 } // namespace

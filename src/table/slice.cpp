@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/columns.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -45,7 +46,6 @@ Slice slice(const Table& table, const HeldStates& held, const std::vector<std::s
     out.places.push_back(even_places(table, name, points));
     rows *= points;
   }
-  std::vector<const double*> columns;
   for (const std::string& name : out.inputs) {
     std::vector<double> column(rows);
     const auto at = std::find(along.begin(), along.end(), name) - along.begin();
@@ -55,10 +55,8 @@ Slice slice(const Table& table, const HeldStates& held, const std::vector<std::s
       column[i] = a < along.size() ? out.places[a][i / inner % points] : held.at(name);
     out.states.push_back(std::move(column));
   }
-  for (const auto& column : out.states)
-    columns.push_back(column.data());
   out.tau_MPa.resize(rows);
-  TableFunction(table).evaluate(rows, columns, out.tau_MPa);
+  TableFunction(table).evaluate(rows, pointers(out.states), out.tau_MPa);
   return out;
 }
 

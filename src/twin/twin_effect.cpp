@@ -63,12 +63,12 @@ std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
   return column == nullptr ? 2 : column->levels.size();
 }
 
-struct Pieces {
+struct TauPieces {
   std::vector<double> tau0, limit, shift;
 };
 
 void apply(const PlantedEffect& effect, const std::vector<double>& factor, double tau_scale,
-           Pieces& pieces) {
+           TauPieces& pieces) {
   for (std::size_t i = 0; i < factor.size(); ++i) {
     if (effect.spec.on == "mu") pieces.tau0[i] *= factor[i];
     if (effect.spec.on == "m") pieces.limit[i] *= factor[i];
@@ -76,14 +76,14 @@ void apply(const PlantedEffect& effect, const std::vector<double>& factor, doubl
   }
 }
 
-std::vector<double> tau_of(const Pieces& pieces) {
+std::vector<double> tau_of(const TauPieces& pieces) {
   std::vector<double> tau(pieces.tau0.size());
   for (std::size_t i = 0; i < tau.size(); ++i)
     tau[i] = twin_tau(pieces.tau0[i], pieces.limit[i]) + pieces.shift[i];
   return tau;
 }
 
-Pieces pieces_of(const TwinDraft& draft) {
+TauPieces pieces_of(const TwinDraft& draft) {
   return {draft.tau0, draft.limit, std::vector<double>(draft.tau0.size(), 0.0)};
 }
 
@@ -114,7 +114,7 @@ public:
     const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
     if (effect_.spec.on != "tau" && std::any_of(factor.begin(), factor.end(), below(least_factor)))
       return {};
-    Pieces pieces = pieces_of(draft_);
+    TauPieces pieces = pieces_of(draft_);
     apply(effect_, factor, scale_, pieces);
     auto tau = tau_of(pieces);
     if (std::any_of(tau.begin(), tau.end(), below(least_tau_MPa))) return {};
@@ -254,7 +254,7 @@ std::vector<PlantedEffect> plant_effects(const TwinOptions& options, const TwinD
 std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draft,
                                std::size_t tests, const std::vector<PlantedEffect>& effects,
                                double tau_scale) {
-  Pieces pieces = pieces_of(draft);
+  TauPieces pieces = pieces_of(draft);
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Resolved rows = resolve(options, i, tests, draft);
     const auto factor =
