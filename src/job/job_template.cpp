@@ -49,7 +49,8 @@ void add_named_keys(std::string& out, const std::string& section) {
   for (const KeyRule& rule : key_rules()) {
     if (rule.path == section + ".*") add_prose(out, rule.meaning);
     if (parent(rule.path) == section + ".*")
-      add_prose(out, fmt::format("{}: {}; absent: {}", last_part(rule.path), rule.meaning, rule.absent));
+      add_prose(out,
+                fmt::format("{}: {}; absent: {}", last_part(rule.path), rule.meaning, rule.absent));
   }
 }
 
