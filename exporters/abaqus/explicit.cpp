@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
+#include "stop.h"
 
 namespace frictab::abaqus {
 
@@ -68,26 +70,12 @@ BuildVariant variant(const std::string& name, const std::string& real, int dimen
 
 } // namespace
 
-bool refuses(const Table& table) {
-  return std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
-    return axis.below == Outside::error || axis.above == Outside::error;
-  });
-}
-
 std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file) {
   std::vector<BuildVariant> all = {variant("double", "real*8", 2, 0x1p-53, file),
                                    variant("single", "real", 1, 0x1p-24, file)};
-  if (!refuses(request.table)) return all;
-  for (BuildVariant& one : all) {
-    one.command.push_back("@{dir}/xplb_abqerr.f");
-    one.extra["xplb_abqerr.f"] =
-        "C     Stand-in for the solver's routine: comes back, where the solver ends the analysis.\n"
-        "      subroutine xplb_abqerr(lop, text, intv, realv, charv)\n"
-        "      include 'vaba_param.inc'\n"
-        "      character*(*) text, charv(*)\n"
-        "      dimension intv(*), realv(*)\n"
-        "      end\n";
-  }
+  if (fortran::ends(request))
+    for (BuildVariant& one : all)
+      add_stand_ins(one, Solver::explicit_);
   return all;
 }
 
@@ -104,7 +92,8 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
                           const std::vector<SolverInput>& inputs,
                           const std::vector<std::string>& remarks) {
   TemplateValues all, head;
-  fortran::add_head(all, exporter, request, inputs, "XPLB_ABQERR ends the analysis");
+  fortran::add_head(all, exporter, request, inputs, "XPLB_ABQERR ends the analysis",
+                    directory_routine(Solver::explicit_));
   head.lists = all.lists;
   head.lists["remarks"] = fortran::comments(remarks);
   head.text = {{"version", all.text.at("version")},

@@ -69,9 +69,6 @@ Lines only(const std::vector<SolverInput>& inputs, const SolverGives& gives,
            const std::vector<Source>& sources, const std::vector<std::string>& texts,
            const std::vector<std::string>& flags);
 
-// Whether a side of an axis ends the analysis.
-bool refuses(const Table& table);
-
 // "double" and "single", with stand-ins for the solver's include and its error routine.
 std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file);
 

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "core/text.h"
 #include "deck.h"
 #include "io/json.h"
@@ -84,7 +86,8 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
                  {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
-  values.flags = {{"has_axes", !request.table.axes.empty()}, {"refuses", refuses(request.table)}};
+  values.flags = {{"has_axes", !request.table.axes.empty()},
+                  {"refuses", fortran::refuses(request.table)}};
   values.lists["inputs"] =
       only(inputs, routine.gives,
            {Source::pressure, Source::speed, Source::slip, Source::work, Source::peak_pressure},
@@ -96,14 +99,16 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
 std::string source(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
   const Table& table = request.table;
-  const bool ends = refuses(table);
-  const fortran::Core core = fortran::core(table, {ends || needs_unknown(inputs)});
+  const fortran::Core core =
+      fortran::core(request, {.unknown = fortran::refuses(table) || needs_unknown(inputs),
+                              .quit = quit(Solver::explicit_),
+                              .directory_routine = directory_routine(Solver::explicit_)});
   TemplateValues values;
   values.text = {{"head", explicit_head(*find_exporter(routine.target), request, inputs,
                                         remarks(routine, request, inputs))},
                  {"body", body(routine, inputs, core.n_x)},
                  {"point", point(routine, request, inputs, core.n_x)},
-                 {"core", (ends ? stop(table, Solver::explicit_) + "\n" : "") + core.text}};
+                 {"core", core.text}};
   return render_template(routine.target + "/frictab_" + routine.entry + ".f", values);
 }
 
@@ -149,11 +154,12 @@ std::string force_notes(const std::string& state_name, const std::string& state_
 }
 
 SourceBundle force_bundle(const ForceRoutine& routine, const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, routine.gives);
   const std::string file = "frictab_" + routine.entry + ".f";
   SourceBundle files;
   files[file] = source(routine, request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(routine, request, inputs, files, file);
   return files;
 }

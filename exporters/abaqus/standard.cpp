@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -39,7 +40,7 @@ std::vector<std::string> coefficient_lines(bool frozen) {
           "pressure grows within one increment."};
 }
 
-BuildVariant variant(const std::string& file, bool refuses) {
+BuildVariant variant(const std::string& file, bool ends) {
   BuildVariant out;
   out.name = "double";
   out.command = {"gfortran",
@@ -58,15 +59,7 @@ BuildVariant variant(const std::string& file, bool refuses) {
       "      implicit real*8 (a-h,o-z)\n"
       "      parameter (nprecd=2)\n";
   out.eps = 0x1p-53;
-  if (!refuses) return out;
-  out.command.push_back("@{dir}/stdb_abqerr.f");
-  out.extra["stdb_abqerr.f"] =
-      "C     Stand-in for the solver's routine: comes back, where the solver ends the analysis.\n"
-      "      subroutine stdb_abqerr(lop, text, intv, realv, charv)\n"
-      "      include 'aba_param.inc'\n"
-      "      character*(*) text, charv(*)\n"
-      "      dimension intv(*), realv(*)\n"
-      "      end\n";
+  if (ends) add_stand_ins(out, Solver::standard);
   return out;
 }
 
@@ -95,14 +88,19 @@ double work_over(std::string_view units) {
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown) {
   const Table& table = request.table;
-  fortran::add_head(values, exporter, request, inputs, "STDB_ABQERR ends the analysis");
+  fortran::add_head(values, exporter, request, inputs, "STDB_ABQERR ends the analysis",
+                    directory_routine(Solver::standard));
   add_units(values, request);
   const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(exporter, request);
   const bool missing = std::any_of(inputs.begin(), inputs.end(),
                                    [](const SolverInput& input) { return !input.fallback; });
   unknown = unknown || refuses || missing;
-  values.text["stop"] = refuses ? stop(table, Solver::standard) : "";
-  values.text["core"] = fortran::core(table, {.unknown = unknown, .gradient = true}).text;
+  values.text["core"] =
+      fortran::core(request, {.unknown = unknown,
+                              .gradient = true,
+                              .quit = quit(Solver::standard),
+                              .directory_routine = directory_routine(Solver::standard)})
+          .text;
   values.text["pmin"] = fortran_number(smallest_pressure(table));
   values.text["smallest"] = fmt::format("{:.3g}", smallest_pressure(table));
   values.flags["has_axes"] = !table.axes.empty();
@@ -126,11 +124,7 @@ std::string history(std::size_t n) {
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file) {
-  const auto refuses = [](const TableAxis& axis) {
-    return axis.below == Outside::error || axis.above == Outside::error;
-  };
-  const std::vector<TableAxis>& axes = request.table.axes;
-  return {variant(file, std::any_of(axes.begin(), axes.end(), refuses))};
+  return {variant(file, fortran::ends(request))};
 }
 
 } // namespace frictab::abaqus

@@ -1,15 +1,21 @@
-// How a routine for Abaqus ends the analysis where a side of an axis has outside = error.
+// How a routine for Abaqus ends the analysis, and asks where the job lies.
 #pragma once
 
 #include <string>
 
-#include "table/table.h"
+#include "codegen/exporter.h"
 
 namespace frictab::abaqus {
 
 enum class Solver { explicit_, standard };
 
-// The function ftstop(x): true, after a message, where x lies beyond such a side.
-std::string stop(const Table& table, Solver solver);
+// ftquit(text) of fortran::Core, by XPLB_ABQERR or STDB_ABQERR.
+std::string quit(Solver solver);
+
+// VGETOUTDIR (seen in public routines) or GETOUTDIR (recalled).
+std::string directory_routine(Solver solver);
+
+// Adds stand-ins for these routines of the solver to how a source is compiled here.
+void add_stand_ins(BuildVariant& variant, Solver solver);
 
 } // namespace frictab::abaqus

@@ -9,6 +9,7 @@
 #include "../abaqus/standard.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -83,10 +84,11 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files["frictab_fric.f"] = fric_source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -133,7 +135,7 @@ Exporter exporter() {
   out.title = "Abaqus/Standard FRIC, stress with derivatives";
   out.signature_source = source_of_signature;
   out.notes = notes;
-  out.options = {abaqus::coefficient_option()};
+  out.options = {abaqus::coefficient_option(), values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;

@@ -9,6 +9,7 @@
 #include "../abaqus/standard.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -75,10 +76,11 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives(is_2024(request)));
   SourceBundle files;
   files["frictab_fric_coef.f"] = coef_source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -127,7 +129,8 @@ Exporter exporter() {
                   {"2024", "2020"},
                   "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
                   "about 2020; between them see which one your manual shows"},
-                 abaqus::coefficient_option()};
+                 abaqus::coefficient_option(),
+                 values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;

@@ -2,6 +2,8 @@
 // input deck refers to it; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
+#include "codegen/values_file.h"
+
 #include "../abaqus/explicit.h"
 #include "driver.h"
 
@@ -70,6 +72,7 @@ Exporter exporter() {
       "|dSlipFric|/dTimCur (0 where dTimCur = 0). A node without area or normal force gets no "
       "friction; the area of a node-based surface is 1, so that its pressure is a force. " +
       abaqus::force_notes("STATEV", "surface node");
+  out.options = {values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive_vfric;

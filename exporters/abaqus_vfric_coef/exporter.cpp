@@ -9,8 +9,10 @@
 #include "../abaqus/explicit.h"
 #include "../abaqus/stop.h"
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 
@@ -44,19 +46,20 @@ std::vector<std::string> remarks(const ExportRequest& request) {
       "No state variables: sliding distance, work and peak pressure are properties or fields, and "
       "states outside the range are not counted.",
       "NaN in gives NaN out."};
-  if (abaqus::refuses(request.table))
+  if (fortran::refuses(request.table))
     lines.push_back("Points out of contact never end the analysis: the value at the end of a side "
                     "that refuses is taken there.");
   return lines;
 }
 
 std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const bool ends = abaqus::refuses(request.table);
+  const bool refuses = fortran::refuses(request.table);
   const bool unknown = abaqus::needs_unknown(inputs);
-  const fortran::Core core = fortran::core(request.table, {ends || unknown});
+  const fortran::Core core = fortran::core(
+      request, {.unknown = refuses || unknown,
+                .quit = abaqus::quit(abaqus::Solver::explicit_),
+                .directory_routine = abaqus::directory_routine(abaqus::Solver::explicit_)});
   const SolverUnit stress = solver_unit("MPa", request.units);
-  const std::string stop =
-      ends ? abaqus::stop(request.table, abaqus::Solver::explicit_) + "\n" : "";
   TemplateValues values;
   values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
                                                 inputs, remarks(request))},
@@ -66,11 +69,11 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                                                            "fieldAvg(k,{})", "", "nBlock"})},
                  {"stress_convert", stress.same() ? "" : "/" + fortran_number(stress.over)},
                  {"least", fortran_number(least_pressure)},
-                 {"core", stop + core.text}};
+                 {"core", core.text}};
   values.flags = {{"unknown", unknown},
                   {"has_fixed", !values.text["fixed"].empty()},
                   {"has_given", !values.text["given"].empty()},
-                  {"refuses", ends}};
+                  {"refuses", refuses}};
   values.lists["inputs"] =
       abaqus::only(inputs, gives(), {Source::pressure, Source::speed},
                    {"index", "comment", "convert"}, {"is_pressure", "is_speed"});
@@ -100,10 +103,11 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files[file] = source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -142,6 +146,7 @@ Exporter exporter() {
       "Where a side has outside = error, points in contact end the analysis "
       "through XPLB_ABQERR; points out of contact never do. Works with the single- and the "
       "double-precision solver; table and arithmetic are double in both.";
+  out.options = {values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive_coefficient;

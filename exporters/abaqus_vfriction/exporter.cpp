@@ -3,6 +3,8 @@
 // (exporters/abaqus).
 #include "codegen/exporter.h"
 
+#include "codegen/values_file.h"
+
 #include "../abaqus/explicit.h"
 #include "driver.h"
 
@@ -76,6 +78,7 @@ Exporter exporter() {
       "are blank in general contact: different laws need different interactions. Node and edge "
       "contact come in blocks of their own. " +
       abaqus::force_notes("STATE", "contact point");
+  out.options = {values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive_vfriction;

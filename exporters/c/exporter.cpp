@@ -9,6 +9,7 @@
 #include "codegen/fill.h"
 #include "codegen/recipe.h"
 #include "codegen/template.h"
+#include "codegen/values_file.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "parts.h"
@@ -27,10 +28,11 @@ std::string header(const ExportRequest& request, const std::vector<InputArgument
                  {"n_arguments", std::to_string(inputs.size())},
                  {"last_argument", std::to_string(inputs.size() - 1)},
                  {"arrays", lines(parameters(inputs, "const double*"))}};
+  values.flags["in_file"] = values_in_file(request);
   values.lists["about"] = items(about_entry(request));
   values.lists["bits"] = items(outside_bits(request.table, "u"));
   values.lists["inputs"] = items(argument_lines(request, inputs));
-  values.lists["notes"] = items(entry_notes(request.table));
+  values.lists["notes"] = items(entry_notes(request));
   return render_template("c/frictab_tau_R.h", values);
 }
 
@@ -86,7 +88,7 @@ void add_axes(TemplateValues& values, const Table& table,
     if (input.used) values.lists["used"][used++].flags["formula_only"] = !input.axis;
   const auto rename = symbol_names(table, inputs);
   Lines axes;
-  long stride = static_cast<long>(table.value.size());
+  long stride = static_cast<long>(table.nodes());
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     stride /= static_cast<long>(table.axes[a].nodes.size());
     axes.push_back(axis_values(table.axes[a], a, stride, rename.at(table.axes[a].name)));
@@ -109,13 +111,35 @@ std::string kernel(const Table& table) {
   return text;
 }
 
+std::string values_in_source(const Table& table, const std::string& comment) {
+  std::vector<std::string> numbers;
+  for (const double value : baked_values(table))
+    numbers.push_back(c_number(value));
+  TemplateValues values;
+  values.text = {{"value_comment", comment},
+                 {"n_values", std::to_string(numbers.size())},
+                 {"values", number_lines(numbers, 98, "    ")}};
+  values.flags["has_axes"] = !table.axes.empty();
+  return without_last_break(render_template("c/frictab_baked.c", values));
+}
+
+std::string values_file(const Table& table, const std::string& comment) {
+  const std::vector<double> numbers = baked_values(table);
+  TemplateValues values;
+  add_values_file(values, numbers);
+  values.text["value_comment"] = comment;
+  values.text["crc32"] = std::to_string(values_crc32(numbers));
+  return without_last_break(render_template("c/frictab_values.c", values));
+}
+
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
   const SolverUnit stress = solver_unit("MPa", request.units);
-  std::vector<std::string> numbers;
-  for (const double value : baked_values(table))
-    numbers.push_back(c_number(value));
+  const bool file = values_in_file(request);
+  const std::string comment = comment_text(
+      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
+                  table.log_value ? "ln " : "", table.quantity));
   TemplateValues values;
   values.text = {
       {"model", comment_text(table.model)},
@@ -124,15 +148,13 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
       {"interpolate",
        fmt::format("ft_{}_{}", is_cubic(table) ? "cubic" : "linear", table.axes.size())},
       {"n_axes", std::to_string(table.axes.size())},
-      {"value_comment", comment_text(fmt::format("{}{}{}, last axis fastest",
-                                                 is_cubic(table) ? "spline coefficients of " : "",
-                                                 table.log_value ? "ln " : "", table.quantity))},
-      {"n_values", std::to_string(numbers.size())},
-      {"values", number_lines(numbers, 98, "    ")},
+      {"state_text", file ? ", no state but the values" : ", no state"},
+      {"values", file ? values_file(table, comment) : values_in_source(table, comment)},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
       {"gradient", gradient_functions(request, inputs)},
       {"count", count_function(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
+                  {"in_file", file},
                   {"cubic", is_cubic(table)},
                   {"log_value", table.log_value}};
   add_state(values, table, inputs, table.combine);
@@ -186,12 +208,13 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   SourceBundle files;
   files["frictab_tau_R.h"] = header(request, inputs);
   files["frictab_tau_R.c"] =
       request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -220,9 +243,11 @@ Exporter exporter() {
   c.title = "C99 function";
   c.signature_source = "verified: ours, fixed by frictab's contract";
   c.notes =
-      "One .c and one .h file, no allocation, no input or output, safe from any thread. "
+      "One .c and one .h file, no allocation, no input or output (but for the values of a large "
+      "table, see the option), safe from any thread. "
       "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
       "-ffast-math: otherwise the bits that were verified are not the bits that run.";
+  c.options = {values_option()};
   c.generate = generate;
   c.variants = variants;
   c.drive = drive_entry;

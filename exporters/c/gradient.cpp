@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/values_file.h"
 #include "core/text.h"
 #include "expr/derivative.h"
 #include "expr/several.h"
@@ -115,6 +116,7 @@ std::string gradient_functions(const ExportRequest& request,
   add_state(values, table, inputs, table.combine);
   add_states(values, table, inputs);
   add_axis_slopes(values, table, inputs);
+  values.flags["in_file"] = values_in_file(request);
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
     if (!input.used) unused.push_back(input.argument);

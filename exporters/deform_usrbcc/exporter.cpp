@@ -7,6 +7,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -85,11 +86,12 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = inputs_of(request);
   SourceBundle files;
   files[main_file] = usrbcc_source(request, inputs);
   if (takes_history(inputs)) files[update_file] = usrupd_source(request);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -97,7 +99,7 @@ SourceBundle generate(const ExportRequest& request) {
 std::vector<BuildVariant> variants(const ExportRequest& request) {
   std::vector<std::string> sources = {main_file};
   if (takes_history(inputs_of(request))) sources.push_back(update_file);
-  return {fortran::fortran_variant(request.table, "double", 0x1p-53, sources)};
+  return {fortran::fortran_variant(request, "double", 0x1p-53, sources)};
 }
 
 Exporter exporter() {
@@ -132,7 +134,8 @@ Exporter exporter() {
       "(FTQUIT). There is no USRBCC in DEFORM-3D.";
   out.options = {{"deform_friction",
                   {"coulomb", "shear", "constant"},
-                  "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"}};
+                  "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
+                 values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;

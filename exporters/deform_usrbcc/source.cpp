@@ -111,8 +111,8 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, kind);
-  values.text["stop"] = refuses ? fortran::stop(table, "stop 1") : "";
-  values.text["core"] = fortran::core(table, {refuses}).text;
+  values.text["core"] =
+      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
   values.flags["histories"] = takes_history(inputs);
   values.flags["uses_peak"] = uses(inputs, Source::peak_pressure);
   values.lists["inputs"] = fortran::constant_inputs(inputs, gives());

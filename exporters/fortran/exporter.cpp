@@ -7,7 +7,9 @@
 #include "codegen/call_entry.h"
 #include "codegen/entry_text.h"
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
+#include "codegen/values_file.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "table/outside.h"
@@ -87,19 +89,25 @@ void add_axes(TemplateValues& values, const Table& table,
 std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  const fortran::Core core =
-      fortran::core(table, {.unknown = true, .gradient = true, .units = fortran::Units::module});
+  const bool file = values_in_file(request);
+  const fortran::Core core = fortran::core(
+      request,
+      {.unknown = true, .gradient = true, .units = fortran::Units::module, .quit = fortran::say()});
   TemplateValues values;
   values.text = {{"tau_unit", stress.name},
                  {"version", FRICTAB_VERSION},
                  {"n_x", std::to_string(core.n_x)},
+                 {"pure", file ? "" : "pure "},
+                 {"elemental", file ? "impure elemental" : "elemental"},
+                 {"state_text", file ? "no state but the table's values" : "no state"},
                  {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)},
                  {"data", fortran::free_form(core.data)},
                  {"core", fortran::free_form(core.text)}};
   values.flags["converts"] = !stress.same();
+  values.flags["in_file"] = file;
   values.lists["about"] = items(about_entry(request));
   values.lists["inputs"] = items(argument_lines(request, inputs));
-  values.lists["notes"] = items(entry_notes(table));
+  values.lists["notes"] = items(entry_notes(request));
   values.lists["bits"] = items(outside_bits(table, ""));
   values.lists["refusing"] = fortran::sides(table, Outside::error);
   add_arguments(values, request, inputs);
@@ -121,10 +129,12 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
     names.push_back(input.argument);
   const std::string all = join(names, ", ");
   out["module"] = "frictab_law";
-  out["procedures"] = {"elemental function tau_R(" + all + ")",
-                       "pure function frictab_tau_R(" + all + ") bind(C)",
+  const bool file = values_in_file(request);
+  const std::string pure = file ? "" : "pure ", elemental = file ? "impure elemental" : "elemental";
+  out["procedures"] = {elemental + " function tau_R(" + all + ")",
+                       pure + "function frictab_tau_R(" + all + ") bind(C)",
                        "function frictab_tau_R_gradient(" + all + ", derivative) bind(C)",
-                       "pure subroutine frictab_tau_R_batch(n, " + all + ", tau) bind(C)",
+                       pure + "subroutine frictab_tau_R_batch(n, " + all + ", tau) bind(C)",
                        "subroutine frictab_tau_R_gradient_batch(n, " + all +
                            ", tau, derivative) bind(C)",
                        "pure function frictab_outside(" + all + ") bind(C)"};
@@ -153,10 +163,11 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   SourceBundle files;
   files["frictab_tau_R.f90"] = source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -184,6 +195,7 @@ Exporter exporter() {
       "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
       "programs of your own, and for solvers whose routine you write yourself; those with a target "
       "here have their argument list written already. No state, safe from any thread.";
+  out.options = {values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive_entry;

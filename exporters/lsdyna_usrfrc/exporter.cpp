@@ -8,6 +8,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -77,10 +78,11 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files["frictab_usrfrc.f"] = usrfrc_source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
@@ -88,7 +90,7 @@ SourceBundle generate(const ExportRequest& request) {
 BuildVariant variant(const ExportRequest& request, const std::string& name, double eps,
                      const std::vector<std::string>& flags) {
   BuildVariant out =
-      fortran::fortran_variant(request.table, name, eps, {"frictab_usrfrc.f"}, flags, true);
+      fortran::fortran_variant(request, name, eps, {"frictab_usrfrc.f"}, flags, true);
   out.command.push_back("@{dir}/cstop.f"); // for the bundle's own ftquit
   out.extra["cstop.f"] = "C     Stand-in for the solver's routine.\n"
                          "      subroutine cstop(text)\n"
@@ -129,6 +131,7 @@ Exporter exporter() {
       "histories would count every iteration of an implicit one. Works in both precisions; table "
       "and arithmetic are double in both. Beyond a side with outside = error the routine writes "
       "state and value to the standard output and ends the analysis through CSTOP.";
+  out.options = {values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;

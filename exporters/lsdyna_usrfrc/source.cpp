@@ -32,8 +32,8 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
                     "CSTOP ends the analysis");
   values.text["n_history"] = std::to_string(history_count(table));
   values.text["work_convert"] = request.units == "m-kg-s" ? "/1.0D3" : ""; // Pa*m in MPa*mm
-  values.text["stop"] = values.flags["refuses"] ? fortran::stop(table, end) : fortran::quit(end);
-  values.text["core"] = fortran::core(table, {true}).text;
+  values.text["core"] =
+      fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["uses_temperature"] = uses(inputs, Source::temperature);
   Lines states = fortran_inputs(inputs, gives());

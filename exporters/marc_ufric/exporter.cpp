@@ -7,6 +7,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 #include "io/json.h"
 #include "source.h"
@@ -62,18 +63,18 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 }
 
 SourceBundle generate(const ExportRequest& request) {
-  check_table(request.table);
+  check_request(request);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files["frictab_ufric.f"] = ufric_source(request, inputs);
+  add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant out =
-      fortran::fortran_variant(request.table, "double", 0x1p-53, {"frictab_ufric.f"});
-  if (!fortran::refuses(request.table)) return {out};
+  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
+  if (!fortran::ends(request)) return {out};
   out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
   out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
                         "      subroutine quit(number)\n"
@@ -110,7 +111,8 @@ Exporter exporter() {
                  {"marc_normal",
                   {"stress", "force"},
                   "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
-                 {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"}};
+                 {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
+                 values_option()};
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;

@@ -78,8 +78,8 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, chosen.coefficient);
-  values.text["stop"] = refuses ? fortran::stop(table, "call quit(1234)") : "";
-  values.text["core"] = fortran::core(table, {refuses}).text;
+  values.text["core"] =
+      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("call quit(1234)")}).text;
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);

@@ -56,6 +56,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
 
 SourceBundle generate(const ExportRequest& request) {
   check_table(request.table);
+  check_table_size(request.table);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
   SourceBundle files;
   files[file_name] = lua_source(request, inputs);

@@ -6,7 +6,7 @@
 
 #include "cli/job_commands.h"
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
+#include "codegen/values_file.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "table/table_file.h"
@@ -22,27 +22,11 @@ struct Options {
   std::string units = "mm-t-s";
 };
 
-std::vector<const Exporter*> exporters_of(const std::vector<std::string>& names) {
-  std::vector<std::string> known{"all"};
-  for (const Exporter& exporter : all_exporters())
-    known.push_back(exporter.name);
-  std::vector<const Exporter*> chosen;
-  for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError({}, fmt::format("there is no target '{}'", name), suggest(name, known));
-    for (const Exporter& exporter : all_exporters())
-      if ((name == "all" || name == exporter.name) &&
-          std::find(chosen.begin(), chosen.end(), &exporter) == chosen.end())
-        chosen.push_back(&exporter);
-  }
-  return chosen;
-}
-
 int export_alone(const Options& options, const CommonOptions& common) {
   if (common.output.empty())
     throw InputError({}, "nowhere to write the sources to", "give -o DIR with --table FILE");
-  const auto exporters = exporters_of(options.targets);
-  check_table_size(read_description(options.table).table);
+  const auto exporters = exporters_named(options.targets);
+  check_request_size(read_description(options.table).table, exporters, {});
   const Table table = read_table(options.table);
   OutputFiles output(common.output);
   for (const Exporter* exporter : exporters)

@@ -118,6 +118,11 @@ void* Library::address(void* handle, const std::string& symbol) {
   return found;
 }
 
+void Library::tell_directory(const fs::path& directory) const {
+  if (void* tell = dlsym(handle_, "frictab_directory"))
+    reinterpret_cast<void (*)(const char*)>(tell)(directory.c_str());
+}
+
 TemporaryDirectory::TemporaryDirectory() {
   std::string name = (fs::temp_directory_path() / "frictab-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary directory");
@@ -135,7 +140,8 @@ CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& re
   if (variant.command.empty())
     write_files(bundle, directory_.path());
   else
-    library_.emplace(compile_library(bundle, variant, directory_.path()));
+    library_.emplace(compile_library(bundle, variant, directory_.path()))
+        .tell_directory(directory_.path());
 }
 
 } // namespace frictab

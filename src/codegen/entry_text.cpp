@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "codegen/values_file.h"
+
 namespace frictab {
 
 std::vector<std::string> about_entry(const ExportRequest& request) {
@@ -44,7 +46,8 @@ std::vector<std::string> outside_bits(const Table& table, const std::string& suf
   return names;
 }
 
-std::vector<std::string> entry_notes(const Table& table) {
+std::vector<std::string> entry_notes(const ExportRequest& request) {
+  const Table& table = request.table;
   std::vector<std::string> text;
   if (table.is_direct()) text.push_back("This is the law itself, not a table.");
   const std::vector<std::string> sides = outside_lines(table);
@@ -61,6 +64,9 @@ std::vector<std::string> entry_notes(const Table& table) {
     text.push_back("Stress and flow stress enter the formula above unchanged.");
   }
   text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
+  for (const std::string& line : values_file_lines(request, ""))
+    for (const std::string& piece : wrap_text(line, 88))
+      text.push_back(piece);
   return text;
 }
 

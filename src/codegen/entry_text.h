@@ -19,7 +19,7 @@ std::vector<std::string> argument_lines(const ExportRequest& request,
 // "1u psi" per axis (`suffix`: u), as frictab_outside gives them.
 std::vector<std::string> outside_bits(const Table& table, const std::string& suffix);
 
-// What holds outside the range, for NaN and in threads.
-std::vector<std::string> entry_notes(const Table& table);
+// What holds outside the range, for NaN and in threads; where a file of values lies.
+std::vector<std::string> entry_notes(const ExportRequest& request);
 
 } // namespace frictab

@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
 namespace frictab {
 
 const std::string& Exporter::option(const ExportRequest& request, const std::string& wanted) const {
@@ -30,6 +35,22 @@ const std::vector<Exporter>& all_exporters() {
 
 const Exporter* find_exporter(std::string_view name) {
   return Registry<Exporter>::instance().find(name);
+}
+
+std::vector<const Exporter*> exporters_named(const std::vector<std::string>& names) {
+  std::vector<std::string> known{"all"};
+  for (const Exporter& exporter : all_exporters())
+    known.push_back(exporter.name);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({}, fmt::format("there is no target '{}'", name), suggest(name, known));
+  std::vector<const Exporter*> chosen;
+  for (const Exporter& exporter : all_exporters())
+    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+          return name == "all" || name == exporter.name;
+        }))
+      chosen.push_back(&exporter);
+  return chosen;
 }
 
 } // namespace frictab

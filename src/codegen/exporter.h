@@ -91,4 +91,8 @@ std::vector<ExportOption> all_export_options();
 const std::vector<Exporter>& all_exporters();
 const Exporter* find_exporter(std::string_view name);
 
+// Each once, in the order of the registry; "all" stands for all. Throws InputError for a name that
+// is none, naming the nearest.
+std::vector<const Exporter*> exporters_named(const std::vector<std::string>& names);
+
 } // namespace frictab

@@ -132,26 +132,18 @@ std::size_t baked_numbers(const Table& table) {
   return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);
 }
 
-namespace {
-
-void check_size(const Table& table, FaultList& faults) {
-  const std::size_t numbers = baked_numbers(table);
+void check_table_size(const Table& table, std::size_t elsewhere, const std::string& remedy) {
+  const std::size_t numbers = baked_numbers(table) - elsewhere;
   if (numbers <= most_baked_numbers) return;
-  const std::string remedy = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
-  faults.add({},
-             fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
-                         "reasonable time and memory",
-                         table.model, thousands(numbers), thousands(most_baked_numbers)),
-             remedy + "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
-                      "export.targets = [] makes the table alone");
-}
-
-} // namespace
-
-void check_table_size(const Table& table) {
-  FaultList faults;
-  check_size(table, faults);
-  faults.throw_if_any();
+  const std::string cubic = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
+  throw InputError(
+      {},
+      fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
+                  "reasonable time and memory",
+                  table.model, thousands(numbers), thousands(most_baked_numbers)),
+      remedy + cubic +
+          "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
+          "export.targets = [] makes the table alone");
 }
 
 void check_table(const Table& table) {
@@ -169,8 +161,7 @@ void check_table(const Table& table) {
   if (table.axes.size() > FT_MAX_AXES)
     faults.add({}, fmt::format("the table has {} axes; generated code holds at most {}",
                                table.axes.size(), FT_MAX_AXES));
-  if (!table.is_direct() && !table.stored && // a stored one is refused below by its size
-      nodes != table.value.size())
+  if (!table.is_direct() && !table.stored && nodes != table.value.size())
     faults.add({}, fmt::format("the table has {} values for {} nodes", table.value.size(), nodes));
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
@@ -185,7 +176,6 @@ void check_table(const Table& table) {
   if ((extends || table.is_direct()) && !table.extension)
     faults.add({}, fmt::format("the table of {} does not hold the law's own formula", table.model),
                "tabulate again with outside = \"law\" in [table.axes]");
-  check_size(table, faults);
   faults.throw_if_any();
 }
 
@@ -194,6 +184,11 @@ bool is_cubic(const Table& table) {
 }
 
 std::vector<double> baked_values(const Table& table) {
+  if (table.stored) { // linear always
+    std::vector<double> values(table.stored->size());
+    table.stored->read(0, values);
+    return values;
+  }
   if (!is_cubic(table)) return table.value;
   std::vector<SplineAxis> axes;
   for (const TableAxis& axis : table.axes)

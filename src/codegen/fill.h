@@ -60,18 +60,19 @@ inline constexpr std::size_t most_baked_numbers = 300000;
 std::size_t baked_numbers(const Table& table);
 
 // Throws InputError where a table cannot be made into code: values that are not finite, sizes that
-// do not fit, more axes than the kernel holds, an interpolation the kernel does not have, more
-// numbers than a compiler takes.
+// do not fit, more axes than the kernel holds, an interpolation the kernel does not have.
 void check_table(const Table& table);
 
-// The last of these alone, which needs no values: `table` may be a description.
-void check_table_size(const Table& table);
+// Throws InputError where the source would hold more numbers than a compiler takes; `elsewhere` of
+// them are not in it. Needs no values: `table` may be a description. `remedy`: a further one.
+void check_table_size(const Table& table, std::size_t elsewhere = 0,
+                      const std::string& remedy = {});
 
 // Whether the code needs the spline kernel: a cubic table with axes.
 bool is_cubic(const Table& table);
 
-// What the source holds per node: values, or coefficients of the spline with the 2 zeros that its
-// kernel reads behind them.
+// What the routine looks up, per node: values, or coefficients of the spline with the 2 zeros that
+// its kernel reads behind them.
 std::vector<double> baked_values(const Table& table);
 
 // Text from outside (names, attributes) that stays inside a comment of C or Fortran.

@@ -7,6 +7,8 @@
 
 #include "codegen/fortran_gradient.h"
 #include "codegen/fortran_interpolation.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/values_file.h"
 #include "core/text.h"
 #include "table/outside.h"
 
@@ -52,12 +54,13 @@ void add_ends(TemplateValues& values, const Table& table) {
 
 // The program units of the piece and of the gradient, and the helpers that any unit calls. Gives
 // the numbers of the piece.
-std::string add_parts(TemplateValues& values, const Table& table, const CoreOptions& options,
-                      std::vector<std::string> helpers) {
+std::string add_parts(TemplateValues& values, const ExportRequest& request,
+                      const CoreOptions& options, std::vector<std::string> helpers) {
+  const Table& table = request.table;
   const bool gradient = options.gradient;
   const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
   const Piece law = has_piece ? piece(table, gradient, options.units) : Piece{};
-  const Piece slopes = gradient ? gradient_unit(table, values, options.units) : Piece{};
+  const Piece slopes = gradient ? gradient_unit(request, values, options.units) : Piece{};
   for (const Piece& unit : {law, slopes})
     helpers.insert(helpers.end(), unit.helpers.begin(), unit.helpers.end());
   for (const auto& [helper, flag] :
@@ -71,7 +74,9 @@ std::string add_parts(TemplateValues& values, const Table& table, const CoreOpti
 }
 
 // Gives the numbers of the law's own formula.
-std::string add_formula(TemplateValues& values, const Table& table, const CoreOptions& options) {
+std::string add_formula(TemplateValues& values, const ExportRequest& request,
+                        const CoreOptions& options) {
+  const Table& table = request.table;
   const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
   Lines statements;
   for (const std::string& line : code.lines)
@@ -83,7 +88,7 @@ std::string add_formula(TemplateValues& values, const Table& table, const CoreOp
   values.lists["temporaries"] = declarations(code.temporaries);
   values.text["result"] = code.result;
   values.flags["log_value"] = table.log_value;
-  return add_parts(values, table, options, helpers);
+  return add_parts(values, request, options, helpers);
 }
 
 std::vector<std::string> argument_lines(const Table& table) {
@@ -118,30 +123,51 @@ std::vector<std::string> outside(const Table& table, const std::string& error_ac
   return lines;
 }
 
+// ftload and what it calls.
+std::string values_unit(const ExportRequest& request, const CoreOptions& options) {
+  TemplateValues values;
+  const std::vector<double> numbers = baked_values(request.table);
+  add_values_file(values, numbers);
+  values.text["crc32"] = std::to_string(values_crc32(numbers));
+  values.flags["externals"] = options.units == Units::external;
+  values.flags["asks_solver"] = !options.directory_routine.empty();
+  values.text["outdir"] = options.directory_routine;
+  return without_last_break(render_template("fortran/frictab_values.f", values));
+}
+
 } // namespace
 
-Core core(const Table& table, const CoreOptions& options) {
+Core core(const ExportRequest& request, const CoreOptions& options) {
+  const Table& table = request.table;
+  const bool file = values_in_file(request), external = options.units == Units::external;
   TemplateValues values;
   Core out;
   out.n_x = std::max<std::size_t>(table.inputs().size(), 1);
   values.text["n_x"] = std::to_string(out.n_x);
-  values.flags["uses_unknown"] =
-      options.unknown || (options.gradient && !sides(table, Outside::error).empty());
+  values.flags["uses_unknown"] = options.unknown || file || (options.gradient && refuses(table));
+  values.flags["in_file"] = file;
   values.lists["arguments"] = comments(argument_lines(table));
   add_coordinates(values, table);
   add_ends(values, table);
   add_units(values, options.units);
-  values.text.erase("out"); // the functions here change nothing
-  const std::string weights = add_formula(values, table, options);
-  const Piece looked_up = interpolation(table, options.gradient, options.units);
+  values.text["pure_tau"] = file ? "" : values.text["pure"]; // reading a file is no pure act
+  values.text.erase("out");                                  // the functions here change nothing
+  const std::string weights = add_formula(values, request, options);
+  const Piece looked_up = interpolation(request, options.gradient, options.units);
   values.text["interpolation"] = looked_up.text;
+  values.text["values_file"] = file ? values_unit(request, options) : "";
+  std::string& stops = values.text["stop"];
+  if (external && !options.quit.empty() && refuses(table)) stops = stop(table) + "\n";
+  if (!stops.empty() || file || options.quits) stops += options.quit;
+  values.flags["ends"] = !stops.empty();
   out.data = join(std::vector<std::string>{looked_up.data, weights}, "\n");
   out.text = without_last_break(render_template("fortran/frictab_core.f", values));
   return out;
 }
 
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
-              const std::vector<SolverInput>& inputs, const std::string& error_action) {
+              const std::vector<SolverInput>& inputs, const std::string& error_action,
+              const std::string& directory_routine) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.text["version"] = FRICTAB_VERSION;
@@ -154,8 +180,11 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   values.lists["states"] = comments(state_lines(request, inputs));
   values.lists["properties"] = comments(property_lines(inputs));
   values.lists["source"] = comments({exporter.signature_source});
-  values.lists["outside"] = comments(outside(table, error_action));
-  values.flags["refuses"] = !sides(table, Outside::error).empty();
+  std::vector<std::string> remarks = outside(table, error_action);
+  for (const std::string& line : values_file_lines(request, directory_routine))
+    remarks.push_back(line);
+  values.lists["outside"] = comments(remarks);
+  values.flags["refuses"] = refuses(table);
 }
 
 } // namespace frictab::fortran

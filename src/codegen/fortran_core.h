@@ -12,7 +12,10 @@ namespace frictab::fortran {
 // ftqnan(), a quiet NaN, and the subroutine ftgrad(x, tau, dtau): fttau's value, bit for bit, and
 // its derivatives by x(1..n) in MPa per canonical unit, those of TableFunction::gradient; all NaN
 // where an input is NaN and where a side refuses (tau is then what fttau says). With everything
-// they call, as program units without state.
+// they call, as program units whose only state is the values of a large table (values_file.h).
+// Where a side refuses, also ftstop(x): true where x lies beyond such a side by more than single
+// precision misses it, after ftquit(text) with state and value; false where one of x is NaN. And
+// ftquit, where anything calls it. Neither where no `quit` is given, no ftstop in a module.
 struct Core {
   std::string text; // without the line break at its end
   std::string data; // of a module: the numbers of these units, with their declarations
@@ -22,8 +25,12 @@ struct CoreOptions {
   bool unknown = false;  // ftqnan
   bool gradient = false; // ftgrad
   Units units = Units::external;
+  std::string quit = {}; // ftquit(text), which says the text and ends the analysis
+  bool quits = false;    // others than this core call it
+  // The solver's routine that gives the directory of the job and its length; none: empty.
+  std::string directory_routine = {};
 };
-Core core(const Table& table, const CoreOptions& options);
+Core core(const ExportRequest& request, const CoreOptions& options);
 
 // The units of a module, or its data, in free form: comments, continuation, named ends, kinds
 // instead of lengths in bytes.
@@ -32,8 +39,10 @@ std::string free_form(const std::string& fixed);
 // What the head of every source says: version, from ("from a table"), n_x, stress and length (unit
 // names), to_solver ("*1.0D6", from MPa to the solver's unit); lists about, states, properties,
 // source (where the argument list comes from); refuses, where a side has outside = error.
-// `error_action`: what happens there, "XPLB_ABQERR ends the analysis"; list outside.
+// `error_action`: what happens there, "XPLB_ABQERR ends the analysis"; list outside, and where a
+// file of values lies (`directory_routine` as in CoreOptions).
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
-              const std::vector<SolverInput>& inputs, const std::string& error_action);
+              const std::vector<SolverInput>& inputs, const std::string& error_action,
+              const std::string& directory_routine = {});
 
 } // namespace frictab::fortran

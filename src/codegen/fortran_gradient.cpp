@@ -73,7 +73,8 @@ void add_formula(TemplateValues& values, const Table& table, std::vector<std::st
 
 } // namespace
 
-Piece gradient_unit(const Table& table, const TemplateValues& core, Units units) {
+Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Units units) {
+  const Table& table = request.table;
   TemplateValues values;
   Piece out;
   add_formula(values, table, out.helpers);
@@ -82,20 +83,23 @@ Piece gradient_unit(const Table& table, const TemplateValues& core, Units units)
   values.lists["refusing"] = sides(table, Outside::error);
   values.lists["constants"] = constant_lines(table, table.combine);
   values.lists["helpers"] = items(out.helpers);
-  for (const char* name : {"n_x", "n_axes", "only_value"})
+  for (const char* name : {"n_x", "n_axes", "only_value", "pure_tau"})
     values.text[name] = core.text.at(name);
   const bool refuses = !values.lists["refusing"].empty();
+  const bool file = core.flags.at("in_file");
   const bool extends = !values.lists["extending"].empty();
   values.text["refused_text"] = refuses ? " or a side refuses" : "";
   values.flags = {{"has_by", table.is_direct() || !table.axes.empty()},
                   {"interpolates", core.flags.at("interpolates")},
                   {"uses_log", core.flags.at("uses_log")},
-                  {"refuses", refuses},
+                  {"makes_nan", refuses || file},
+                  {"in_file", file},
                   {"extends", extends},
                   {"has_piece", table.is_direct()},
                   {"log_value", table.log_value}};
   values.text["wish"] = units == Units::external ? ", .true." : "";
   add_units(values, units);
+  values.text.erase("pure");
   out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
   return out;
 }

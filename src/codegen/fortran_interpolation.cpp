@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/values_file.h"
 #include "table/axis_search.h"
 #include "table/spline.h"
 
@@ -16,7 +17,7 @@ using Strings = std::vector<std::string>;
 
 std::vector<long> strides(const Table& table) {
   std::vector<long> out;
-  long stride = static_cast<long>(table.value.size());
+  long stride = static_cast<long>(table.nodes());
   for (const TableAxis& axis : table.axes)
     out.push_back(stride /= static_cast<long>(axis.nodes.size()));
   return out;
@@ -192,7 +193,7 @@ std::vector<TemplateValues> search_axes(const Table& table, const std::vector<lo
   return axes;
 }
 
-std::string data_text(const Table& table, const Data& data) {
+std::string data_text(const Table& table, const Data& data, bool in_file) {
   TemplateValues values;
   const std::vector<double> baked = baked_values(table);
   values.text = {
@@ -206,11 +207,13 @@ std::string data_text(const Table& table, const Data& data) {
       {"data_gd", fixed_form_data("gd", data.guide)},
       {"data_fc", fixed_form_data("fc", data.first)},
       {"data_tb", fixed_form_data("tb", data.basis)},
-      {"data_tv", fixed_form_data("tv", baked)},
+      {"data_tv", in_file ? "" : fixed_form_data("tv", baked)},
+      {"file", values_file_name},
       {"value_comment",
        clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
                         table.log_value ? "ln " : "", table.quantity))}};
-  values.flags = {{"cubic", is_cubic(table)}, {"uses_guide", !data.guide.empty()}};
+  values.flags = {
+      {"cubic", is_cubic(table)}, {"in_file", in_file}, {"uses_guide", !data.guide.empty()}};
   return without_last_break(render_template("fortran/frictab_data.f", values));
 }
 
@@ -245,14 +248,15 @@ void add_steps(TemplateValues& values, const Table& table, const std::vector<lon
 
 } // namespace
 
-Piece interpolation(const Table& table, bool gradient, Units units) {
+Piece interpolation(const ExportRequest& request, bool gradient, Units units) {
+  const Table& table = request.table;
   Piece out;
   if (table.is_direct() || table.axes.empty()) return out;
   const std::vector<long> stride = strides(table);
   Data data;
   TemplateValues values;
   values.lists["axes"] = search_axes(table, stride, data);
-  out.data = data_text(table, data);
+  out.data = data_text(table, data, values_in_file(request));
   add_units(values, units);
   values.flags.erase("externals"); // none are called
   values.text["data"] = units == Units::external ? out.data : "";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/exporter.h"
 #include "codegen/fill.h"
 #include "codegen/fortran_parts.h"
 
@@ -13,7 +14,7 @@ namespace frictab::fortran {
 // The function ftintp(u), one coordinate per axis; with `gradient` also the subroutine ftintg,
 // which gives the derivatives as well: on its own it holds the numbers for both and takes a flag,
 // in a module the two are apart. No text where there is nothing to interpolate.
-Piece interpolation(const Table& table, bool gradient, Units units);
+Piece interpolation(const ExportRequest& request, bool gradient, Units units);
 
 // Statements of ft_linear_gradient_N and ft_cubic_gradient_N, and what they declare.
 struct Slopes {

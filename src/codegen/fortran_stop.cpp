@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
+#include "codegen/values_file.h"
 #include "table/outside.h"
 
 namespace frictab::fortran {
@@ -16,7 +17,18 @@ std::string quit(const std::string& statement) {
   return without_last_break(render_template("fortran/frictab_quit.f", values));
 }
 
-std::string stop(const Table& table, const std::string& statement) {
+std::string say() {
+  return "C     Says why there are no values.\n"
+         "      subroutine ftquit(text)\n"
+         "      use, intrinsic :: iso_fortran_env, only: error_unit\n"
+         "      implicit none\n"
+         "      character(len=*), intent(in) :: text\n"
+         "      write (error_unit, '(a)') trim(text)\n"
+         "      end\n"
+         "C";
+}
+
+std::string stop(const Table& table) {
   TemplateValues values;
   Lines refusing = sides(table, Outside::error);
   std::size_t side = 0;
@@ -30,7 +42,6 @@ std::string stop(const Table& table, const std::string& statement) {
     if (axis.above == Outside::error) say(axis, "above", axis.high);
   }
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
-  values.text["quit"] = quit(statement);
   values.lists["refusing"] = refusing;
   return without_last_break(render_template("fortran/frictab_refuse.f", values));
 }
@@ -41,7 +52,11 @@ bool refuses(const Table& table) {
   });
 }
 
-BuildVariant fortran_variant(const Table& table, const std::string& name, double eps,
+bool ends(const ExportRequest& request) {
+  return refuses(request.table) || values_in_file(request);
+}
+
+BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
                              const std::vector<std::string>& sources,
                              const std::vector<std::string>& flags, bool quits) {
   BuildVariant out;
@@ -51,7 +66,7 @@ BuildVariant fortran_variant(const Table& table, const std::string& name, double
                  "-ffp-contract=off", "-fPIC", "-shared"};
   out.command.insert(out.command.end(), flags.begin(), flags.end());
   out.command.insert(out.command.end(), {"-o", "@{out}"});
-  if (quits || refuses(table)) { // of two definitions the linker takes the first
+  if (quits || ends(request)) { // of two definitions the linker takes the first
     out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
     out.extra["ftquit.f"] =
         "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"

@@ -9,21 +9,27 @@
 
 namespace frictab::fortran {
 
-// The function ftstop(x): true where x lies beyond such a side by more than single precision misses
-// it, after ftquit(text) with state and value; false where one of x is NaN. And ftquit, which
-// writes the text to the standard output and does `statement` ("call quit(1234)").
-std::string stop(const Table& table, const std::string& statement);
+// The function ftstop of Core.
+std::string stop(const Table& table);
 
-// ftquit alone.
+// ftquit(text) of Core for a solver without a message routine of its own: writes the text to the
+// standard output and does `statement` ("call quit(1234)").
 std::string quit(const std::string& statement);
 
 // Whether any side of the table's axes has outside = error.
 bool refuses(const Table& table);
 
-// How gfortran makes a library of these files of the bundle. Where the table refuses, an ftquit
-// that comes back in silence takes the place of the bundle's, so that rows can be driven one after
-// another. eps as in BuildVariant.
-BuildVariant fortran_variant(const Table& table, const std::string& name, double eps,
+// ftquit(text) of a module: writes the text to the error unit, and ends nothing.
+std::string say();
+
+// Whether a routine of this request can end the analysis: where a side refuses, or a file of values
+// cannot be read.
+bool ends(const ExportRequest& request);
+
+// How gfortran makes a library of these files of the bundle. Where they hold an ftquit, one that
+// comes back in silence takes its place, so that rows can be driven one after another. `quits` as
+// in CoreOptions, eps as in BuildVariant.
+BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
                              const std::vector<std::string>& sources,
                              const std::vector<std::string>& flags = {}, bool quits = false);
 

@@ -10,7 +10,7 @@ namespace {
 
 // "ftmin" of "pure double precision function ftmin(a, b)"; empty for another line.
 std::string unit_of(const std::string& line) {
-  static const std::regex head(R"(^(?:[a-z ]+ )?(function|subroutine) ([a-z]+)\()");
+  static const std::regex head(R"(^(?:[a-z][a-z ]* )?(function|subroutine) ([a-z]+)\()");
   std::smatch found;
   return std::regex_search(line, found, head) ? found[1].str() + " " + found[2].str() : "";
 }

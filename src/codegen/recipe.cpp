@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codegen/values_file.h"
 #include "core/error.h"
 #include "io/json.h"
 
@@ -42,17 +43,20 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
   for (const auto& [path, content] : files)
     names.push_back(path);
   names.push_back("recipe.json");
-  return {{"schema", "frictab/recipe/1"},
-          {"target", exporter.name},
-          {"title", exporter.title},
-          {"tool_version", FRICTAB_VERSION},
-          {"model", request.table.model},
-          {"form", request.table.is_direct() ? "direct" : "table"},
-          {"data_origin", origin_text(request.table)},
-          {"units", unit_names(request.units)},
-          {"entry", entry},
-          {"files", names},
-          {"signature_source", exporter.signature_source}};
+  json out = {{"schema", "frictab/recipe/1"},
+              {"target", exporter.name},
+              {"title", exporter.title},
+              {"tool_version", FRICTAB_VERSION},
+              {"model", request.table.model},
+              {"form", request.table.is_direct() ? "direct" : "table"},
+              {"data_origin", origin_text(request.table)},
+              {"units", unit_names(request.units)},
+              {"entry", entry},
+              {"files", names},
+              {"signature_source", exporter.signature_source}};
+  if (const auto values = files.find(values_file_name); values != files.end())
+    out["values_file"] = values_file_json(values->second);
+  return out;
 }
 
 json recipe_table(const ExportRequest& request) {

@@ -11,7 +11,7 @@
 namespace frictab {
 
 // schema, target, model, form (table or direct), data_origin, units, entry, files,
-// signature_source.
+// signature_source; values_file, where the files hold one.
 nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest& request,
                                    const std::string& entry, const SourceBundle& files);
 

@@ -8,8 +8,8 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/folds.h"
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 #include "codegen/recipe.h"
+#include "codegen/values_file.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -178,7 +178,7 @@ void Pipeline::check_sizes() {
     Table table;
     table.model = model.name();
     table.axes = *fixed_axes(model, ranges, job_.table);
-    check_table_size(table);
+    check_request_size(table, exporters_named(job_.exports.targets), job_.exports.options);
   }
 }
 
@@ -237,21 +237,6 @@ void Pipeline::tabulate() {
   have_tables_ = true;
 }
 
-namespace {
-
-std::vector<const Exporter*> chosen_exporters(const ExportOptions& options) {
-  std::vector<const Exporter*> chosen;
-  for (const Exporter& exporter : all_exporters())
-    for (const std::string& name : options.targets)
-      if (name == "all" || name == exporter.name) {
-        chosen.push_back(&exporter);
-        break;
-      }
-  return chosen;
-}
-
-} // namespace
-
 // The files of an earlier run: those that its recipes list, and nothing else.
 void Pipeline::remove_old_sources() {
   std::vector<std::string> directories;
@@ -289,11 +274,12 @@ Table direct_for_sources(const Model& model, const Table& table) {
 void Pipeline::generate() {
   if (!have_tables_ && !job_.exports.targets.empty())
     for (const fs::path& file : table_files()) // before anything large is read
-      check_table_size(read_description(file).table);
+      check_request_size(read_description(file).table, exporters_named(job_.exports.targets),
+                         job_.exports.options);
   need_tables();
   remove_old_sources();
   for (const Table& table : tables_)
-    for (const Exporter* exporter : chosen_exporters(job_.exports)) {
+    for (const Exporter* exporter : exporters_named(job_.exports.targets)) {
       const std::string directory = export_directory(exporter->name, table);
       const Table form = job_.exports.form == "direct" || !exporter->whole()
                              ? direct_for_sources(model_of(table), table)
@@ -327,7 +313,7 @@ void Pipeline::verify() {
     std::vector<GeneratedSource> sources;
     const Model model = model_of(table);
     const Table direct = direct_for_sources(model, table);
-    for (const Exporter* exporter : chosen_exporters(job_.exports)) {
+    for (const Exporter* exporter : exporters_named(job_.exports.targets)) {
       const std::string directory = export_directory(exporter->name, table);
       const fs::path written = fs::path(job_.directory) / directory;
       if (!sources_.count(directory)) {

@@ -381,7 +381,4 @@ C     Length of a vector in the contact plane
 C
 @{states_text}
 C
-@if refuses
-@{stop}
-@end
 @{core}

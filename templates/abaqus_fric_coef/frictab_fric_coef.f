@@ -308,7 +308,4 @@ C
 @if new
 @{states_text}
 @end
-@if refuses
-@{stop}
-@end
 @{core}

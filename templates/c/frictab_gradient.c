@@ -40,6 +40,9 @@ double frictab_tau_R_gradient(
 @for input in used
   if (x@{input.index} != x@{input.index}) return ft_no_gradient(x@{input.index}, derivative);
 @end
+@if in_file
+  if (!ft_ready()) return ft_no_gradient((double)NAN, derivative);
+@end
 @for side in refusing
   if (@{side.text}) return ft_no_gradient((double)NAN, derivative); /* outside = error */
 @end

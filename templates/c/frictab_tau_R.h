@@ -65,6 +65,13 @@ void frictab_count_outside(
     @{arrays},
     unsigned long* counts);
 
+@if in_file
+/* Where the file of values lies, before the first call; 0 where the name is too long. The first
+ * call reads it. Where that fails it says why to stderr, and all stresses are NaN.
+ */
+int frictab_directory(const char* directory);
+
+@end
 #ifdef __cplusplus
 }
 #endif

@@ -147,9 +147,6 @@ C     The larger of both; NaN where one is.
       end
 C
 @end
-@if refuses
-@{stop}
-@end
 @{constants}
 @{coefficient}
 @{core}

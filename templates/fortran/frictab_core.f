@@ -1,8 +1,11 @@
+@if ends
+@{stop}
+@end
 C     tau_R in MPa of the state x in canonical units:
 @for line in arguments
 C     @{line.text}
 @end
-      @{pure}double precision function fttau(x)
+      @{pure_tau}double precision function fttau(x)
       implicit none
       double precision@{in} x(@{n_x})
       double precision val
@@ -33,6 +36,10 @@ C     @{constant.comment}
 @end
 @if externals
       logical ftnan
+@if in_file
+      logical ftload
+      double precision ftqnan
+@end
 @end
       integer i
       do i = 1, @{n_x}
@@ -41,6 +48,12 @@ C     @{constant.comment}
           return
         end if
       end do
+@if in_file
+      if (.not. ftload()) then
+        fttau = ftqnan()
+        return
+      end if
+@end
 @for axis in axes
       u(@{axis.number}) = @{axis.coordinate}
 @end
@@ -85,6 +98,9 @@ C
 @end
 @if interpolates
 @{interpolation}
+@end
+@if in_file
+@{values_file}
 @end
 @if uses_log
 C     Zero and negative values lie below every logarithmic axis.

@@ -5,7 +5,12 @@
 @end
       double precision un(@{n_nodes}), pc(@{n_cells})
       double precision tv(@{n_values})
+@if in_file
+      common /ftvals/ tv
+      save un, pc
+@else
       save un, pc, tv
+@end
 @if uses_guide
       integer gd(@{n_guide})
       save gd
@@ -23,4 +28,8 @@ C     per cell: first coefficient; 4 polynomials of the cell's weight
 @{data_tb}
 @end
 C     @{value_comment}
+@if in_file
+C     in /ftvals/, from @{file}
+@else
 @{data_tv}
+@end

@@ -1,7 +1,7 @@
 C     tau as fttau gives it, and its derivatives dtau by x: MPa per
 C     canonical unit. 0 by an axis at whose end the table stops, NaN
 C     where x holds one@{refused_text}.
-      @{pure}subroutine ftgrad(x, tau, dtau)
+      @{pure_tau}subroutine ftgrad(x, tau, dtau)
       implicit none
       double precision@{in} x(@{n_x})
       double precision@{out} tau, dtau(@{n_x})
@@ -16,13 +16,16 @@ C     where x holds one@{refused_text}.
 @if uses_log
       double precision ftlog
 @end
-@if refuses
+@if makes_nan
       double precision ftqnan
 @end
 @for name in helpers
       double precision @{name.text}
 @end
       logical ftnan
+@if in_file
+      logical ftload
+@end
 @end
 @for line in temporaries
 @{line.text}
@@ -45,6 +48,15 @@ C     @{constant.comment}
           return
         end if
       end do
+@if in_file
+      if (.not. ftload()) then
+        tau = ftqnan()
+        do j = 1, @{n_x}
+          dtau(j) = tau
+        end do
+        return
+      end if
+@end
 C     val and its derivatives by x
 @if has_by
       do i = 1, @{n_x}

@@ -31,4 +31,3 @@ C     end by rounding.
       return
       end
 C
-@{quit}

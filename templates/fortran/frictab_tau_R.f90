@@ -13,7 +13,7 @@
 ! @{line.text}
 @end
 !
-! Fortran 2008, no state. Compile without options that change arithmetic (gfortran:
+! Fortran 2008, @{state_text}. Compile without options that change arithmetic (gfortran:
 ! -ffp-contract=off, never -ffast-math): otherwise the bits that were verified are not the bits that
 ! run. What has a C name has the interface of frictab's C target as well, and can stand in for it.
 module frictab_law
@@ -22,13 +22,16 @@ module frictab_law
   private
   public :: tau_R, frictab_tau_R, frictab_tau_R_gradient, frictab_tau_R_batch
   public :: frictab_tau_R_gradient_batch, frictab_outside
+@if in_file
+  public :: ftdir
+@end
 
 @{data}
 
 contains
 
   ! tau_R in @{tau_unit}, of numbers or of arrays of one shape.
-  elemental function tau_R( &
+  @{elemental} function tau_R( &
       @{names}) &
       result(ft_tau)
     real(c_double), intent(in) :: &
@@ -44,7 +47,7 @@ contains
   end function tau_R
 
   ! tau_R in @{tau_unit}.
-  pure function frictab_tau_R( &
+  @{pure}function frictab_tau_R( &
       @{names}) &
       result(ft_tau) bind(C, name="frictab_tau_R")
     real(c_double), value :: &
@@ -87,7 +90,7 @@ contains
   end function frictab_tau_R_gradient
 
   ! n states at once; C may pass a null pointer for an argument that is not used.
-  pure subroutine frictab_tau_R_batch(n, &
+  @{pure}subroutine frictab_tau_R_batch(n, &
       @{names}, &
       tau) bind(C, name="frictab_tau_R_batch")
     integer(c_size_t), value :: n
@@ -150,7 +153,7 @@ contains
   ! From here on: states in canonical units, stress in MPa.
 
   ! tau_R in @{tau_unit}; NaN where a side refuses.
-  pure function ftsolv(x) result(tau)
+  @{pure}function ftsolv(x) result(tau)
     real(c_double), intent(in) :: x(@{n_x})
     real(c_double) :: tau
     tau = fttau(x)@{to_solver}

@@ -257,5 +257,4 @@ C     A pressed node without area ends the analysis.
       return
       end
 C
-@{stop}
 @{core}

@@ -99,9 +99,6 @@ C     Without pressure there is nothing to look up.
       return
       end
 C
-@if refuses
-@{stop}
-@end
 @{constants}
 @{coefficient}
 @{core}

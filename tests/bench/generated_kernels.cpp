@@ -138,7 +138,7 @@ FortranKernel::FortranKernel(const Table& table, bool has_gradient) {
   build.name = "core";
   build.command = {"gfortran", "-O2", "-std=legacy", "-ffp-contract=off", "-fPIC",
                    "-shared",  "-o",  "@{out}",      "@{dir}/core.f"};
-  const std::string text = fortran::core(table, {.gradient = has_gradient}).text + "\n";
+  const std::string text = fortran::core({.table = table}, {.gradient = has_gradient}).text + "\n";
   library_ =
       std::make_unique<Library>(compile_library({{"core.f", text}}, build, directory_.path()));
   value = library_->find<double(const double*)>("ftintp_");

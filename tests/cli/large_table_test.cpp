@@ -90,19 +90,30 @@ TEST_F(LargeTable, IsVerifiedByTheJobAndAlone) {
                         "fletcher32\n"));
 }
 
-TEST_F(LargeTable, SourcesThatCannotHoldItAreRefusedBeforeItIsSampled) {
+TEST_F(LargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
   // 12,000,000 values, nodes and constants
   const std::string what = "error: the table of log_coulomb needs 12,000,5";
   const std::string why =
       " numbers in the source; a compiler takes 300,000 in reasonable time and memory\n";
-  const CommandResult whole = run("run", {"--set", "export.targets=\"c\""});
+  const CommandResult whole = run("run", {"--set", "export.targets=\"qform_lua\""});
   EXPECT_EQ(whole.exit_code, 2);
   EXPECT_THAT(whole.err, testing::AllOf(testing::StartsWith(what), testing::HasSubstr(why)));
   EXPECT_FALSE(fs::exists(directory.path("out/tables")));
   ASSERT_EQ(run("tabulate").exit_code, 0);
-  const CommandResult sources = run("export", {"--set", "export.targets=\"c\""});
+  const CommandResult sources =
+      run("export", {"--set", "export.targets=\"c\"", "--set", "export.options.values=\"source\""});
   EXPECT_EQ(sources.exit_code, 2);
   EXPECT_THAT(sources.err, testing::AllOf(testing::StartsWith(what), testing::HasSubstr(why)));
+}
+
+TEST_F(LargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
+  const CommandResult whole = run("run", {"--set", "export.targets=\"c\""});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string c = directory.path("out/export/c/");
+  EXPECT_EQ(fs::file_size(c + "frictab_values.bin"), 96000000u);
+  EXPECT_LT(fs::file_size(c + "frictab_tau_R.c"), 100000u);
+  EXPECT_THAT(directory.read("out/verify.json"), HasSubstr("\"subject\": \"c/c99\""));
+  EXPECT_EQ(run("verify").exit_code, 0); // the sources as they lie there
 }
 
 TEST_F(LargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {

@@ -44,7 +44,7 @@ public:
                      "-o",
                      "@{out}",
                      "@{dir}/core.f"};
-    text = fortran::core(table, {.gradient = true}).text + "\n";
+    text = fortran::core({.table = table}, {.gradient = true}).text + "\n";
     library_ = std::make_unique<Library>(compile_library({{"core.f", text}}, build, work_.path()));
     gradient_ = library_->find<void(const double*, double*, double*)>("ftgrad_");
     value_ = library_->find<double(const double*)>("fttau_");
@@ -217,7 +217,7 @@ TEST(FortranGradientUnit, OfALargerNetworkIsItsFormulas) {
 
 TEST(FortranGradientUnit, LeavesTheCoreAsItIsWhereNotAskedFor) {
   for (const test::NamedTable& sample : test::sample_tables()) {
-    const std::string text = fortran::core(sample.table, {}).text;
+    const std::string text = fortran::core({.table = sample.table}, {}).text;
     for (const char* unit : {"ftgrad", "ftintg", "ftpieg"})
       EXPECT_EQ(text.find(unit), std::string::npos) << sample.name;
   }
@@ -225,7 +225,7 @@ TEST(FortranGradientUnit, LeavesTheCoreAsItIsWhereNotAskedFor) {
 
 TEST(FortranGradientUnit, KeepsToItsColumns) {
   for (const test::NamedTable& sample : test::sample_tables()) {
-    std::istringstream lines(fortran::core(sample.table, {.gradient = true}).text);
+    std::istringstream lines(fortran::core({.table = sample.table}, {.gradient = true}).text);
     for (std::string line; std::getline(lines, line);) {
       EXPECT_LE(line.size(), 72U) << line;
       EXPECT_TRUE(line.empty() || line.back() != ' ') << line;

@@ -313,17 +313,17 @@ TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
   const ExportRequest request{sides_table(), "mm-t-s", {}};
   const Exporter& exporter = *find_exporter("abaqus_fric");
   BuildVariant variant = exporter.variants(request)[0];
-  variant.extra["stdb_abqerr.f"] = "      subroutine stdb_abqerr(lop, text, intv, realv, charv)\n"
-                                   "      include 'aba_param.inc'\n"
-                                   "      character*(*) text, charv(*)\n"
-                                   "      dimension intv(*), realv(*)\n"
-                                   "      character*500 said\n"
-                                   "      integer calls, kind\n"
-                                   "      common /ftseen/ calls, kind, said\n"
-                                   "      calls = calls + 1\n"
-                                   "      kind = lop\n"
-                                   "      said = text\n"
-                                   "      end\n";
+  variant.extra["solver.f"] = "      subroutine stdb_abqerr(lop, text, intv, realv, charv)\n"
+                              "      include 'aba_param.inc'\n"
+                              "      character*(*) text, charv(*)\n"
+                              "      dimension intv(*), realv(*)\n"
+                              "      character*500 said\n"
+                              "      integer calls, kind\n"
+                              "      common /ftseen/ calls, kind, said\n"
+                              "      calls = calls + 1\n"
+                              "      kind = lop\n"
+                              "      said = text\n"
+                              "      end\n";
   struct Seen {
     int calls, kind;
     char said[500];

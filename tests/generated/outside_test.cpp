@@ -229,7 +229,7 @@ protected:
     const Exporter& exporter = *find_exporter("abaqus_vfric");
     const ExportRequest request{table, "mm-t-s", {}};
     BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
-    variant.extra["xplb_abqerr.f"] = keeper;
+    variant.extra["solver.f"] = keeper;
     for (const char* flag : {"-fcheck=all", "-ffpe-trap=invalid,zero,overflow"})
       variant.command.insert(variant.command.begin() + 1, flag);
     library = std::make_unique<Library>(

@@ -2,6 +2,7 @@
 #include "support/generated.h"
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include <fenv.h>
@@ -10,6 +11,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "codegen/values_file.h"
 #include "core/text.h"
 
 namespace frictab::test {
@@ -29,8 +31,19 @@ fs::path kept_library(const SourceBundle& bundle, const BuildVariant& build) {
   return fs::path(FRICTAB_BINARY).parent_path() / "tests" / "compiled" / name;
 }
 
+// A file of values lies in a directory of the library's name.
+void keep_values(const SourceBundle& bundle, const fs::path& directory) {
+  const auto values = bundle.find(values_file_name);
+  if (values == bundle.end() || fs::exists(directory / values_file_name)) return;
+  fs::create_directories(directory);
+  const fs::path own = directory / std::to_string(getpid());
+  std::ofstream(own, std::ios::binary) << values->second;
+  fs::rename(own, directory / values_file_name);
+}
+
 std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVariant& build) {
   const fs::path kept = kept_library(bundle, build);
+  keep_values(bundle, fs::path(kept).replace_extension());
   if (!fs::exists(kept)) {
     const TemporaryDirectory work;
     const fs::path made = compile_library(bundle, build, work.path());
@@ -39,7 +52,9 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
     fs::copy_file(made, own);
     fs::rename(own, kept); // whole or not at all, whoever else makes it
   }
-  return std::make_unique<Library>(kept);
+  auto library = std::make_unique<Library>(kept);
+  library->tell_directory(fs::path(kept).replace_extension());
+  return library;
 }
 
 } // namespace
