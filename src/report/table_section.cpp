@@ -105,10 +105,12 @@ std::string outside_text(const DriftRecord& r) {
   return text;
 }
 
-// A solver's own table says what it holds, and what that costs.
+// A solver's own table says what it holds, and what that costs; a routine, what it was not asked.
 std::string subject_text(const DriftRecord& r) {
-  const std::string name = svg::escape(r.subject);
-  return r.held ? name + "<br>" + svg::escape(cost_text(r)) : name;
+  std::string text = svg::escape(r.subject);
+  for (const std::string& remark : {r.held ? cost_text(r) : std::string(), not_posed_text(r)})
+    if (!remark.empty()) text += "<br>" + svg::escape(remark);
+  return text;
 }
 
 // `table`: the record of the table that the source was made from; most sources are furthest where

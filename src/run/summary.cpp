@@ -155,6 +155,8 @@ void add_to(DriftLine& line, const DriftRecord& r) {
   if (!r.passed)
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
                               std::max(r.worst_case_MPa, r.rows.max_abs));
+  if (const std::string left = not_posed_text(r); !left.empty())
+    line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own
   line.on_rows = std::max(line.on_rows, r.rows.max_abs);
   if (r.n_rows > 0)

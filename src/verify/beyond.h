@@ -31,4 +31,8 @@ std::string beyond_text(const BeyondEnd& end);
 // of a solver's own table.
 std::string cost_text(const DriftRecord& record);
 
+// "not asked 1,200 of 16,500 rows and ...: states its solver is never in"; empty where it was asked
+// all.
+std::string not_posed_text(const DriftRecord& record);
+
 } // namespace frictab

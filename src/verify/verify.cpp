@@ -132,12 +132,13 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
 constexpr double not_posed = -1;
 
 // Such rows say nothing of a source, so they count as the table's own. A source that was asked
-// nothing at all has shown nothing.
-void leave_out_not_posed(std::vector<double>& tau, const std::vector<double>& table) {
-  const auto posed = [](double t) { return t != not_posed; };
-  if (std::none_of(tau.begin(), tau.end(), posed)) return;
+// nothing at all has shown nothing. Gives how many they are.
+std::size_t leave_out_not_posed(std::vector<double>& tau, const std::vector<double>& table) {
+  const auto count = static_cast<std::size_t>(std::count(tau.begin(), tau.end(), not_posed));
+  if (count == tau.size()) return count;
   for (std::size_t i = 0; i < tau.size(); ++i)
-    if (!posed(tau[i])) tau[i] = table[i];
+    if (tau[i] == not_posed) tau[i] = table[i];
+  return count;
 }
 
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
@@ -149,8 +150,10 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
     std::vector<double> tau(reference->law.size(), not_posed);
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
-    leave_out_not_posed(tau, reference->table);
-    if (reference == &s.rows)
+    const bool of_rows = reference == &s.rows;
+    (of_rows ? record.n_rows_not_posed : record.n_points_not_posed) =
+        leave_out_not_posed(tau, reference->table);
+    if (of_rows)
       compare_rows(record, *reference, s.beyond, tau);
     else
       compare_range(record, s, tau);
