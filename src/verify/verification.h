@@ -38,9 +38,10 @@ struct DriftRecord {
   std::map<std::string, double> worst_state; // where; canonical names
   std::size_t n_points = 0;                  // points looked at over the range
   // Sources: states that their solver can never be in, as a peak pressure below the present one;
-  // they say nothing of the source and count as the table's own. Of the rows, of the range's points.
+  // they say nothing of the source and count as the table's own. Of the rows, of the range's
+  // points.
   std::size_t n_rows_not_posed = 0, n_points_not_posed = 0;
-  double max_vs_table_MPa = 0;               // sources: largest difference from the table itself
+  double max_vs_table_MPa = 0; // sources: largest difference from the table itself
   bool passed = false;
   std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
   std::string not_proven = {};           // why there is no such bound

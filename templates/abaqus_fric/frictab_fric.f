@@ -184,6 +184,8 @@ C
 C     Trial: all motion is elastic. DROT turns components that the
 C     solver does not turn itself.
       ds = zero
+      gt(1) = zero
+      gt(2) = zero
       if (keeps) then
         ge(1) = s0(5)
         if (nfdir .eq. 2) then

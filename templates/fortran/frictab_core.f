@@ -42,12 +42,17 @@ C     @{constant.comment}
 @end
 @end
       integer i
+      integer*8 bits, most
+      most = 0
       do i = 1, @{n_x}
-        if (ftnan(x(i))) then
-          fttau = x(i)
-          return
-        end if
+        most = max(most, ibclr(transfer(x(i), bits), 63))
       end do
+      if (most .gt. 9218868437227405312_8) then
+        do i = 1, @{n_x}
+          fttau = x(i)
+          if (ftnan(x(i))) return
+        end do
+      end if
 @if in_file
       if (.not. ftload()) then
         fttau = ftqnan()

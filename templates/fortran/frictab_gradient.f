@@ -39,15 +39,22 @@ C     @{constant.comment}
       logical beyond
 @end
       integer i, j
+      integer*8 bits, most
+      most = 0
       do i = 1, @{n_x}
-        if (ftnan(x(i))) then
-          tau = x(i)
-          do j = 1, @{n_x}
-            dtau(j) = x(i)
-          end do
-          return
-        end if
+        most = max(most, ibclr(transfer(x(i), bits), 63))
       end do
+      if (most .gt. 9218868437227405312_8) then
+        do i = 1, @{n_x}
+          if (ftnan(x(i))) then
+            tau = x(i)
+            do j = 1, @{n_x}
+              dtau(j) = x(i)
+            end do
+            return
+          end if
+        end do
+      end if
 @if in_file
       if (.not. ftload()) then
         tau = ftqnan()

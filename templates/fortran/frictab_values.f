@@ -6,8 +6,8 @@ C     says why, and every stress is NaN.
       implicit none
       interface
 @if externals
-        subroutine ftread() bind(c, name='frictab_read_values')
-        end subroutine ftread
+        subroutine ftfile() bind(c, name='frictab_read_values')
+        end subroutine ftfile
 @end
         integer(c_int) function ftonce(begun, task)
      &    bind(c, name='pthread_once')
@@ -19,12 +19,12 @@ C     says why, and every stress is NaN.
       integer(c_int), save :: begun = 0
       logical good
       common /ftdone/ good
-      ftload = ftonce(begun, c_funloc(ftread)) .eq. 0
+      ftload = ftonce(begun, c_funloc(ftfile)) .eq. 0
       if (ftload) ftload = good
       return
       end
 C
-      subroutine ftread() bind(c, name='frictab_read_values')
+      subroutine ftfile() bind(c, name='frictab_read_values')
       use, intrinsic :: iso_c_binding, only: c_int64_t
       implicit none
 @if externals

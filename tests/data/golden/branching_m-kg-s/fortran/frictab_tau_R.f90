@@ -224,12 +224,17 @@ contains
     ! shape number
     parameter (c2 = 1.25D0)
     integer i
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 4
-      if (ftnan(x(i))) then
-        fttau = x(i)
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 4
+        fttau = x(i)
+        if (ftnan(x(i))) return
+      end do
+    end if
     u(1) = x(2)
     u(2) = x(3)
     val = ftintp(u)
@@ -285,15 +290,22 @@ contains
     ! shape number
     parameter (c2 = 1.25D0)
     integer i, j
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 4
-      if (ftnan(x(i))) then
-        tau = x(i)
-        do j = 1, 4
-          dtau(j) = x(i)
-        end do
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 4
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, 4
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+    end if
     ! val and its derivatives by x
     do i = 1, 4
       by(i) = 0.0D0

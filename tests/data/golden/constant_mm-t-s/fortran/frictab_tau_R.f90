@@ -167,12 +167,17 @@ contains
     double precision val
     double precision t1
     integer i
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 1
-      if (ftnan(x(i))) then
-        fttau = x(i)
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 1
+        fttau = x(i)
+        if (ftnan(x(i))) return
+      end do
+    end if
     val = 0.08D0
     t1 = val*x(1)
     fttau = t1
@@ -187,15 +192,22 @@ contains
     double precision val
     double precision t1
     integer i, j
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 1
-      if (ftnan(x(i))) then
-        tau = x(i)
-        do j = 1, 1
-          dtau(j) = x(i)
-        end do
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 1
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, 1
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+    end if
     ! val and its derivatives by x
     val = 0.08D0
     t1 = val*x(1)

@@ -255,12 +255,17 @@ contains
     double precision val
     double precision t1, t2, t3, t4
     integer i
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 6
-      if (ftnan(x(i))) then
-        fttau = x(i)
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 6
+        fttau = x(i)
+        if (ftnan(x(i))) return
+      end do
+    end if
     val = ftpiec(x)
     t1 = val*x(1)
     t2 = ftmax(t1, 0.0D0)
@@ -280,15 +285,22 @@ contains
     double precision t1, t2, t3, t4, t5, t6, t7, t8
     double precision t9
     integer i, j
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 6
-      if (ftnan(x(i))) then
-        tau = x(i)
-        do j = 1, 6
-          dtau(j) = x(i)
-        end do
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 6
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, 6
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+    end if
     ! val and its derivatives by x
     do i = 1, 6
       by(i) = 0.0D0

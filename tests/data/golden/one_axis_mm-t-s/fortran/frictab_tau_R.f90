@@ -181,12 +181,17 @@ contains
     double precision val
     double precision u(1)
     integer i
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 1
-      if (ftnan(x(i))) then
-        fttau = x(i)
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 1
+        fttau = x(i)
+        if (ftnan(x(i))) return
+      end do
+    end if
     u(1) = x(1)
     val = ftintp(u)
     fttau = val
@@ -202,15 +207,22 @@ contains
     double precision by(1)
     double precision u(1), du(1)
     integer i, j
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 1
-      if (ftnan(x(i))) then
-        tau = x(i)
-        do j = 1, 1
-          dtau(j) = x(i)
-        end do
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 1
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, 1
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+    end if
     ! val and its derivatives by x
     do i = 1, 1
       by(i) = 0.0D0

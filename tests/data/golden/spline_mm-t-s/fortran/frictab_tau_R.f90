@@ -369,12 +369,17 @@ contains
     ! m
     parameter (c1 = 0.8D0)
     integer i
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 5
-      if (ftnan(x(i))) then
-        fttau = x(i)
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 5
+        fttau = x(i)
+        if (ftnan(x(i))) return
+      end do
+    end if
     u(1) = ftlog(x(3))
     u(2) = ftlog(x(1))
     u(3) = x(4)
@@ -404,15 +409,22 @@ contains
     ! m
     parameter (c1 = 0.8D0)
     integer i, j
+    integer(c_int64_t) bits, most
+    most = 0
     do i = 1, 5
-      if (ftnan(x(i))) then
-        tau = x(i)
-        do j = 1, 5
-          dtau(j) = x(i)
-        end do
-        return
-      end if
+      most = max(most, ibclr(transfer(x(i), bits), 63))
     end do
+    if (most .gt. 9218868437227405312_8) then
+      do i = 1, 5
+        if (ftnan(x(i))) then
+          tau = x(i)
+          do j = 1, 5
+            dtau(j) = x(i)
+          end do
+          return
+        end if
+      end do
+    end if
     ! val and its derivatives by x
     do i = 1, 5
       by(i) = 0.0D0

@@ -1,0 +1,236 @@
+// Every target with every table of a job and every compiler: whether it compiles, runs and agrees
+// with frictab's own evaluation, and what a contact point costs; as lines of Markdown. The same for
+// two grids that are looked up and nothing else, beside the interpolation kernel written by hand
+// (src/table/frictab_kernel.h, compiled alike).
+// Arguments: the output directory of `frictab run`, with tables of the laws that are wanted.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <time.h>
+
+#include "../../exporters/abaqus_vfric/call.h"
+#include "bench/generated_kernels.h"
+#include "codegen/exporter.h"
+#include "support/sample_tables.h"
+#include "table/table_file.h"
+
+namespace frictab::bench {
+namespace {
+
+constexpr std::size_t rows = 4080; // 30 blocks of 136 contact points
+constexpr int passes = 100;
+
+double thread_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// The fastest of many passes, ns per state; `kernel` (may be empty) takes turns with it, since a
+// shared processor changes its pace.
+struct Times {
+  double ns, kernel_ns;
+};
+Times times(const std::function<void()>& pass, const std::function<void()>& kernel) {
+  Times best = {1e300, kernel ? 1e300 : std::nan("")};
+  const auto measure = [](const std::function<void()>& run, double& least) {
+    const double before = thread_seconds();
+    run();
+    least = std::min(least, 1e9 * (thread_seconds() - before) / static_cast<double>(rows));
+  };
+  for (int i = 0; i < passes; ++i) {
+    measure(pass, best.ns);
+    if (kernel) measure(kernel, best.kernel_ns);
+  }
+  return best;
+}
+
+// What a contact point costs without the solver's arguments around it: the entry for many states,
+// or the common core of the Fortran routines, one state after the other. NaN where there is
+// neither.
+Times times_of(const Exporter& exporter, const ExportRequest& request, void* library,
+               const test::States& states, const std::function<void()>& kernel) {
+  std::vector<double> tau(rows);
+  if (exporter.batch)
+    return times([&] { exporter.batch(library, request, rows, states.columns(), tau); }, kernel);
+  auto* core =
+      library ? reinterpret_cast<double (*)(const double*)>(dlsym(library, "fttau_")) : nullptr;
+  if (!core) return {std::nan(""), std::nan("")};
+  const std::size_t n = states.columns().size();
+  std::vector<double> x;
+  for (std::size_t i = 0; i < rows; ++i)
+    for (const double* column : states.columns())
+      x.push_back(column[i]);
+  return times(
+      [&] {
+        for (std::size_t i = 0; i < rows; ++i)
+          tau[i] = core(&x[n * i]);
+      },
+      kernel);
+}
+
+// The recipe's compiler, and clang where that one is gcc.
+std::vector<BuildVariant> compilers(const Exporter& exporter, const ExportRequest& request) {
+  std::vector<BuildVariant> out = exporter.variants(request);
+  for (std::size_t i = 0, n = out.size(); i < n; ++i)
+    if (!out[i].command.empty() && out[i].command[0] == "gcc") {
+      out.push_back(out[i]);
+      out.back().command[0] = "clang";
+    }
+  return out;
+}
+
+struct Subject {
+  std::string name;
+  Table table;
+  double spread;                // beyond the ends of the axes
+  std::function<void()> kernel; // the same lookups by hand
+};
+
+void print_line(const Subject& subject, const Exporter& exporter, const ExportRequest& request,
+                const BuildVariant& variant, const test::States& states,
+                const std::vector<double>& truth) {
+  const std::string who = fmt::format(
+      "| {} | {} | {}", subject.name, exporter.name,
+      variant.command.empty() ? variant.interpreter : variant.command[0] + " " + variant.name);
+  const SourceBundle bundle = exporter.generate(request);
+  std::vector<double> tau(rows, std::nan(""));
+  Times cost = {std::nan(""), std::nan("")};
+  std::size_t posed = 0;
+  try {
+    const CompiledTarget target(exporter, request, bundle, variant);
+    const auto drive = [&] { target.drive(rows, states.columns(), tau); };
+    drive();
+    posed = static_cast<std::size_t>(
+        std::count_if(tau.begin(), tau.end(), [](double t) { return !std::isnan(t); }));
+    cost = times_of(exporter, request, target.handle(), states, subject.kernel);
+  } catch (const std::exception& error) {
+    fmt::print("{} | FAILED: {} |\n", who, std::string(error.what()).substr(0, 200));
+    return;
+  }
+  std::vector<double> expected = truth;
+  for (std::size_t i = 0; i < rows; ++i)
+    if (std::isnan(tau[i])) expected[i] = tau[i]; // not posed
+  fmt::print("{} | {} of {} | {} | {} | {} |\n", who, posed, rows,
+             subject.kernel ? "-" : fmt::format("{:.1e}", test::worst_relative(tau, expected)),
+             std::isnan(cost.ns) ? "-" : fmt::format("{:.0f}", cost.ns),
+             subject.kernel && !std::isnan(cost.ns)
+                 ? fmt::format("{:.2f}", cost.ns / cost.kernel_ns)
+                 : "-");
+  std::fflush(stdout);
+}
+
+void print_subject(const Subject& subject) {
+  const std::map<std::string, double> fixed = {{"psi", 0.7}, {"s_mm", 0.3}};
+  const std::map<std::string, double> in_range = {{"psi", 2.5}, {"sigma_f_MPa", 480.0}};
+  const test::States states(subject.table, rows, 41, subject.spread,
+                            subject.kernel ? fixed : in_range);
+  const std::vector<double> truth = test::expected(subject.table, states);
+  for (const Exporter& exporter : all_exporters()) {
+    if (!exporter.whole()) continue;
+    const ExportRequest request{subject.table, "mm-t-s", {}};
+    for (const BuildVariant& variant : compilers(exporter, request))
+      if (have_program(variant.program()))
+        print_line(subject, exporter, request, variant, states, truth);
+  }
+}
+
+// [0, 1] on every axis, nothing but the lookup.
+Subject grid(const std::vector<std::size_t>& counts) {
+  Subject out{"", random_table(counts, true, false), 0, {}};
+  out.table.model = "grid";
+  out.name = fmt::format("{} nodes", out.table.nodes());
+  const auto kernel = std::make_shared<CKernel>(out.table);
+  const test::States states(out.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});
+  std::vector<double> u;
+  for (std::size_t i = 0; i < rows; ++i)
+    for (const TableAxis& axis : out.table.axes) {
+      const std::vector<std::string> inputs = out.table.inputs();
+      const auto c = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
+      u.push_back(states.columns()[static_cast<std::size_t>(c)][i]);
+    }
+  const std::size_t axes = out.table.axes.size();
+  out.kernel = [kernel, u, axes, value = std::vector<double>(rows)]() mutable {
+    for (std::size_t i = 0; i < rows; ++i)
+      value[i] = kernel->value(&u[axes * i]);
+  };
+  return out;
+}
+
+// VFRIC with all its arguments, by contact points per call: the states of `subject`.
+void print_blocks(const Subject& subject) {
+  const Exporter& exporter = *find_exporter("abaqus_vfric");
+  const ExportRequest request{subject.table, "mm-t-s", {}};
+  const BuildVariant variant = exporter.variants(request)[0];
+  if (!have_program(variant.program())) return;
+  const CompiledTarget target(exporter, request, exporter.generate(request), variant);
+  void* routine = Library::address(target.handle(), "vfric_");
+  const test::States states(subject.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});
+  for (const int block : {1, 16, 136, 510}) {
+    std::vector<abaqus_vfric::VfricCall<double>> calls(rows / static_cast<std::size_t>(block));
+    std::size_t row = 0;
+    for (auto& call : calls) {
+      call.states = 6;
+      call.temperatures = true;
+      call.time_increment = 0x1p-40;
+      call.properties = {0.7};
+      call.resize(block, block);
+      for (int k = 0; k < block; ++k, ++row) {
+        const auto at = static_cast<std::size_t>(k);
+        call.normal[at] = states.columns()[0][row];
+        call.slip[3 * at] = states.columns()[2][row] * 0x1p-40;
+        call.temperature[at] = call.temperature_main[at] = states.columns()[3][row];
+        call.state[6 * at] = 0.3;
+      }
+    }
+    const auto in_kernels = [&](void* function) { // less what making the arguments takes
+      const Times cost = times(
+          [&] {
+            for (auto& call : calls)
+              call.run(function);
+          },
+          subject.kernel);
+      return cost.ns / cost.kernel_ns;
+    };
+    const double ratio = in_kernels(routine) - in_kernels(reinterpret_cast<void*>(+[] {}));
+    fmt::print("| {} | abaqus_vfric, all arguments, blocks of {} | gfortran double | | | | {:.2f} "
+               "|\n",
+               subject.name, block, ratio);
+  }
+}
+
+int run(const std::filesystem::path& directory) {
+  fmt::print("| table | target | compiler | rows posed | largest difference, relative | ns per "
+             "point | over the kernel |\n|---|---|---|--:|--:|--:|--:|\n");
+  for (const std::vector<std::size_t>& counts :
+       {std::vector<std::size_t>{6, 4, 5, 5, 8}, {17, 9, 9, 9, 17}}) {
+    const Subject subject = grid(counts);
+    print_subject(subject);
+    print_blocks(subject);
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "tables"))
+    if (entry.path().extension() == ".h5") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    const Table table = read_table(file);
+    print_subject({table.model, table, 0.1, {}});
+  }
+  return 0;
+}
+
+} // namespace
+} // namespace frictab::bench
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: frictab_bench_targets OUTPUT_OF_FRICTAB_RUN\n");
+    return 2;
+  }
+  return frictab::bench::run(argv[1]);
+}
