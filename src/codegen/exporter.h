@@ -20,8 +20,8 @@ using SourceBundle = std::map<std::string, std::string>;
 
 struct ExportRequest {
   const Table& table;
-  std::string units = "mm-t-s";              // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
-  std::map<std::string, std::string> inputs; // job's [export.inputs]; checked by the exporter
+  std::string units = "mm-t-s"; // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
+  std::map<std::string, std::string> inputs = {};  // job's [export.inputs]; checked by the exporter
   std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
 };
 

@@ -121,6 +121,32 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
   return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
 }
 
+std::string edge_text(const Table& table) {
+  const char* const pressure = "sigma_n_MPa";
+  const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
+                                 [&](const TableAxis& a) { return a.name == pressure; });
+  if (axis == table.axes.end() || axis->below != Outside::clamp || axis->nodes.front() <= 0)
+    return "";
+  const double low = axis->nodes.front();
+  std::vector<double> state;
+  std::size_t at = 0;
+  for (const std::string& name : table.inputs()) {
+    if (name == pressure) at = state.size();
+    const auto typical = typical_value(table, name);
+    if (!typical) return "";
+    state.push_back(*typical);
+  }
+  const TableFunction tau(table);
+  state[at] = low;
+  const double at_low = tau(state);
+  state[at] = 0.001 * low;
+  const double at_edge = tau(state);
+  if (!(at_edge > 0.01 * at_low)) return "";
+  return fmt::format("keeps {:.3g} MPa below {:.6g} MPa of contact normal stress, also at an edge "
+                     "of the contact; the law itself there: [table.axes.{}] outside = \"law\"",
+                     at_edge, low, pressure);
+}
+
 std::size_t baked_numbers(const Table& table) {
   std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
   // Nodes, 1/width, polynomials of the cells; of the law itself the two ends.

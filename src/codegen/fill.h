@@ -52,6 +52,11 @@ std::optional<std::pair<double, double>> known_range(const Table& table, const s
 // where that is the quantity's coordinate); nullopt where no range is known.
 std::optional<double> typical_value(const Table& table, const std::string& name);
 
+// "keeps 57.1 MPa below 500 MPa of contact normal stress ...": where tau_R does not fall with a
+// pressure below the table's range, as at the edge of a contact, and its other states are typical;
+// else empty.
+std::string edge_text(const Table& table);
+
 // Most numbers (nodes, values, cell polynomials) that a source may hold: gfortran takes 281 MB and
 // 4 to 7 s for 210,000 in DATA statements.
 inline constexpr std::size_t most_baked_numbers = 300000;

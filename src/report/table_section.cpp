@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fill.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "report/numbers.h"
@@ -40,7 +41,8 @@ std::string summary_of(const Table& table) {
   for (std::size_t i = 0; i < inputs.size(); ++i)
     text += (i ? ", " : "") + ("<code>" + svg::escape(inputs[i]) + "</code>");
   if (inputs.empty()) text += "none";
-  return text + ".";
+  const std::string edge = edge_text(table);
+  return text + "." + (edge.empty() ? "" : " It " + svg::escape(edge) + ".");
 }
 
 // Table or the law itself: what a source holds of each.

@@ -9,6 +9,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "codegen/fill.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "report/numbers.h"
@@ -129,6 +130,8 @@ void add_tables(std::string& out, const Pipeline& p) {
         "  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
         table.nodes() == 1 ? "" : "s", human_bytes(static_cast<double>(table.bytes())), grid,
         table.axes.empty() || table.interpolation == "linear" ? "" : ", " + table.interpolation);
+    if (const std::string edge = edge_text(table); !edge.empty())
+      out += fmt::format("  {:<14} {}\n", "", edge);
     if (table.interpolation == "linear" && table.nodes() > many_nodes)
       out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",

@@ -1,9 +1,11 @@
 // The sides of a table's axes: as the job asks, in the file, and as rows outside are counted.
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"
+#include "codegen/fill.h"
 #include "io/hdf5.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
@@ -209,7 +211,7 @@ Exporter sparse(bool poses) {
   return out;
 }
 
-TEST(Verify, LeavesOutRowsThatADriverCannotPoseButNotAllOfThem) {
+TEST(Verify, CountsRowsThatADriverCannotPoseAndLeavesThemOutButNotAllOfThem) {
   const Model model = log_coulomb();
   const Dataset data = test::sample_data(model);
   const TableOptions options;
@@ -220,6 +222,11 @@ TEST(Verify, LeavesOutRowsThatADriverCannotPoseButNotAllOfThem) {
         verify({model, table, "table", &data, 0.5, 2000}, {{&exporter, {table, "mm-t-s", {}}, {}}})
             .back();
     EXPECT_FALSE(r.passed);
+    EXPECT_EQ(r.n_rows_not_posed, poses ? data.rows() / 2 : data.rows());
+    EXPECT_GT(r.n_points_not_posed, 1000u);
+    EXPECT_THAT(not_posed_text(r), testing::EndsWith("states its solver is never in"));
+    const std::string text = verification_json({0.5, {r}});
+    EXPECT_EQ(verification_json(parse_verification(text, "verify.json")), text);
     if (poses)
       EXPECT_NEAR(r.rows.mean_abs, 1.5, 0.1) << "half of the rows, 3 MPa each";
     else
@@ -232,6 +239,28 @@ TEST(Verify, RecordOfRowsOutsideReadsBack) {
   const std::string text = verification_json(before);
   EXPECT_NE(text.find("\"axis\": \"T_contact_C\""), std::string::npos) << text;
   EXPECT_EQ(verification_json(parse_verification(text, "verify.json")), text);
+}
+
+// tau_R over the contact normal stress from 500 MPa on.
+Table pressure_table(const char* formula) {
+  Table table;
+  TableAxis axis;
+  axis.name = "sigma_n_MPa";
+  axis.unit = "MPa";
+  axis.nodes = {500, 1000, 2750};
+  table.axes = {axis};
+  table.value = {40, 60, 100};
+  table.combine = parse_expr(formula);
+  return table;
+}
+
+TEST(EdgeOfTheContact, IsToldOfAStressThatStaysWhenThePressureGoes) {
+  Table stress = pressure_table("value");
+  EXPECT_THAT(edge_text(stress),
+              testing::StartsWith("keeps 40 MPa below 500 MPa of contact normal stress"));
+  EXPECT_EQ(edge_text(pressure_table("value*sigma_n_MPa")), "") << "it goes with the pressure";
+  stress.axes[0].below = Outside::error;
+  EXPECT_EQ(edge_text(stress), "");
 }
 
 } // namespace
