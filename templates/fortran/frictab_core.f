@@ -41,7 +41,7 @@ C     @{constant.comment}
       double precision ftqnan
 @end
 @end
-      integer i
+      integer*8 i
       integer*8 bits, most
       most = 0
       do i = 1, @{n_x}

@@ -37,9 +37,10 @@ C     the ends of an axis.
       double precision@{in} u(@{n_axes})
       double precision x, t
 @end
-      integer i, at
+C     8 bytes, as addresses have: no place is converted first.
+      integer*8 i, at
 @if uses_bisection
-      integer high, middle
+      integer*8 high, middle
 @end
 @for axis in axes
 @if axis.scaled
@@ -71,7 +72,7 @@ C     axis @{axis.number}: cell i (from 0), weight t of its upper node
         i = 0
 @end
 @if axis.scaled
-        i = int(x*sc@{axis.number} - sh@{axis.number})
+        i = int(x*sc@{axis.number} - sh@{axis.number}, 8)
 @if axis.guided
         i = gd(i+@{axis.guide})
 @end

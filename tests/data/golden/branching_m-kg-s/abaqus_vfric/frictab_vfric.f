@@ -280,7 +280,7 @@ C     n
 C     shape number
       parameter (c2 = 1.25D0)
       logical ftnan
-      integer i
+      integer*8 i
       integer*8 bits, most
       most = 0
       do i = 1, 4
@@ -339,7 +339,8 @@ C     are never changed: safe in threads and parallel domains.
       implicit none
       double precision u(2)
       double precision x, t
-      integer i, at
+C     8 bytes, as addresses have: no place is converted first.
+      integer*8 i, at
       double precision sc1, sh1
       parameter (sc1 = 1.28D0)
       parameter (sh1 = 0.0D0)
@@ -394,7 +395,7 @@ C     axis 1: cell i (from 0), weight t of its upper node
         i = 2
         t = 1.0D0
       else
-        i = int(x*sc1 - sh1)
+        i = int(x*sc1 - sh1, 8)
         i = gd(i+1)
         do while (x .ge. un(i+2))
           i = i + 1
@@ -413,7 +414,7 @@ C     axis 2: cell i (from 0), weight t of its upper node
         i = 7
         t = 1.0D0
       else
-        i = int(x*sc2 - sh2)
+        i = int(x*sc2 - sh2, 8)
         do while (x .ge. un(i+6))
           i = i + 1
         end do

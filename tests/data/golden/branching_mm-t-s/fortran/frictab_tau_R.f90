@@ -222,7 +222,7 @@ contains
     double precision c2
     ! shape number
     parameter (c2 = 1.25D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 4
@@ -432,7 +432,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(2)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.28D0)
     parameter (sh1 = 0.0D0)
@@ -452,7 +453,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -471,7 +472,7 @@ contains
       i = 7
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+6))
         i = i + 1
       end do
@@ -492,7 +493,8 @@ contains
     double precision, intent(in) :: u(2)
     double precision, intent(out) :: val, du(2)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.28D0)
     parameter (sh1 = 0.0D0)
@@ -503,9 +505,9 @@ contains
     double precision p1a, q1a
     double precision w2, v2
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision g2
-    integer k2
+    integer(c_int64_t) k2
     double precision p1a1, q1a1
     at = 1
     ! axis 1: cell i (from 0), weight t of its upper node
@@ -517,7 +519,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -537,7 +539,7 @@ contains
       i = 7
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+6))
         i = i + 1
       end do

@@ -166,7 +166,7 @@ contains
     double precision, intent(in) :: x(1)
     double precision val
     double precision t1
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 1

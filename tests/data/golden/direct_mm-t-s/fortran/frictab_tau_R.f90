@@ -187,7 +187,7 @@ contains
     double precision c1
     ! m
     parameter (c1 = 0.8D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 4

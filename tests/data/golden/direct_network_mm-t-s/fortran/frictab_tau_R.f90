@@ -254,7 +254,7 @@ contains
     double precision, intent(in) :: x(6)
     double precision val
     double precision t1, t2, t3, t4
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 6

@@ -283,7 +283,7 @@ C     x(5) sigma_f_MPa, flow stress of the workpiece
 C     m
       parameter (c1 = 0.8D0)
       logical ftnan
-      integer i
+      integer*8 i
       integer*8 bits, most
       most = 0
       do i = 1, 5
@@ -333,7 +333,8 @@ C     are never changed: safe in threads and parallel domains.
       implicit none
       double precision u(4)
       double precision x, t
-      integer i, at
+C     8 bytes, as addresses have: no place is converted first.
+      integer*8 i, at
       double precision sc1, sh1
       parameter (sc1 = 37.542203620222026D0)
       parameter (sh1 = 233.3100826508467D0)
@@ -585,7 +586,7 @@ C     axis 1: cell i (from 0), weight t of its upper node
         i = 3
         t = 1.0D0
       else
-        i = int(x*sc1 - sh1)
+        i = int(x*sc1 - sh1, 8)
         i = gd(i+1)
         do while (x .ge. un(i+2))
           i = i + 1
@@ -604,7 +605,7 @@ C     axis 2: cell i (from 0), weight t of its upper node
         i = 2
         t = 1.0D0
       else
-        i = int(x*sc2 - sh2)
+        i = int(x*sc2 - sh2, 8)
         do while (x .ge. un(i+7))
           i = i + 1
         end do
@@ -622,7 +623,7 @@ C     axis 3: cell i (from 0), weight t of its upper node
         i = 4
         t = 1.0D0
       else
-        i = int(x*sc3 - sh3)
+        i = int(x*sc3 - sh3, 8)
         do while (x .ge. un(i+11))
           i = i + 1
         end do
@@ -640,7 +641,7 @@ C     axis 4: cell i (from 0), weight t of its upper node
         i = 2
         t = 1.0D0
       else
-        i = int(x*sc4 - sh4)
+        i = int(x*sc4 - sh4, 8)
         i = gd(i+66)
         do while (x .ge. un(i+17))
           i = i + 1

@@ -406,7 +406,7 @@ contains
     double precision c1
     ! m
     parameter (c1 = 0.8D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 5
@@ -523,7 +523,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(4)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 37.542203620222026D0)
     parameter (sh1 = 233.3100826508467D0)
@@ -555,7 +556,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -574,7 +575,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+7))
         i = i + 1
       end do
@@ -592,7 +593,7 @@ contains
       i = 4
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       do while (x .ge. un(i+11))
         i = i + 1
       end do
@@ -610,7 +611,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc4 - sh4)
+      i = int(x*sc4 - sh4, 8)
       i = gd(i+66)
       do while (x .ge. un(i+17))
         i = i + 1
@@ -644,7 +645,8 @@ contains
     double precision, intent(in) :: u(4)
     double precision, intent(out) :: val, du(4)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 37.542203620222026D0)
     parameter (sh1 = 233.3100826508467D0)
@@ -667,13 +669,13 @@ contains
     double precision p3b, q3b
     double precision w4, v4
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision g2
-    integer k2
+    integer(c_int64_t) k2
     double precision g3
-    integer k3
+    integer(c_int64_t) k3
     double precision g4
-    integer k4
+    integer(c_int64_t) k4
     double precision p1a1, q1a1
     double precision p1a2, q1a2
     double precision p1a3, q1a3
@@ -693,7 +695,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -713,7 +715,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+7))
         i = i + 1
       end do
@@ -732,7 +734,7 @@ contains
       i = 4
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       do while (x .ge. un(i+11))
         i = i + 1
       end do
@@ -751,7 +753,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc4 - sh4)
+      i = int(x*sc4 - sh4, 8)
       i = gd(i+66)
       do while (x .ge. un(i+17))
         i = i + 1

@@ -180,7 +180,7 @@ contains
     double precision, intent(in) :: x(1)
     double precision val
     double precision u(1)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 1
@@ -248,7 +248,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(1)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 0.21052631578947367D0)
     parameter (sh1 = 0.21052632578947367D0)
@@ -263,7 +264,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do
@@ -282,13 +283,14 @@ contains
     double precision, intent(in) :: u(1)
     double precision, intent(out) :: val, du(1)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 0.21052631578947367D0)
     parameter (sh1 = 0.21052632578947367D0)
     double precision w1, v1
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     at = 1
     ! axis 1: cell i (from 0), weight t of its upper node
     x = u(1)
@@ -299,7 +301,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do

@@ -223,7 +223,7 @@ contains
     double precision c1
     ! m
     parameter (c1 = 0.8D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 4
@@ -433,7 +433,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(3)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 18.771101810111013D0)
     parameter (sh1 = 116.65504132542335D0)
@@ -459,7 +460,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -478,7 +479,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+5))
         i = i + 1
       end do
@@ -496,7 +497,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       i = gd(i+34)
       do while (x .ge. un(i+9))
         i = i + 1
@@ -522,7 +523,8 @@ contains
     double precision, intent(in) :: u(3)
     double precision, intent(out) :: val, du(3)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 18.771101810111013D0)
     parameter (sh1 = 116.65504132542335D0)
@@ -539,11 +541,11 @@ contains
     double precision p2b, q2b
     double precision w3, v3
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision g2
-    integer k2
+    integer(c_int64_t) k2
     double precision g3
-    integer k3
+    integer(c_int64_t) k3
     double precision p1a1, q1a1
     double precision p1a2, q1a2
     double precision p2a2, q2a2
@@ -558,7 +560,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -578,7 +580,7 @@ contains
       i = 2
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       do while (x .ge. un(i+5))
         i = i + 1
       end do
@@ -597,7 +599,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       i = gd(i+34)
       do while (x .ge. un(i+9))
         i = i + 1

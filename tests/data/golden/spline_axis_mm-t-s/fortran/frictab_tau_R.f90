@@ -222,7 +222,7 @@ contains
     double precision, intent(in) :: x(1)
     double precision val
     double precision u(1)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 1
@@ -290,7 +290,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(1)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 3.3684210526315788D0)
     parameter (sh1 = 3.3684210526315788D0)
@@ -307,7 +308,7 @@ contains
       i = 4
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1
@@ -333,12 +334,13 @@ contains
     double precision, intent(in) :: u(1)
     double precision, intent(out) :: val, du(1)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 3.3684210526315788D0)
     parameter (sh1 = 3.3684210526315788D0)
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision t1
     double precision sl(4,1), rr(4,0:0)
     integer l
@@ -353,7 +355,7 @@ contains
       i = 4
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       i = gd(i+1)
       do while (x .ge. un(i+2))
         i = i + 1

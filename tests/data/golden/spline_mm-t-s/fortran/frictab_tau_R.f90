@@ -368,7 +368,7 @@ contains
     double precision c1
     ! m
     parameter (c1 = 0.8D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 5
@@ -484,7 +484,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(4)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.3028834457097556D0)
     parameter (sh1 = 2.096910023008056D0)
@@ -497,8 +498,8 @@ contains
     double precision r(4)
     double precision s1(4)
     double precision s2(4)
-    integer i1, j1
-    integer i2, j2
+    integer(c_int64_t) i1, j1
+    integer(c_int64_t) i2, j2
     integer l
     double precision w(4,4)
     at = 1
@@ -511,7 +512,7 @@ contains
       i = 5
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do
@@ -532,7 +533,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       i = gd(i+1)
       do while (x .ge. un(i+9))
         i = i + 1
@@ -554,7 +555,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       i = gd(i+66)
       do while (x .ge. un(i+14))
         i = i + 1
@@ -623,7 +624,8 @@ contains
     double precision, intent(in) :: u(4)
     double precision, intent(out) :: val, du(4)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.3028834457097556D0)
     parameter (sh1 = 2.096910023008056D0)
@@ -633,16 +635,16 @@ contains
     double precision sc3, sh3
     parameter (sc3 = 0.17777777777777778D0)
     parameter (sh3 = 3.555555555555556D0)
-    integer i1, j1
-    integer i2, j2
+    integer(c_int64_t) i1, j1
+    integer(c_int64_t) i2, j2
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision g2
-    integer k2
+    integer(c_int64_t) k2
     double precision g3
-    integer k3
+    integer(c_int64_t) k3
     double precision g4
-    integer k4
+    integer(c_int64_t) k4
     double precision t1
     double precision t2
     double precision t3
@@ -662,7 +664,7 @@ contains
       i = 5
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do
@@ -685,7 +687,7 @@ contains
       i = 3
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       i = gd(i+1)
       do while (x .ge. un(i+9))
         i = i + 1
@@ -709,7 +711,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       i = gd(i+66)
       do while (x .ge. un(i+14))
         i = i + 1

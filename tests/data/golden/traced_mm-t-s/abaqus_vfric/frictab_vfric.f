@@ -299,7 +299,7 @@ C     x(7) humidity %, room, a recorded column
 C     m
       parameter (c1 = 1.0D0)
       logical ftnan
-      integer i
+      integer*8 i
       integer*8 bits, most
       most = 0
       do i = 1, 7
@@ -354,7 +354,8 @@ C     are never changed: safe in threads and parallel domains.
       implicit none
       double precision u(6)
       double precision x, t
-      integer i, at
+C     8 bytes, as addresses have: no place is converted first.
+      integer*8 i, at
       double precision sc1, sh1
       parameter (sc1 = 1.1731938631319383D0)
       parameter (sh1 = 7.29094009283896D0)
@@ -623,7 +624,7 @@ C     axis 1: cell i (from 0), weight t of its upper node
         i = 1
         t = 1.0D0
       else
-        i = int(x*sc1 - sh1)
+        i = int(x*sc1 - sh1, 8)
         do while (x .ge. un(i+2))
           i = i + 1
         end do
@@ -641,7 +642,7 @@ C     axis 2: cell i (from 0), weight t of its upper node
         i = 1
         t = 1.0D0
       else
-        i = int(x*sc2 - sh2)
+        i = int(x*sc2 - sh2, 8)
         i = gd(i+1)
         do while (x .ge. un(i+5))
           i = i + 1
@@ -660,7 +661,7 @@ C     axis 3: cell i (from 0), weight t of its upper node
         i = 1
         t = 1.0D0
       else
-        i = int(x*sc3 - sh3)
+        i = int(x*sc3 - sh3, 8)
         do while (x .ge. un(i+8))
           i = i + 1
         end do
@@ -693,7 +694,7 @@ C     axis 5: cell i (from 0), weight t of its upper node
         i = 1
         t = 1.0D0
       else
-        i = int(x*sc5 - sh5)
+        i = int(x*sc5 - sh5, 8)
         i = gd(i+34)
         do while (x .ge. un(i+13))
           i = i + 1
@@ -712,7 +713,7 @@ C     axis 6: cell i (from 0), weight t of its upper node
         i = 1
         t = 1.0D0
       else
-        i = int(x*sc6 - sh6)
+        i = int(x*sc6 - sh6, 8)
         i = gd(i+67)
         do while (x .ge. un(i+16))
           i = i + 1

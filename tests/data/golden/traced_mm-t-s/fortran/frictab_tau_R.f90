@@ -427,7 +427,7 @@ contains
     double precision c1
     ! m
     parameter (c1 = 1.0D0)
-    integer i
+    integer(c_int64_t) i
     integer(c_int64_t) bits, most
     most = 0
     do i = 1, 7
@@ -550,7 +550,8 @@ contains
   pure double precision function ftintp(u)
     double precision, intent(in) :: u(6)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.1731938631319383D0)
     parameter (sh1 = 7.29094009283896D0)
@@ -591,7 +592,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do
@@ -609,7 +610,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       i = gd(i+1)
       do while (x .ge. un(i+5))
         i = i + 1
@@ -628,7 +629,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       do while (x .ge. un(i+8))
         i = i + 1
       end do
@@ -661,7 +662,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc5 - sh5)
+      i = int(x*sc5 - sh5, 8)
       i = gd(i+34)
       do while (x .ge. un(i+13))
         i = i + 1
@@ -680,7 +681,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc6 - sh6)
+      i = int(x*sc6 - sh6, 8)
       i = gd(i+67)
       do while (x .ge. un(i+16))
         i = i + 1
@@ -762,7 +763,8 @@ contains
     double precision, intent(in) :: u(6)
     double precision, intent(out) :: val, du(6)
     double precision x, t
-    integer i, at
+    ! 8 bytes, as addresses have: no place is converted first.
+    integer(c_int64_t) i, at
     double precision sc1, sh1
     parameter (sc1 = 1.1731938631319383D0)
     parameter (sh1 = 7.29094009283896D0)
@@ -794,17 +796,17 @@ contains
     double precision p5b, q5b
     double precision w6, v6
     double precision g1
-    integer k1
+    integer(c_int64_t) k1
     double precision g2
-    integer k2
+    integer(c_int64_t) k2
     double precision g3
-    integer k3
+    integer(c_int64_t) k3
     double precision g4
-    integer k4
+    integer(c_int64_t) k4
     double precision g5
-    integer k5
+    integer(c_int64_t) k5
     double precision g6
-    integer k6
+    integer(c_int64_t) k6
     double precision p1a1, q1a1
     double precision p1a2, q1a2
     double precision p1a3, q1a3
@@ -840,7 +842,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc1 - sh1)
+      i = int(x*sc1 - sh1, 8)
       do while (x .ge. un(i+2))
         i = i + 1
       end do
@@ -859,7 +861,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc2 - sh2)
+      i = int(x*sc2 - sh2, 8)
       i = gd(i+1)
       do while (x .ge. un(i+5))
         i = i + 1
@@ -879,7 +881,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc3 - sh3)
+      i = int(x*sc3 - sh3, 8)
       do while (x .ge. un(i+8))
         i = i + 1
       end do
@@ -914,7 +916,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc5 - sh5)
+      i = int(x*sc5 - sh5, 8)
       i = gd(i+34)
       do while (x .ge. un(i+13))
         i = i + 1
@@ -934,7 +936,7 @@ contains
       i = 1
       t = 1.0D0
     else
-      i = int(x*sc6 - sh6)
+      i = int(x*sc6 - sh6, 8)
       i = gd(i+67)
       do while (x .ge. un(i+16))
         i = i + 1
