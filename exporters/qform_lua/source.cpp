@@ -167,7 +167,7 @@ void add_axes(TemplateValues& values, const Table& table) {
   const bool cubic = is_cubic(table);
   const auto rename = symbol_names(table);
   std::vector<std::string> strides, taps, weights, coordinates;
-  long stride = static_cast<long>(table.value.size());
+  long stride = static_cast<long>(table.nodes());
   bool logarithm = false;
   for (const TableAxis& axis : table.axes) {
     const std::size_t n = axis.nodes.size();

@@ -33,7 +33,11 @@ void add_coordinates(TemplateValues& values, const Table& table) {
     axes.back().text["coordinate"] = axis.log ? "ftlog(" + x + ")" : x;
   }
   values.text["n_axes"] = std::to_string(table.axes.size());
-  values.text["only_value"] = table.is_direct() ? "ftpiec(x)" : fortran_number(table.value[0]);
+  std::string& only = values.text["only_value"]; // where nothing is interpolated
+  if (table.is_direct())
+    only = "ftpiec(x)";
+  else if (table.axes.empty())
+    only = fortran_number(table.value[0]);
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["interpolates"] = !axes.empty();
   values.flags["uses_log"] = logarithm;
@@ -124,9 +128,8 @@ std::vector<std::string> outside(const Table& table, const std::string& error_ac
 }
 
 // ftload and what it calls.
-std::string values_unit(const ExportRequest& request, const CoreOptions& options) {
+std::string values_unit(const std::vector<double>& numbers, const CoreOptions& options) {
   TemplateValues values;
-  const std::vector<double> numbers = baked_values(request.table);
   add_values_file(values, numbers);
   values.text["crc32"] = std::to_string(values_crc32(numbers));
   values.flags["externals"] = options.units == Units::external;
@@ -153,9 +156,11 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   values.text["pure_tau"] = file ? "" : values.text["pure"]; // reading a file is no pure act
   values.text.erase("out");                                  // the functions here change nothing
   const std::string weights = add_formula(values, request, options);
-  const Piece looked_up = interpolation(request, options.gradient, options.units);
+  const std::vector<double> numbers =
+      values.flags["interpolates"] ? baked_values(table) : std::vector<double>{};
+  const Piece looked_up = interpolation(request, numbers, options.gradient, options.units);
   values.text["interpolation"] = looked_up.text;
-  values.text["values_file"] = file ? values_unit(request, options) : "";
+  values.text["values_file"] = file ? values_unit(numbers, options) : "";
   std::string& stops = values.text["stop"];
   if (external && !options.quit.empty() && refuses(table)) stops = stop(table) + "\n";
   if (!stops.empty() || file || options.quits) stops += options.quit;

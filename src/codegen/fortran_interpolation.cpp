@@ -193,9 +193,9 @@ std::vector<TemplateValues> search_axes(const Table& table, const std::vector<lo
   return axes;
 }
 
-std::string data_text(const Table& table, const Data& data, bool in_file) {
+std::string data_text(const Table& table, const Data& data, const std::vector<double>& baked,
+                      bool in_file) {
   TemplateValues values;
-  const std::vector<double> baked = baked_values(table);
   values.text = {
       {"n_nodes", std::to_string(data.nodes.size())},
       {"n_cells", std::to_string(data.per_cell.size())},
@@ -248,7 +248,8 @@ void add_steps(TemplateValues& values, const Table& table, const std::vector<lon
 
 } // namespace
 
-Piece interpolation(const ExportRequest& request, bool gradient, Units units) {
+Piece interpolation(const ExportRequest& request, const std::vector<double>& baked, bool gradient,
+                    Units units) {
   const Table& table = request.table;
   Piece out;
   if (table.is_direct() || table.axes.empty()) return out;
@@ -256,7 +257,7 @@ Piece interpolation(const ExportRequest& request, bool gradient, Units units) {
   Data data;
   TemplateValues values;
   values.lists["axes"] = search_axes(table, stride, data);
-  out.data = data_text(table, data, values_in_file(request));
+  out.data = data_text(table, data, baked, values_in_file(request));
   add_units(values, units);
   values.flags.erase("externals"); // none are called
   values.text["data"] = units == Units::external ? out.data : "";

@@ -11,10 +11,12 @@
 
 namespace frictab::fortran {
 
-// The function ftintp(u), one coordinate per axis; with `gradient` also the subroutine ftintg,
-// which gives the derivatives as well: on its own it holds the numbers for both and takes a flag,
-// in a module the two are apart. No text where there is nothing to interpolate.
-Piece interpolation(const ExportRequest& request, bool gradient, Units units);
+// `values` are baked_values. The function ftintp(u), one coordinate per axis; with `gradient` also
+// the subroutine ftintg, which gives the derivatives as well: on its own it holds the numbers for
+// both and takes a flag, in a module the two are apart. No text where there is nothing to
+// interpolate.
+Piece interpolation(const ExportRequest& request, const std::vector<double>& values, bool gradient,
+                    Units units);
 
 // Statements of ft_linear_gradient_N and ft_cubic_gradient_N, and what they declare.
 struct Slopes {

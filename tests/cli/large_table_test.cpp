@@ -107,12 +107,14 @@ TEST_F(LargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
 }
 
 TEST_F(LargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
-  const CommandResult whole = run("run", {"--set", "export.targets=\"c\""});
+  const CommandResult whole = run("run", {"--set", "export.targets=[\"c\",\"fortran\"]"});
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   const std::string c = directory.path("out/export/c/");
   EXPECT_EQ(fs::file_size(c + "frictab_values.bin"), 96000000u);
   EXPECT_LT(fs::file_size(c + "frictab_tau_R.c"), 100000u);
-  EXPECT_THAT(directory.read("out/verify.json"), HasSubstr("\"subject\": \"c/c99\""));
+  EXPECT_THAT(directory.read("out/verify.json"),
+              testing::AllOf(HasSubstr("\"subject\": \"c/c99\""),
+                             HasSubstr("\"subject\": \"fortran/f2008\"")));
   EXPECT_EQ(run("verify").exit_code, 0); // the sources as they lie there
 }
 
