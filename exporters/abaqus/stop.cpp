@@ -1,51 +1,52 @@
 // Fills templates/abaqus/frictab_quit.f.
 #include "stop.h"
 
+#include <fmt/format.h>
+
 #include "codegen/fortran_parts.h"
 
 namespace frictab::abaqus {
 
 namespace {
 
-bool is_standard(Solver solver) {
-  return solver == Solver::standard;
+struct Names {
+  const char *include, *message, *directory;
+};
+const Names& names(Solver solver) {
+  static const Names standard = {"aba_param.inc", "stdb_abqerr", "getoutdir"};
+  static const Names explicit_ = {"vaba_param.inc", "xplb_abqerr", "vgetoutdir"};
+  return solver == Solver::standard ? standard : explicit_;
 }
 
 } // namespace
 
 std::string quit(Solver solver) {
   TemplateValues values;
-  values.text["include"] = is_standard(solver) ? "aba_param.inc" : "vaba_param.inc";
-  values.text["routine"] = is_standard(solver) ? "stdb_abqerr" : "xplb_abqerr";
+  values.text["include"] = names(solver).include;
+  values.text["routine"] = names(solver).message;
   return fortran::without_last_break(render_template("abaqus/frictab_quit.f", values));
 }
 
 std::string directory_routine(Solver solver) {
-  return is_standard(solver) ? "getoutdir" : "vgetoutdir";
+  return names(solver).directory;
 }
 
 void add_stand_ins(BuildVariant& variant, Solver solver) {
-  const std::string include = is_standard(solver) ? "aba_param.inc" : "vaba_param.inc";
-  const std::string message = is_standard(solver) ? "stdb_abqerr" : "xplb_abqerr";
+  const auto& [include, message, directory] = names(solver);
   variant.command.push_back("@{dir}/solver.f");
-  variant.extra["solver.f"] =
+  variant.extra["solver.f"] = fmt::format(
       "C     Stand-ins for the solver's routines: the first comes back, where the solver ends the\n"
       "C     analysis; the second knows no directory.\n"
-      "      subroutine " +
-      message +
-      "(lop, text, intv, realv, charv)\n"
-      "      include '" +
-      include +
-      "'\n"
+      "      subroutine {}(lop, text, intv, realv, charv)\n"
+      "      include '{}'\n"
       "      character*(*) text, charv(*)\n"
       "      dimension intv(*), realv(*)\n"
       "      end\n"
-      "      subroutine " +
-      directory_routine(solver) +
-      "(dir, length)\n"
+      "      subroutine {}(dir, length)\n"
       "      character*(*) dir\n"
       "      length = 0\n"
-      "      end\n";
+      "      end\n",
+      message, include, directory);
 }
 
 } // namespace frictab::abaqus

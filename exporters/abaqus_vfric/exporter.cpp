@@ -2,9 +2,8 @@
 // input deck refers to it; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
-#include "codegen/values_file.h"
-
 #include "../abaqus/explicit.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 
 namespace frictab::abaqus_vfric {

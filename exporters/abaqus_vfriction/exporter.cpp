@@ -3,9 +3,8 @@
 // (exporters/abaqus).
 #include "codegen/exporter.h"
 
-#include "codegen/values_file.h"
-
 #include "../abaqus/explicit.h"
+#include "codegen/values_file.h"
 #include "driver.h"
 
 namespace frictab::abaqus_vfriction {

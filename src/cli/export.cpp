@@ -8,7 +8,6 @@
 #include "codegen/exporter.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "table/table_file.h"
 
 namespace frictab {

@@ -16,6 +16,7 @@
 #include "table/bound.h"
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
+#include "table/states.h"
 
 namespace frictab {
 
@@ -123,10 +124,8 @@ std::optional<double> typical_value(const Table& table, const std::string& name)
 
 std::string edge_text(const Table& table) {
   const char* const pressure = "sigma_n_MPa";
-  const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
-                                 [&](const TableAxis& a) { return a.name == pressure; });
-  if (axis == table.axes.end() || axis->below != Outside::clamp || axis->nodes.front() <= 0)
-    return "";
+  const TableAxis* axis = find_axis(table, pressure);
+  if (!axis || axis->below != Outside::clamp || axis->nodes.front() <= 0) return "";
   const double low = axis->nodes.front();
   std::vector<double> state;
   std::size_t at = 0;
@@ -167,9 +166,7 @@ void check_table_size(const Table& table, std::size_t elsewhere, const std::stri
       fmt::format("the table of {} needs {} numbers in the source; a compiler takes {} in "
                   "reasonable time and memory",
                   table.model, thousands(numbers), thousands(most_baked_numbers)),
-      remedy + cubic +
-          "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
-          "export.targets = [] makes the table alone");
+      remedy + cubic + smaller_table);
 }
 
 void check_table(const Table& table) {

@@ -68,6 +68,11 @@ std::size_t baked_numbers(const Table& table);
 // do not fit, more axes than the kernel holds, an interpolation the kernel does not have.
 void check_table(const Table& table);
 
+// How a table gets smaller: the hint of what refuses one.
+inline constexpr const char* smaller_table =
+    "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; export.targets = [] "
+    "makes the table alone";
+
 // Throws InputError where the source would hold more numbers than a compiler takes; `elsewhere` of
 // them are not in it. Needs no values: `table` may be a description. `remedy`: a further one.
 void check_table_size(const Table& table, std::size_t elsewhere = 0,

@@ -43,8 +43,7 @@ void check_values(const Table& table) {
                    fmt::format("the table of {} has {} values; a routine holds at most {} of them "
                                "in memory",
                                table.model, thousands(table.nodes()), thousands(most_filed_values)),
-                   "a larger table.tolerance_MPa, narrower ranges, or a law of fewer states; "
-                   "export.targets = [] makes the table alone");
+                   smaller_table);
 }
 
 void check_size(const ExportRequest& request) {
