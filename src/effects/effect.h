@@ -35,18 +35,19 @@ struct Shape {
 };
 
 // One file per form in src/effects/. The factor is a formula of "x" (and "x2" for a product of two
-// quantities) and of the parameters; `amplitude` scales the whole effect: 0 is neutral, bit for
-// bit.
+// quantities) and of the parameters; the amplitude scales the whole effect: 0 is neutral, bit for
+// bit. A form may have several amplitudes (spline): it is linear in them, all 0 is neutral.
 struct EffectForm {
   std::string name;
   int order = 0;
   std::string title;
   std::string formula;               // for people
-  std::vector<Parameter> parameters; // the first is the amplitude; the others have units of x
+  std::vector<Parameter> parameters; // amplitudes first; the others have units of x
   std::vector<Shape> shapes;         // one per parameter behind the amplitude
   // For a text column: one factor per level instead of a formula of x (form "category").
   bool categorical = false;
   bool two_columns = false;
+  std::size_t amplitudes = 1;
   Expr (*factor)() = nullptr; // nullptr where categorical
 };
 

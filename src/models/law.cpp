@@ -35,10 +35,13 @@ std::string Model::name() const {
 }
 
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
-  const auto used = symbols(tau_formula(law, conventions));
+  auto used = symbols(tau_formula(law, conventions));
+  for (const Parameter& parameter : law.parameters)
+    used.erase(parameter.name);
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities())
-    if (quantity.state && used.count(quantity.name)) names.push_back(quantity.name);
+    if (used.erase(quantity.name)) names.push_back(quantity.name);
+  names.insert(names.end(), used.begin(), used.end()); // a traced effect's columns
   return names;
 }
 

@@ -74,7 +74,8 @@ struct Law {
 // Shear yield stress k as a formula of the flow stress.
 Expr shear_yield_stress(const Conventions& conventions);
 
-// State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa).
+// State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa);
+// behind them, by name, symbols of columns and derived quantities that a traced effect brought in.
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
 
 // combine, limited: minimum(gain maximum(combine, 0), k).

@@ -44,7 +44,8 @@ TEST_P(EffectForms, DescribesItself) {
   EXPECT_FALSE(form.title.empty());
   EXPECT_FALSE(form.formula.empty());
   ASSERT_FALSE(form.parameters.empty());
-  EXPECT_EQ(form.parameters[0].start, 0) << "the first parameter is the amplitude, 0 is neutral";
+  for (std::size_t i = 0; i < form.amplitudes; ++i)
+    EXPECT_EQ(form.parameters[i].start, 0) << "amplitudes come first, 0 is neutral";
   EXPECT_EQ(form.shapes.size() + 1, form.parameters.size());
   EXPECT_EQ(form.categorical, form.factor == nullptr);
   for (const Parameter& parameter : form.parameters) {
@@ -131,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EffectFormulas, testing::ValuesIn(forms(false
 TEST(Effects, HoldEveryFormOnce) {
   EXPECT_EQ(join(effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
-            "periodic category product");
+            "periodic category product spline");
 }
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {

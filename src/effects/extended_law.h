@@ -1,0 +1,53 @@
+// A friction law with effects in it: a law like any other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "effects/effect.h"
+#include "models/law.h"
+
+namespace frictab {
+
+// One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
+// after interpolation: a table needs no axis for it, and its drift does not grow.
+struct PlacedEffect {
+  const EffectForm* form = nullptr;
+  std::string column;              // recorded column or derived quantity (data/derived.h)
+  std::string column2;             // forms of two columns
+  std::vector<std::string> levels; // of a text column; the first is the reference
+  // mu: the tabulated piece, before any limit | m: the limit | tau: added, in units of tau_scale
+  std::string acts_on = "mu";
+  std::vector<double> parameters; // in the form's order; category: one per level but the first
+  // Where it was learned; beyond, the factor is held at its value at the end.
+  double low = 0, high = 1;
+  double low2 = 0, high2 = 1;
+  double tau_scale_MPa = 1;
+};
+
+// A column's name as a symbol of a formula: letters, digits and _.
+std::string symbol_of(const std::string& column);
+
+// Parameters that are fitted: amplitudes and shapes; the others are references, set once.
+std::vector<Parameter> fitted_parameters(const PlacedEffect& effect);
+std::vector<double> fitted_values(const PlacedEffect& effect);
+void set_fitted(PlacedEffect& effect, std::span<const double> values);
+
+// The factor as a formula of the columns' symbols and of the fitted parameters, each named
+// prefix + its name.
+Expr factor_of(const PlacedEffect& effect, const std::string& prefix);
+
+// For people: "(x/x0)^a with x = humidity_pct held in [30, 60], a = ..., acting on mu".
+std::string effect_text(const PlacedEffect& effect);
+
+// Whether an effect on the limit m is another one than on mu: not for laws that are m k themselves.
+bool has_limit(const Law& law, const Conventions& conventions);
+
+// The law with all effects, named `name`. Parameters: the law's own, then per effect its fitted
+// ones as e1_a, e1_x0, e2_a, ...; where an effect acts on a limit that the law does not have, the
+// shear limit k becomes m_limit k. Neutral effects (amplitude 0, m_limit 1) leave every bit.
+// `start` holds the law's own parameters; effects start at theirs.
+Law extended_law(const Law& law, const Conventions& conventions, std::span<const double> start,
+                 std::span<const PlacedEffect> effects, const std::string& name);
+
+} // namespace frictab

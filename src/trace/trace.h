@@ -1,0 +1,124 @@
+// Close the loop: what structure do the residuals of a calibrated law have, which recorded quantity
+// follows it, how does the law look with that effect in it, and how much better is it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/calibration.h"
+#include "effects/extended_law.h"
+
+namespace frictab {
+
+struct TracedParameter {
+  std::string name;
+  double value = 0;
+  double std_error = 0; // by experiment; NaN: a reference, set once
+  std::string unit;
+};
+
+// Another way to explain what an effect explains.
+struct Alternative {
+  std::vector<std::string> columns;
+  std::string derived; // empty: a recorded column
+  std::string form;
+  std::string acts_on;
+  bool in_set = false; // cannot be told apart from the effect by these data
+  std::string why_not;
+};
+
+// Of an effect's curve, for plots: factor over the column, with a band of +-1.96 standard errors,
+// and what single experiments say.
+struct EffectCurve {
+  std::vector<double> x, factor, low, high;
+  std::vector<double> point_x, point_factor; // partial residuals of blocks, binned per experiment
+};
+
+struct TracedEffect {
+  PlacedEffect placed;
+  std::vector<std::string> columns; // recorded ones
+  std::string derived;              // what was computed from them
+  std::vector<TracedParameter> parameters;
+  double p_value = 1; // family-wise, over all candidates
+  double statistic = 0, threshold = 0;
+  double gain_MPa = 0;           // validation MAE without it, all refitted, minus with it
+  bool order_confounded = false; // cannot be told from a drift over the order of tests
+  std::string discriminating;    // what experiment would decide within the set
+  std::vector<Alternative> alternatives;
+  EffectCurve curve;
+};
+
+enum class Verdict { effect_added, nothing_missing, unexplained_structure };
+const char* verdict_name(Verdict verdict);
+
+// Structure along the order of tests that no recorded column explains.
+struct OrderStructure {
+  bool found = false;
+  std::string column;    // the column that gives the order; empty: the order in the file
+  double p_value = 1;    // of no structure
+  double size_MPa = 0;   // root mean square over the training rows
+  double share = 0;      // the same, relative to tau_R
+  std::string reference; // where the shipped law holds it
+};
+
+// The smallest effect that would have been detected.
+struct Detectable {
+  std::string column;
+  std::string derived; // empty: recorded
+  std::string acts_on;
+  double size_MPa = 0;      // root mean square over the training rows, found with 80 % probability
+  double share = 0;         // relative to tau_R
+  bool identifiable = true; // false: recalibration absorbs it, or the column does not vary
+};
+
+struct Remaining {
+  bool structure = false;
+  double p_value = 1;
+  std::string note;
+};
+
+struct TraceErrors {
+  Metrics training;
+  Metrics validation;
+};
+
+struct Trace {
+  std::string model;          // the law that was traced
+  std::string extended_model; // name of the law with effects; empty: none was added
+  Verdict verdict = Verdict::nothing_missing;
+  std::vector<TracedEffect> effects;
+  TraceErrors before;       // as calibrated
+  TraceErrors recalibrated; // the same law, fitted with the noise model of the extended one
+  TraceErrors after;
+  Difference improvement;              // validation MAE before minus after, paired by experiment
+  NoiseFloor noise_floor;              // from the noise model
+  double scatter_between = 0;          // relative scatter between experiments, standard deviation
+  Interval scatter_interval;           // 95 %
+  std::optional<double> repeatability; // what the user gave
+  OrderStructure order;
+  Remaining remaining;
+  std::vector<Detectable> detectable; // by column
+  std::size_t n_candidates = 0, n_columns = 0, n_flips = 0;
+  std::vector<std::string> not_identifiable; // candidates that recalibration absorbs
+  std::vector<std::string> rejected;         // looked significant, and why it was not added
+  std::vector<std::string> notes;
+  double alpha = 0.02;
+  ModelFit extended; // judged like any other; model.law is null where none was added
+};
+
+struct TraceInput {
+  const Dataset& training;
+  const Dataset& validation;
+  const ModelFit& fit;
+  const TraceOptions& options;
+  std::size_t bootstrap = 1000;
+  std::uint64_t seed = 1;
+  bool power = false; // fill `detectable`
+};
+
+// Deterministic by seed for any number of threads. Throws InputError where the data have too few
+// experiments to tell anything, or options name columns they do not have.
+Trace trace(const TraceInput& input);
+
+} // namespace frictab

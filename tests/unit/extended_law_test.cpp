@@ -1,0 +1,136 @@
+// A law with effects in it: neutral effects change nothing, others act where they are placed.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "data/quantity.h"
+#include "effects/extended_law.h"
+#include "expr/program.h"
+
+namespace frictab {
+namespace {
+
+const std::vector<std::string> states = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
+                                         "T_contact_C", "s_mm", "sigma_f_MPa"};
+
+PlacedEffect effect(const char* form, const char* acts_on, double amplitude) {
+  PlacedEffect effect;
+  effect.form = find_effect(form);
+  effect.column = "humidity_pct";
+  effect.acts_on = acts_on;
+  if (effect.form->two_columns) effect.column2 = "Ra_um";
+  if (effect.form->categorical) {
+    effect.column = "tool";
+    effect.levels = {"A", "B", "C"};
+    effect.parameters = {amplitude, 2 * amplitude};
+  } else {
+    effect.parameters = start_values(*effect.form, {30, 35, 45, 55, 60}, {0.1, 0.2, 0.3, 0.4, 0.5});
+    effect.parameters[0] = amplitude;
+  }
+  effect.low = 30;
+  effect.high = 60;
+  effect.low2 = 0.1;
+  effect.high2 = 0.5;
+  effect.tau_scale_MPa = 100;
+  return effect;
+}
+
+std::vector<double> starts_of(const Law& law) {
+  std::vector<double> starts;
+  for (const Parameter& p : law.parameters)
+    starts.push_back(p.start);
+  return starts;
+}
+
+// tau_R at one state; `column` is the effect's first column.
+double tau(const Law& law, double sigma, double column, double second = 0.25) {
+  const auto names = inputs(law, {});
+  std::vector<double> row;
+  for (const std::string& name : names)
+    row.push_back(name == "sigma_n_MPa"                      ? sigma
+                  : name == "psi"                            ? 3
+                  : name == "v_rel_mm_s"                     ? 50
+                  : name == "T_contact_C"                    ? 110
+                  : name == "s_mm"                           ? 4
+                  : name == "sigma_f_MPa"                    ? 400
+                  : name == "humidity_pct" || name == "tool" ? column
+                                                             : second);
+  return Program(tau_formula(law, {}), names, parameter_names(law))(row, starts_of(law));
+}
+
+TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
+  for (const Law& law : all_laws())
+    for (const EffectForm& form : all_effects())
+      for (const char* place : {"mu", "m", "tau"}) {
+        const PlacedEffect neutral[] = {effect(form.name.c_str(), place, 0)};
+        const Law extended = extended_law(law, {}, starts_of(law), neutral, "extended");
+        for (const double sigma : {0.0, 300.0, 900.0, 2700.0})
+          for (const double column : {0.0, 1.0, 37.3, 90.0})
+            EXPECT_EQ(tau(extended, sigma, column), tau(law, sigma, column))
+                << law.name << ' ' << form.name << ' ' << place;
+      }
+}
+
+TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
+  const Law& coulomb = *find_law("coulomb");
+  const PlacedEffect half[] = {effect("linear", "mu", 0.5)};
+  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
+  // (x - 45)/20 = 0.5 at 55
+  EXPECT_NEAR(tau(extended, 1000, 55) / tau(coulomb, 1000, 55), 1.25, 1e-12);
+  EXPECT_EQ(tau(extended, 9000, 55), tau(coulomb, 9000, 55)) << "both at k";
+}
+
+TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
+  const Law& orowan = *find_law("orowan");
+  const PlacedEffect half[] = {effect("linear", "m", 0.5)};
+  const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
+  EXPECT_EQ(tau(extended, 100, 55), tau(orowan, 100, 55));
+  EXPECT_NEAR(tau(extended, 5000, 55) / tau(orowan, 5000, 55), 1.25, 1e-12);
+}
+
+TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
+  const Law& coulomb = *find_law("coulomb");
+  const PlacedEffect half[] = {effect("linear", "tau", 0.5)};
+  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
+  EXPECT_NEAR(tau(extended, 1000, 55) - tau(coulomb, 1000, 55), 25, 1e-10);
+}
+
+TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
+  const Law& coulomb = *find_law("coulomb");
+  for (const EffectForm& form : all_effects()) {
+    if (form.categorical) continue;
+    const PlacedEffect some[] = {effect(form.name.c_str(), "mu", 0.3)};
+    const Law extended = extended_law(coulomb, {}, starts_of(coulomb), some, "extended");
+    EXPECT_EQ(tau(extended, 500, 60), tau(extended, 500, 1e4)) << form.name;
+    EXPECT_EQ(tau(extended, 500, 30), tau(extended, 500, -1e4)) << form.name;
+  }
+}
+
+TEST(ExtendedLaw, GivesEachLevelItsFactor) {
+  const Law& coulomb = *find_law("coulomb");
+  const PlacedEffect tools[] = {effect("category", "mu", 0.1)};
+  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), tools, "extended");
+  const double base = tau(coulomb, 500, 0);
+  EXPECT_EQ(tau(extended, 500, 0), base);
+  EXPECT_NEAR(tau(extended, 500, 1) / base, 1.1, 1e-12);
+  EXPECT_NEAR(tau(extended, 500, 2) / base, 1.2, 1e-12);
+}
+
+TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
+  const Law& coulomb = *find_law("coulomb");
+  const PlacedEffect two[] = {effect("saturation", "mu", 0.1), effect("hinge", "m", 0.2)};
+  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), two, "extended");
+  EXPECT_EQ(parameter_names(extended),
+            (std::vector<std::string>{"mu", "e1_a", "e1_x0", "e2_a", "e2_x0", "m_limit"}));
+  EXPECT_EQ(inputs(extended, {}),
+            (std::vector<std::string>{"sigma_n_MPa", "sigma_f_MPa", "humidity_pct"}));
+}
+
+TEST(ExtendedLaw, TurnsAnyColumnNameIntoASymbol) {
+  EXPECT_EQ(symbol_of("humidity_pct"), "humidity_pct");
+  EXPECT_EQ(symbol_of("Ra (um)"), "Ra__um_");
+  EXPECT_EQ(symbol_of("2nd tool"), "c_2nd_tool");
+}
+
+} // namespace
+} // namespace frictab
