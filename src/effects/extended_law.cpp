@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -97,11 +98,35 @@ Formula with_factors(Formula formula, const Law& law, const Conventions& convent
 
 } // namespace
 
+namespace {
+
+// e1_a, e12_x0: parameters of effects.
+bool is_effect_parameter(const std::string& symbol) {
+  const std::size_t end = symbol.find_first_not_of("0123456789", 1);
+  return symbol.front() == 'e' && end != symbol.npos && end > 1 && symbol[end] == '_';
+}
+
+// Names that formulas use themselves.
+bool is_taken(const std::string& symbol) {
+  static const std::set<std::string> taken = [] {
+    std::set<std::string> names = {"value",  "exp",     "log",     "sqrt",  "sin",      "tanh",
+                                   "arccos", "minimum", "maximum", "where", added_limit};
+    for (const Law& law : all_laws())
+      for (const Parameter& parameter : law.parameters)
+        names.insert(parameter.name);
+    return names;
+  }();
+  return taken.count(symbol) > 0 || is_effect_parameter(symbol);
+}
+
+} // namespace
+
 std::string symbol_of(const std::string& column) {
   std::string symbol;
   for (const char c : column)
     symbol += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  if (symbol.empty() || std::isdigit(static_cast<unsigned char>(symbol.front())))
+  if (symbol.empty() || std::isdigit(static_cast<unsigned char>(symbol.front())) ||
+      is_taken(symbol))
     symbol.insert(0, "c_");
   return symbol;
 }
@@ -175,10 +200,13 @@ Law extended_law(const Law& law, const Conventions& conventions, std::span<const
   extended.title = law.title + ", with effects found in the data";
   extended.calibrated = Calibrated::fit;
   extended.starts = nullptr;
+  extended.base = law.base.empty() ? law.name : law.base;
   for (std::size_t p = 0; p < extended.parameters.size(); ++p)
     extended.parameters[p].start = start[p];
   for (std::size_t i = 0; i < effects.size(); ++i) {
     extended.formula += " [" + effect_text(effects[i]) + "]";
+    if (effects[i].form->categorical)
+      extended.levels[symbol_of(effects[i].column)] = effects[i].levels;
     const auto values = fitted_values(effects[i]);
     std::vector<Parameter> own = fitted_parameters(effects[i]);
     for (std::size_t p = 0; p < own.size(); ++p) {

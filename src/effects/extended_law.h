@@ -25,7 +25,8 @@ struct PlacedEffect {
   double tau_scale_MPa = 1;
 };
 
-// A column's name as a symbol of a formula: letters, digits and _.
+// A column's name as a symbol of a formula: letters, digits and _; c_ before names that formulas
+// use themselves (value, exp, mu, ...).
 std::string symbol_of(const std::string& column);
 
 // Parameters that are fitted: amplitudes and shapes; the others are references, set once.

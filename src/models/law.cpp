@@ -64,6 +64,17 @@ bool is_registered(const Law& law) {
   return find_law(law.name) == &law;
 }
 
+const Law* law_behind(std::string_view model) {
+  if (const Law* law = find_law(model)) return law;
+  const std::size_t band = model.rfind("_q");
+  if (band != model.npos && band + 2 < model.size() &&
+      model.find_first_not_of("0123456789", band + 2) == model.npos)
+    return law_behind(model.substr(0, band));
+  return model.ends_with(traced_suffix)
+             ? find_law(model.substr(0, model.size() - traced_suffix.size()))
+             : nullptr;
+}
+
 const std::vector<Law>& all_laws() {
   return Registry<Law>::instance().all();
 }

@@ -65,6 +65,9 @@ struct Law {
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
   std::vector<std::string> may_use; // trained laws: states used where the data vary in them
+  std::string base; // of a law that is in no registry: the registered one it extends
+  // Inputs that are text columns: the levels that their numbers 0, 1, ... stand for.
+  std::map<std::string, std::vector<std::string>> levels;
   std::function<Formula(const Conventions&)> build;
   // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
   // a search over the bounds. The first is the least-squares optimum.
@@ -111,6 +114,13 @@ std::shared_ptr<const Law> made(Law law);
 
 // Whether the law is the registry's: then its name says all about it.
 bool is_registered(const Law& law);
+
+// A law with traced effects is called as its base, and this behind it.
+inline constexpr std::string_view traced_suffix = "_traced";
+
+// The registered law behind the name of a model: log_coulomb of log_coulomb, log_coulomb_q05 and
+// log_coulomb_traced_q05. nullptr where there is none.
+const Law* law_behind(std::string_view model);
 
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);

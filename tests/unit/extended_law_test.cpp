@@ -130,6 +130,10 @@ TEST(ExtendedLaw, TurnsAnyColumnNameIntoASymbol) {
   EXPECT_EQ(symbol_of("humidity_pct"), "humidity_pct");
   EXPECT_EQ(symbol_of("Ra (um)"), "Ra__um_");
   EXPECT_EQ(symbol_of("2nd tool"), "c_2nd_tool");
+  EXPECT_EQ(symbol_of("mu"), "c_mu") << "a parameter";
+  EXPECT_EQ(symbol_of("log"), "c_log") << "a function";
+  EXPECT_EQ(symbol_of("e1_a"), "c_e1_a") << "an effect's parameter";
+  EXPECT_EQ(symbol_of("e_1"), "e_1");
 }
 
 } // namespace
