@@ -9,6 +9,7 @@
 #include "calibrate/calibration.h"
 #include "calibrate/comparison.h"
 #include "calibrate/conditional.h"
+#include "calibrate/input_columns.h"
 #include "calibrate/law_problem.h"
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
@@ -20,15 +21,6 @@
 namespace frictab {
 
 namespace {
-
-using Columns = std::vector<const double*>;
-
-Columns columns_of(const Dataset& data, const std::vector<std::string>& names) {
-  Columns columns;
-  for (const std::string& name : names)
-    columns.push_back(data.values(name).data());
-  return columns;
-}
 
 std::vector<std::string> missing_for(const Law& law, const Conventions& conventions,
                                      const CalibrationInput& input) {
@@ -247,11 +239,7 @@ Calibration calibrate(const CalibrationInput& input) {
 }
 
 std::vector<double> predict(const Model& model, const Dataset& data) {
-  const auto names = inputs(*model.law, model.conventions);
-  const Program program(tau_formula(model), names, parameter_names(*model.law));
-  std::vector<double> tau(data.rows());
-  program.evaluate(data.rows(), columns_of(data, names), model.parameters, tau.data());
-  return tau;
+  return predict_with_columns(model, inputs(*model.law, model.conventions), data).tau_MPa;
 }
 
 bool is_synthetic(const Dataset& data) {

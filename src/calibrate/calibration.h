@@ -54,7 +54,8 @@ Conventions conventions_of(const ModelOptions& models, const Dataset& data);
 // options.condition_on_mm cannot be done with these data.
 Calibration calibrate(const CalibrationInput& input);
 
-// tau_R in MPa of every row. The data must have inputs(law).
+// tau_R in MPa of every row; histories of the law's own stress are self-consistent. Throws
+// InputError that names the inputs the data do not have.
 std::vector<double> predict(const Model& model, const Dataset& data);
 
 // The data's own word: a column `origin` that says "synthetic".

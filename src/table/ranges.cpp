@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/input_columns.h"
 #include "core/error.h"
+#include "data/meaning.h"
 #include "data/quantity.h"
 #include "table/build.h"
 
@@ -12,10 +14,17 @@ namespace frictab {
 
 namespace {
 
-StateRange data_range(const std::string& name, const Dataset& data) {
-  const auto values = data.values(name);
+StateRange data_range(const std::string& name, std::span<const double> values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return {name, *low, *high, "training data"};
+}
+
+void widen_one_value(StateRange& range, double lowest) { // a grid needs two nodes
+  if (range.low != range.high) return;
+  const double width = 0.01 * std::max(std::abs(range.low), 1e-6);
+  range.low = std::max(range.low - width, lowest);
+  range.high += width;
+  range.why = "training data, one value widened by 1 %";
 }
 
 // Share of [a, b] that [low, high] covers, in the coordinate of the axis.
@@ -24,8 +33,8 @@ double coverage(const StateRange& range, double a, double b, bool log) {
   return (std::min(u(range.high), u(b)) - std::max(u(range.low), u(a))) / (u(b) - u(a));
 }
 
-StateRange default_range(const Quantity& quantity, const Dataset& data) {
-  StateRange range = data_range(quantity.name, data);
+StateRange default_range(const Quantity& quantity, std::span<const double> values) {
+  StateRange range = data_range(quantity.name, values);
   if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
     range.low *= 0.5;
     range.high *= 2;
@@ -40,12 +49,16 @@ StateRange default_range(const Quantity& quantity, const Dataset& data) {
       range.why = "Table 1 and training data";
     }
   }
-  if (range.low == range.high) { // a grid needs two nodes
-    const double width = 0.01 * std::max(std::abs(range.low), 1e-6);
-    range.low = std::max(range.low - width, quantity.lowest);
-    range.high += width;
-    range.why = "training data, one value widened by 1 %";
-  }
+  widen_one_value(range, quantity.lowest);
+  return range;
+}
+
+// What an effect brought in: where it was learned, and no further.
+StateRange further_range(const Law& law, const std::string& name, std::span<const double> values) {
+  if (const auto levels = law.levels.find(name); levels != law.levels.end())
+    return {name, 0, static_cast<double>(levels->second.size() - 1), "levels of the training data"};
+  StateRange range = data_range(name, values);
+  widen_one_value(range, meaning_of(name).lowest);
   return range;
 }
 
@@ -64,13 +77,18 @@ StateRange asked_range(const Quantity& quantity, const AxisOptions& axis) {
 std::vector<StateRange> state_ranges(const Model& model, const Dataset& training,
                                      const TableOptions& options) {
   std::vector<StateRange> ranges;
-  for (const std::string& name : inputs(*model.law, model.conventions)) {
-    const Quantity& quantity = *find_quantity(name);
+  const InputColumns columns =
+      input_columns(model, inputs(*model.law, model.conventions), training);
+  for (std::size_t i = 0; i < columns.names().size(); ++i) {
+    const std::string& name = columns.names()[i];
+    const Quantity* quantity = find_quantity(name);
     const auto found = options.axes.find(name);
-    if (found != options.axes.end() && found->second.range)
-      ranges.push_back(asked_range(quantity, found->second));
+    if (quantity && found != options.axes.end() && found->second.range)
+      ranges.push_back(asked_range(*quantity, found->second));
+    else if (quantity && quantity->state)
+      ranges.push_back(default_range(*quantity, columns[i]));
     else
-      ranges.push_back(default_range(quantity, training));
+      ranges.push_back(further_range(*model.law, name, columns[i]));
   }
   return ranges;
 }
@@ -89,7 +107,7 @@ std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
              low->second <= high->second)
       ranges.push_back({name, low->second, high->second, "attribute"});
     else if (data && data->has(name))
-      ranges.push_back(data_range(name, *data));
+      ranges.push_back(data_range(name, data->values(name)));
     else
       throw InputError({file, 0, 0},
                        "the range of " + name +

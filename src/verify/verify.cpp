@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/input_columns.h"
 #include "codegen/compile.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -66,14 +67,7 @@ Subjects prepare(const VerifyInput& input) {
   }
   append(s.range, probe(law, table, worst)); // sources are looked at there as well
   if (input.rows) {
-    States states;
-    for (const std::string& name : s.names) {
-      if (!input.rows->has(name))
-        throw InputError({join(input.rows->sources, ", "), 0, 0},
-                         "the data have no column " + name + ", which the table needs");
-      const auto values = input.rows->values(name);
-      states.emplace_back(values.begin(), values.end());
-    }
+    States states = input_columns(input.model, s.names, *input.rows).values();
     s.beyond = rows_beyond(input.table, states);
     s.rows = probe(law, table, std::move(states));
   }

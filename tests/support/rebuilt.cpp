@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/quantity.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
 #include "table/table_file.h"
@@ -13,7 +14,12 @@ std::string rebuilt_by_python(const Table& table) {
   const TemporaryDirectory directory;
   write_table(table, directory.path("table.h5"));
   const TableFunction function(table);
-  const auto states = random_states(function.inputs(), 500, 17);
+  auto states = random_states(function.inputs(), 500, 17);
+  for (std::size_t c = 0; c < states.size(); ++c) // what an effect brought in
+    if (const std::string& name = function.inputs()[c]; !find_quantity(name))
+      if (const auto range = table.range(name))
+        for (double& x : states[c])
+          x = range->first + x * (range->second - range->first);
   std::string csv;
   for (const std::string& name : function.inputs())
     csv += name + ",";

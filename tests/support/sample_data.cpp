@@ -27,6 +27,12 @@ const std::map<std::string, Range> ranges = {
     {"sigma_f_MPa", {300, 900, false}},
 };
 
+// What is no canonical state lies in 0 .. 1.
+Range range_of(const std::string& name) {
+  const auto found = ranges.find(name);
+  return found == ranges.end() ? Range{0, 1, false} : found->second;
+}
+
 double draw(const Range& r, Random& random) {
   return r.log ? std::exp(random.uniform(std::log(r.low), std::log(r.high)))
                : random.uniform(r.low, r.high);
@@ -111,7 +117,7 @@ std::vector<std::vector<double>> random_states(const std::vector<std::string>& n
   std::vector<std::vector<double>> states(names.size());
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t n = 0; n < names.size(); ++n)
-      states[n].push_back(draw(ranges.at(names[n]), random));
+      states[n].push_back(draw(range_of(names[n]), random));
   return states;
 }
 

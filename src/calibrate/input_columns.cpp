@@ -1,0 +1,211 @@
+// Finds recorded columns, derives histories, and follows those that need the law's own stress.
+#include "calibrate/input_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "effects/extended_law.h"
+#include "expr/program.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr double settled = 1e-12; // relative change between two rounds
+constexpr int plain_rounds = 20, most_rounds = 80;
+
+const Column* recorded(const std::string& name, const Dataset& data) {
+  if (const Column* column = data.find(name)) return column;
+  for (const Column& column : data.columns)
+    if (symbol_of(column.name) == name) return &column;
+  return nullptr;
+}
+
+// What a history lacks to be derived.
+std::vector<std::string> lacks(const DerivedQuantity& derived, const Dataset& data) {
+  std::vector<std::string> names;
+  for (const std::string& need : derived.needs)
+    if (need != "tau" && !data.has(need)) names.push_back(need);
+  return names;
+}
+
+bool follows_tau(const std::string& name, const Dataset& data) {
+  const DerivedQuantity* derived = recorded(name, data) ? nullptr : find_derived(name);
+  return derived && std::count(derived->needs.begin(), derived->needs.end(), "tau") > 0;
+}
+
+Place place_of(const Dataset& data) {
+  return {join(data.sources, ", "), 0, 0};
+}
+
+// A text column's numbers by the law's levels: files number those that they have.
+std::vector<double> renumbered(const Column& column, const std::vector<std::string>& levels,
+                               const Dataset& data) {
+  if (column.levels.empty())
+    throw InputError(place_of(data), "column " + column.name + " holds numbers",
+                     "the law knows its levels by name: " + join(levels, ", "));
+  std::vector<double> numbers;
+  for (const std::string& level : column.levels) {
+    const auto at = std::find(levels.begin(), levels.end(), level);
+    if (at == levels.end())
+      throw InputError(place_of(data),
+                       fmt::format("column {} has the level '{}', of which the law knows nothing",
+                                   column.name, level),
+                       "known: " + join(levels, ", "));
+    numbers.push_back(static_cast<double>(at - levels.begin()));
+  }
+  std::vector<double> values;
+  for (const double number : column.values)
+    values.push_back(numbers[static_cast<std::size_t>(number)]);
+  return values;
+}
+
+} // namespace
+
+std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
+                                        const Dataset& data) {
+  std::vector<std::string> missing;
+  for (const std::string& name : names) {
+    if (recorded(name, data)) continue;
+    const DerivedQuantity* derived = find_derived(name);
+    const auto from = derived ? lacks(*derived, data) : std::vector<std::string>{};
+    if (!derived)
+      missing.push_back(name);
+    else if (!from.empty())
+      missing.push_back(fmt::format("{} (from {})", name, join(from, ", ")));
+  }
+  return missing;
+}
+
+InputColumns::InputColumns(const Law& law, std::vector<std::string> names, const Dataset& data)
+    : data_(&data), names_(std::move(names)), own_(names_.size()), follows_(names_.size()) {
+  if (const auto missing = missing_inputs(names_, data); !missing.empty())
+    throw InputError(
+        place_of(data),
+        fmt::format("the data have no column {}, which {} needs", join(missing, ", "), law.name),
+        "record it, map it in [data.columns], or give a constant in "
+        "[data.constants]");
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    follows_[i] = follows_tau(names_[i], data);
+    pointers_.push_back(find(law, i));
+  }
+}
+
+const double* InputColumns::find(const Law& law, std::size_t input) {
+  const std::string& name = names_[input];
+  const Column* column = recorded(name, *data_);
+  const auto levels = law.levels.find(name);
+  if (column && levels == law.levels.end()) {
+    if (!column->levels.empty())
+      throw InputError(place_of(*data_),
+                       "column " + column->name + " holds text, where " + law.name +
+                           " takes numbers",
+                       "for example '" + column->levels.front() + "'");
+    return column->values.data();
+  }
+  if (column)
+    own_[input] = renumbered(*column, levels->second, *data_);
+  else if (follows_[input])
+    own_[input].assign(data_->rows(), 0.0);
+  else
+    own_[input] = derive(*find_derived(name), *data_, {});
+  return own_[input].data();
+}
+
+bool InputColumns::need_tau() const {
+  return std::find(follows_.begin(), follows_.end(), true) != follows_.end();
+}
+
+void InputColumns::follow(std::span<const double> tau) {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!follows_[i]) continue;
+    own_[i] = derive(*find_derived(names_[i]), *data_, tau);
+    pointers_[i] = own_[i].data();
+  }
+}
+
+std::span<const double> InputColumns::operator[](std::size_t input) const {
+  return {pointers_[input], data_->rows()};
+}
+
+std::vector<std::vector<double>> InputColumns::values() const {
+  std::vector<std::vector<double>> copies;
+  for (const double* column : pointers_)
+    copies.emplace_back(column, column + data_->rows());
+  return copies;
+}
+
+namespace {
+
+double largest(std::span<const double> values) {
+  double most = 0;
+  for (const double value : values)
+    most = std::max(most, std::abs(value));
+  return most;
+}
+
+// One round: `tau` becomes `next`, or half of both where rounds swing. The change, relative.
+double step(std::vector<double>& tau, const std::vector<double>& next, bool half) {
+  double change = 0;
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    change = std::max(change, std::abs(next[i] - tau[i]));
+    tau[i] = half ? 0.5 * (tau[i] + next[i]) : next[i];
+  }
+  return change / std::max(largest(next), 1e-300);
+}
+
+[[noreturn]] void does_not_settle(const Model& model, const Dataset& data, double change) {
+  throw InputError(place_of(data),
+                   fmt::format("the shear stress of {} does not settle: it depends on a history "
+                               "of itself, and still changes by {:.2g} of its value",
+                               model.name(), change),
+                   "calibrate and trace again without that effect ([trace] ignore)");
+}
+
+// The inputs of the law among more columns.
+std::vector<const double*> chosen(const InputColumns& columns,
+                                  const std::vector<std::string>& names) {
+  std::vector<const double*> out;
+  for (const std::string& name : names) {
+    const auto at = std::find(columns.names().begin(), columns.names().end(), name);
+    out.push_back(columns.pointers()[static_cast<std::size_t>(at - columns.names().begin())]);
+  }
+  return out;
+}
+
+} // namespace
+
+Predicted predict_with_columns(const Model& model, std::vector<std::string> names,
+                               const Dataset& data) {
+  const auto needed = inputs(*model.law, model.conventions);
+  const Program program(tau_formula(model), needed, parameter_names(*model.law));
+  Predicted out{InputColumns(*model.law, std::move(names), data), std::vector<double>(data.rows())};
+  const auto evaluate = [&](std::vector<double>& tau) {
+    program.evaluate(data.rows(), chosen(out.columns, needed), model.parameters, tau.data());
+  };
+  evaluate(out.tau_MPa);
+  if (!out.columns.need_tau()) return out;
+  std::vector<double> next(data.rows());
+  for (int round = 0; round < most_rounds; ++round) {
+    out.columns.follow(out.tau_MPa);
+    evaluate(next);
+    const double change = step(out.tau_MPa, next, round >= plain_rounds);
+    if (!(change > settled)) return out;
+    if (round + 1 == most_rounds) does_not_settle(model, data, change);
+  }
+  return out;
+}
+
+InputColumns input_columns(const Model& model, std::vector<std::string> names,
+                           const Dataset& data) {
+  InputColumns columns(*model.law, names, data);
+  if (!columns.need_tau()) return columns;
+  return predict_with_columns(model, std::move(names), data).columns;
+}
+
+} // namespace frictab

@@ -1,0 +1,62 @@
+// The columns of a dataset that a law's inputs stand for: recorded ones, and histories along each
+// experiment.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/law.h"
+
+namespace frictab {
+
+// Which of these inputs the data neither record nor allow to derive: "humidity_pct", "friction_work
+// (from s_mm)".
+std::vector<std::string> missing_inputs(const std::vector<std::string>& names, const Dataset& data);
+
+// A recorded column is found by its name or by its symbol_of; else the input is a derived quantity
+// (data/derived.h). Numbers of a text column are those of the law's levels, whatever the file's.
+class InputColumns {
+public:
+  // The data must outlive this. Throws InputError that names all inputs the data do not have, and
+  // levels the law does not know.
+  InputColumns(const Law& law, std::vector<std::string> names, const Dataset& data);
+
+  InputColumns(InputColumns&&) = default; // not copied: columns may lie in it
+  InputColumns& operator=(InputColumns&&) = default;
+
+  // Some follow the shear stress of the law itself: friction work and power. They are 0 until
+  // follow().
+  bool need_tau() const;
+  // Derives those from it.
+  void follow(std::span<const double> tau);
+
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<const double*>& pointers() const { return pointers_; }
+  std::span<const double> operator[](std::size_t input) const;
+  std::vector<std::vector<double>> values() const; // copies
+
+private:
+  const double* find(const Law& law, std::size_t input);
+
+  const Dataset* data_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> own_; // per input; empty: the dataset's own
+  std::vector<bool> follows_;
+  std::vector<const double*> pointers_;
+};
+
+// These columns at the model's own shear stress (self-consistent, never the measured one), and that
+// stress. The inputs must hold those of the model's law.
+struct Predicted {
+  InputColumns columns;
+  std::vector<double> tau_MPa;
+};
+Predicted predict_with_columns(const Model& model, std::vector<std::string> names,
+                               const Dataset& data);
+
+// The columns alone; nothing is predicted where no history asks for it.
+InputColumns input_columns(const Model& model, std::vector<std::string> names, const Dataset& data);
+
+} // namespace frictab

@@ -1,0 +1,96 @@
+// A law with effects, and its campaign.
+#include "support/traced_law.h"
+
+#include <fmt/format.h>
+
+#include "calibrate/calibration.h"
+#include "core/text.h"
+#include "support/sample_data.h"
+
+namespace frictab::test {
+
+PlacedEffect traced_effect(const std::string& which) {
+  PlacedEffect effect;
+  const auto put = [&](const char* form, const char* column, std::vector<double> parameters,
+                       double low, double high) {
+    effect.form = find_effect(form);
+    effect.column = column;
+    effect.parameters = std::move(parameters);
+    effect.low = low;
+    effect.high = high;
+  };
+  if (which == "humidity") put("power", "humidity_pct", {0.3, 45}, 30, 60);
+  if (which == "work") put("saturation", "friction_work", {-0.25, 400}, 0, 3000);
+  if (which == "peak") put("linear", "peak_sigma_n", {0.2, 1500, 2000}, 500, 2750);
+  if (which == "tool") {
+    put("category", "tool", {0.1, -0.15}, 0, 1);
+    effect.levels = {"A", "B", "C"};
+  }
+  return effect;
+}
+
+Model traced_model(const std::vector<std::string>& which) {
+  Model base = plausible_model(*find_law("log_coulomb"));
+  std::vector<PlacedEffect> effects;
+  for (const std::string& one : which)
+    effects.push_back(traced_effect(one));
+  Model model;
+  model.law = made(
+      extended_law(*base.law, model.conventions, base.parameters, effects, "log_coulomb_traced"));
+  for (const Parameter& parameter : model.law->parameters)
+    model.parameters.push_back(parameter.start);
+  return model;
+}
+
+namespace {
+
+Column humidity(const Dataset& data) {
+  Column column{"humidity_pct", "", {}, {}};
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    column.values.push_back(30 + 30 * static_cast<double>((7 * i) % 40) / 39);
+  return column;
+}
+
+Column tool(const Dataset& data) {
+  Column column{"tool", "", {}, {"A", "B", "C"}};
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    column.values.push_back(static_cast<double>(i / 40 % 3));
+  return column;
+}
+
+} // namespace
+
+Dataset traced_data(const Model& truth) {
+  SampleOptions options;
+  options.experiments = 12;
+  options.rows = 40;
+  Dataset data = sample_data(plausible_model(*find_law("log_coulomb")), options);
+  std::erase_if(data.columns, [](const Column& column) { return column.name == "tau_R_MPa"; });
+  for (Column& column : data.columns)
+    for (std::size_t i = 0; column.name == "s_mm" && i < data.rows(); ++i)
+      column.values[i] = 20 * static_cast<double>(i % 40) / 39;
+  data.columns.push_back(humidity(data));
+  data.columns.push_back(tool(data));
+  data.columns.push_back({"tau_R_MPa", "MPa", predict(truth, data), {}});
+  fingerprint(data);
+  return data;
+}
+
+std::string csv_of(const Dataset& data) {
+  std::vector<std::string> cells = {"experiment"};
+  for (const Column& column : data.columns)
+    cells.push_back(column.name);
+  std::string text = join(cells, ",") + "\n";
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      cells = {data.experiments[e]};
+      for (const Column& column : data.columns)
+        cells.push_back(column.levels.empty()
+                            ? shortest(column.values[i])
+                            : column.levels[static_cast<std::size_t>(column.values[i])]);
+      text += join(cells, ",") + "\n";
+    }
+  return text;
+}
+
+} // namespace frictab::test

@@ -1,0 +1,27 @@
+// log_coulomb with effects as `frictab trace` adds them, and a campaign that has what they need.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "effects/extended_law.h"
+#include "models/law.h"
+
+namespace frictab::test {
+
+// "humidity": a power of humidity_pct | "work": a saturation in friction_work | "tool": one factor
+// per tool A, B, C | "peak": linear in peak_sigma_n. All act on mu.
+PlacedEffect traced_effect(const std::string& which);
+
+// log_coulomb_traced with these effects.
+Model traced_model(const std::vector<std::string>& which);
+
+// 12 experiments of 40 rows: canonical states, humidity_pct and tool (A, B, C in turn); s_mm from 0
+// to 20; tau_R_MPa of the model.
+Dataset traced_data(const Model& truth);
+
+// The campaign as a file with text for its text columns.
+std::string csv_of(const Dataset& data);
+
+} // namespace frictab::test

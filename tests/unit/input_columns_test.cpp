@@ -1,0 +1,143 @@
+// Inputs of a law found in a dataset: recorded columns, histories, levels of text.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "calibrate/calibration.h"
+#include "calibrate/input_columns.h"
+#include "core/error.h"
+#include "data/derived.h"
+#include "expr/program.h"
+#include "support/traced_law.h"
+
+namespace frictab {
+namespace {
+
+std::string refusal(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+Column& column(Dataset& data, const std::string& name) {
+  return *std::find_if(data.columns.begin(), data.columns.end(),
+                       [&](const Column& c) { return c.name == name; });
+}
+
+TEST(InputColumns, AreRecordedOnesWhateverCharactersTheirNamesHave) {
+  const Model model = test::traced_model({"humidity"});
+  Dataset data = test::traced_data(model);
+  column(data, "humidity_pct").name = "humidity pct";
+  const InputColumns columns(*model.law, {"psi", "humidity_pct"}, data);
+  EXPECT_EQ(columns.pointers()[0], data.values("psi").data()) << "not copied";
+  EXPECT_EQ(columns.pointers()[1], data.values("humidity pct").data());
+  EXPECT_EQ(predict(model, data).size(), data.rows());
+}
+
+TEST(InputColumns, ThatAreMissingAreNamedTogetherWithWhatTheyAreMadeFrom) {
+  const Model model = test::traced_model({"humidity", "work"});
+  Dataset data = test::traced_data(model);
+  std::erase_if(data.columns,
+                [](const Column& c) { return c.name == "humidity_pct" || c.name == "s_mm"; });
+  EXPECT_EQ(refusal([&] { predict(model, data); }),
+            "sample: error: the data have no column friction_work (from s_mm), humidity_pct, which "
+            "log_coulomb_traced needs\n  hint: record it, map it in [data.columns], or give a "
+            "constant in [data.constants]");
+}
+
+TEST(InputColumns, OfTestOrderNeedTheOrderOfTests) {
+  const Model model = test::traced_model({});
+  const Dataset data = test::traced_data(model);
+  EXPECT_EQ(missing_inputs({"test_order", "psi"}, data),
+            (std::vector<std::string>{"test_order (from run_order)"}));
+}
+
+// A file of tools B and C alone numbers them 0 and 1.
+TEST(InputColumns, OfTextAreNumberedAsTheLawKnowsThem) {
+  const Model model = test::traced_model({"tool"});
+  const Dataset all = test::traced_data(model);
+  const std::size_t of_b_and_c[] = {1, 2};
+  Dataset some = all.subset(of_b_and_c);
+  Column& tool = column(some, "tool");
+  tool.levels = {"B", "C"};
+  for (double& number : tool.values)
+    number -= 1;
+  const std::vector<double> whole = predict(model, all), part = predict(model, some);
+  EXPECT_EQ(part, std::vector<double>(whole.begin() + 40, whole.begin() + 120));
+}
+
+TEST(InputColumns, RefuseLevelsTheLawDoesNotKnowAndNumbersForText) {
+  const Model model = test::traced_model({"tool", "humidity"});
+  Dataset data = test::traced_data(model);
+  column(data, "tool").levels[2] = "D";
+  EXPECT_EQ(refusal([&] { predict(model, data); }),
+            "sample: error: column tool has the level 'D', of which the law knows nothing\n"
+            "  hint: known: A, B, C");
+  column(data, "tool").levels.clear();
+  EXPECT_EQ(refusal([&] { predict(model, data); }),
+            "sample: error: column tool holds numbers\n"
+            "  hint: the law knows its levels by name: A, B, C");
+  data = test::traced_data(model);
+  column(data, "humidity_pct").levels = {"dry", "wet"};
+  EXPECT_EQ(
+      refusal([&] { predict(model, data); }),
+      "sample: error: column humidity_pct holds text, where log_coulomb_traced takes numbers\n"
+      "  hint: for example 'dry'");
+}
+
+TEST(InputColumns, FollowTheLawsOwnStressUntilNothingChanges) {
+  const Model model = test::traced_model({"work", "peak"});
+  Dataset data = test::traced_data(model);
+  const Predicted found = predict_with_columns(model, inputs(*model.law, model.conventions), data);
+  const auto work = derive(*find_derived("friction_work"), data, found.tau_MPa);
+  const auto peak = derive(*find_derived("peak_sigma_n"), data, {});
+  const auto& names = found.columns.names();
+  for (std::size_t c = 0; c < names.size(); ++c)
+    for (std::size_t i = 0; i < data.rows(); ++i) {
+      if (names[c] == "friction_work") {
+        ASSERT_NEAR(found.columns[c][i], work[i], 1e-9 * work[i]);
+      }
+      if (names[c] == "peak_sigma_n") {
+        ASSERT_EQ(found.columns[c][i], peak[i]);
+      }
+    }
+  EXPECT_GT(*std::max_element(work.begin(), work.end()), 1000);
+  // Measured stress has no say.
+  for (double& tau : column(data, "tau_R_MPa").values)
+    tau *= 3;
+  EXPECT_EQ(predict(model, data), found.tau_MPa);
+}
+
+// d work/d s = p mu (1 + a work/w): work = (exp(p mu a s/w) - 1) w/a.
+TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
+  PlacedEffect effect = test::traced_effect("work");
+  effect.form = find_effect("linear");
+  effect.parameters = {0.4, 0, 1000};
+  const PlacedEffect effects[] = {effect};
+  const double mu[] = {0.08};
+  const Law& coulomb = *find_law("coulomb");
+  Model model;
+  model.law = made(extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
+  model.parameters = {0.08, 0.4};
+  Dataset data;
+  data.experiments = {"one"};
+  data.columns = {
+      {"sigma_n_MPa", "MPa", {}, {}}, {"s_mm", "mm", {}, {}}, {"sigma_f_MPa", "MPa", {}, {}}};
+  for (int i = 0; i <= 400; ++i) {
+    data.columns[0].values.push_back(1000);
+    data.columns[1].values.push_back(0.05 * i);
+    data.columns[2].values.push_back(900);
+  }
+  data.first_row = {0, 401};
+  const std::vector<double> tau = predict(model, data);
+  for (std::size_t i = 0; i <= 400; i += 100) {
+    const double s = 0.05 * static_cast<double>(i);
+    EXPECT_NEAR(tau[i], 80 * std::exp(80 * 0.4 * s / 1000), 5e-5) << s;
+  }
+}
+
+} // namespace
+} // namespace frictab
