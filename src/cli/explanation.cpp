@@ -179,7 +179,11 @@ Explanation about_table_layout() {
        "and constants; a long one goes on in extension_2, extension_3, ...",
        {}},
       {"/: range_low_STATE, range_high_STATE",
-       "optional: range of a state of combine that is no axis, for verify",
+       "range of a state of combine that is no axis, for verify; what is no canonical state is an "
+       "input only where these are there",
+       {}},
+      {"/: units_STATE, long_name_STATE, levels_STATE",
+       "optional: of such an input; levels: 0 = A, 1 = B of a text column",
        {}},
       {"/: model", "optional: a name of letters, digits, '_', '.', '-'", {}}};
   return out;

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "data/quantity.h"
+#include "data/meaning.h"
 #include "table/direct.h"
 #include "table/drift.h"
 #include "table/grid.h"
@@ -23,12 +23,12 @@ namespace {
 using Counts = std::vector<std::size_t>; // per axis
 
 AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& options) {
-  const Quantity& quantity = *find_quantity(range.name);
+  const Meaning quantity = meaning_of(range.name);
   const auto asked = options.axes.find(range.name);
   AxisPlan plan;
   plan.axis.name = range.name;
   plan.axis.unit = quantity.unit;
-  plan.axis.long_name = quantity.meaning;
+  plan.axis.long_name = quantity.text;
   const auto own = law.log_axes.find(range.name);
   const bool plain = options.coordinates == "plain";
   plan.axis.log =

@@ -67,9 +67,12 @@ void add_axes(std::string& out, const Table& table) {
   for (const std::string& name : table.inputs())
     if (!find_axis(table, name)) {
       const auto range = table.range(name);
+      const std::string unit = attribute(table, "units_" + name);
+      const std::string levels = attribute(table, "levels_" + name);
       out += fmt::format(
-          "  {:<14}no axis{}\n", name,
-          range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "");
+          "  {:<14}no axis{}{}{}\n", name,
+          range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "",
+          unit.empty() || unit == "1" ? "" : " " + unit, levels.empty() ? "" : "; " + levels);
     }
 }
 

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/meaning.h"
 #include "table/direct.h"
 
 namespace frictab {
@@ -49,6 +53,29 @@ void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
   pieces.value.evaluate(values.size(), columns, pieces.parameters, values.data());
 }
 
+namespace {
+
+// "0 = A, 1 = B".
+std::string numbered(const std::vector<std::string>& levels) {
+  std::vector<std::string> texts;
+  for (const std::string& level : levels)
+    texts.push_back(fmt::format("{} = {}", texts.size(), level));
+  return join(texts, ", ");
+}
+
+// An input that is no canonical state says what it is.
+void describe_further_input(Table& table, const Law& law, const std::string& name) {
+  const Meaning meaning = meaning_of(name);
+  if (meaning.state) return;
+  const auto levels = law.levels.find(name);
+  table.text_attributes["units_" + name] = meaning.unit;
+  table.text_attributes["long_name_" + name] = meaning.text;
+  if (levels != law.levels.end())
+    table.text_attributes["levels_" + name] = numbered(levels->second);
+}
+
+} // namespace
+
 Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, const std::string& interpolation,
                      bool log_value) {
@@ -71,6 +98,7 @@ Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
     table.number_attributes["range_low_" + range.name] = range.low;
     table.number_attributes["range_high_" + range.name] = range.high;
     table.text_attributes["range_from_" + range.name] = range.why;
+    describe_further_input(table, *model.law, range.name);
   }
   table.text_attributes["model"] = model.name();
   table.number_attributes["quantile"] = model.quantile;

@@ -8,7 +8,7 @@
 #include "core/columns.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "data/quantity.h"
+#include "data/meaning.h"
 
 namespace frictab {
 
@@ -16,8 +16,7 @@ namespace {
 
 std::string unit_of(const Table& table, const std::string& name) {
   if (const TableAxis* axis = find_axis(table, name)) return axis->unit;
-  const Quantity* quantity = find_quantity(name);
-  return quantity ? quantity->unit : "1";
+  return meaning_of(name).unit;
 }
 
 void check_along(const Table& table, const HeldStates& held,

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "data/meaning.h"
 #include "data/quantity.h"
 #include "io/number.h"
 #include "table/frictab_kernel.h"
@@ -310,6 +311,12 @@ private:
                        [&](const TableAxis& axis) { return axis.name == name; });
   }
 
+  // A canonical state, or one that an effect brought in: the table says over which range.
+  bool is_input(const std::string& name) const {
+    return meaning_of(name).state || (in_.number_attribute("/", "range_low_" + name) &&
+                                      in_.number_attribute("/", "range_high_" + name));
+  }
+
   void read_extension() {
     std::string formula;
     for (std::size_t part = 0; const auto more = in_.text_attribute("value", part_name(part));
@@ -341,13 +348,15 @@ private:
     faults_.throw_if_any();
     table_.combine = parse_expr(formula, named_);
     for (const std::string& name : symbols(table_.combine)) {
-      const Quantity* quantity = find_quantity(name);
-      if (name == "value" || is_axis(name) || (quantity && quantity->state)) continue;
+      if (name == "value" || is_axis(name) || is_input(name)) continue;
       if (const auto number = in_.number_attribute("value", name))
         table_.constants[name] = *number;
       else
-        fault(fmt::format("combine uses '{}', which is no state and no attribute of 'value'", name),
-              "add the constant as a number attribute of 'value'");
+        fault(
+            fmt::format("combine uses '{}', which is no state and no attribute of 'value'", name),
+            "add the constant as a number attribute of 'value', or the range of a recorded column "
+            "as range_low_" +
+                name + " and range_high_" + name);
     }
   }
 
