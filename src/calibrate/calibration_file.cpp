@@ -90,12 +90,65 @@ NetworkRecord parse_network(const Json& j) {
   return r;
 }
 
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+// How the search for parameters was bounded: what a law with a name of its own has to say.
+Json bounds_json(const Law& law) {
+  Json list = Json::array();
+  for (const Parameter& p : law.parameters)
+    list.push_back({{"start", p.start}, {"lower", p.lower}, {"upper", p.upper}});
+  return list;
+}
+
 // The formula of a law that no registry knows: text that reads back to the same bits.
 Json made_law_json(const Law& law, const Conventions& conventions) {
   const Formula formula = law.build(conventions);
-  return {{"value", to_text(formula.value)},
-          {"combine", to_text(formula.combine)},
-          {"log_axes", law.log_axes}};
+  Json j = {{"value", to_text(formula.value)},
+            {"combine", to_text(formula.combine)},
+            {"log_axes", law.log_axes}};
+  if (find_law(law.name)) return j;
+  j["base"] = law.base;
+  j["levels"] = law.levels;
+  j["bounds"] = bounds_json(law);
+  return j;
+}
+
+// Parameters as the file lists them.
+std::vector<Parameter> parse_parameters(const Json& list, const Json& bounds) {
+  std::vector<Parameter> parameters;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const Json& one = list[p];
+    const Json& b = bounds.at(p);
+    parameters.push_back({one.at("name"), one.at("unit"), one.at("meaning"), b.at("start"),
+                          b.at("lower"), b.at("upper")});
+  }
+  return parameters;
+}
+
+// What the base says that the law itself does not: quantity, coordinates, kinks, reference.
+Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
+  const Json& j = fit.at("law");
+  const std::string base = j.at("base");
+  if (!find_law(base))
+    throw InputError({file, 0, 0},
+                     fmt::format("law '{}' extends '{}', which is no friction law",
+                                 fit.at("name").get<std::string>(), base),
+                     suggest(base, law_names()));
+  Law law = *find_law(base);
+  law.name = fit.at("name");
+  law.title = fit.at("title");
+  law.formula = fit.at("formula");
+  law.base = base;
+  law.calibrated = Calibrated::fit;
+  law.starts = nullptr;
+  law.levels = j.at("levels").get<std::map<std::string, std::vector<std::string>>>();
+  law.parameters = parse_parameters(fit.at("parameters"), j.at("bounds"));
+  return law;
 }
 
 std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::string& file) {
@@ -104,6 +157,16 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
   law.build = [formula](const Conventions&) { return formula; };
   law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
   return made(std::move(law));
+}
+
+std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
+  const std::string name = fit.at("name");
+  const Law* known = find_law(name);
+  if (known && !fit.contains("law")) return registered(*known);
+  if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
+    throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
+                     suggest(name, law_names()));
+  return parse_made_law(fit.at("law"), known ? *known : law_with_name_of_its_own(fit, file), file);
 }
 
 Json band_json(const BandCheck& band) {
@@ -149,16 +212,7 @@ double number(const Json& value) {
 
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
-  const std::string name = j.at("name");
-  const Law* known_law = find_law(name);
-  if (!known_law) {
-    std::vector<std::string> known;
-    for (const Law& law : all_laws())
-      known.push_back(law.name);
-    throw InputError({file, 0, 0}, "unknown friction law '" + name + "'", suggest(name, known));
-  }
-  fit.model.law =
-      j.contains("law") ? parse_made_law(j.at("law"), *known_law, file) : registered(*known_law);
+  fit.model.law = parse_law(j, file);
   fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
@@ -167,9 +221,10 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   for (std::size_t p = 0; p < fit.model.law->parameters.size(); ++p) {
     const Parameter& info = fit.model.law->parameters[p];
     if (p >= list.size() || list[p].at("name") != info.name)
-      throw InputError({file, 0, 0},
-                       fmt::format("law '{}' lacks its parameter '{}'", name, info.name),
-                       "calibrate again with this version");
+      throw InputError(
+          {file, 0, 0},
+          fmt::format("law '{}' lacks its parameter '{}'", fit.model.law->name, info.name),
+          "calibrate again with this version");
     fit.model.parameters.push_back(list[p].at("value").get<double>());
     fit.std_error.push_back(number(list[p].at("std_error")));
   }

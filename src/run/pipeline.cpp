@@ -13,8 +13,11 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "data/derived.h"
 #include "data/load.h"
 #include "data/oracle.h"
+#include "data/quantity.h"
+#include "effects/extended_law.h"
 #include "report/report.h"
 #include "table/build.h"
 #include "table/direct.h"
@@ -40,6 +43,23 @@ void add_oracle(const DataOptions& options, Dataset& training, Dataset& validati
   read_oracle(options, training, validation);
 }
 
+// [export.inputs] may name what only a traced effect brings in: a recorded column, or a history.
+void check_export_inputs(const ExportOptions& exports, const Dataset& data) {
+  std::vector<std::string> known;
+  for (const Quantity& quantity : quantities())
+    if (quantity.state) known.push_back(quantity.name);
+  for (const DerivedQuantity& derived : derived_quantities())
+    known.push_back(derived.name);
+  for (const Column& column : data.columns)
+    known.push_back(symbol_of(column.name));
+  FaultList faults;
+  for (const auto& [name, place] : exports.input_places)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      faults.add(place, "'" + name + "' in [export.inputs] is no state, history or column",
+                 suggest(name, known));
+  faults.throw_if_any();
+}
+
 } // namespace
 
 void Pipeline::need_data() {
@@ -55,6 +75,7 @@ void Pipeline::need_data() {
     validation_ = std::move(split.validation);
   }
   add_oracle(job_.data, *training_, *validation_);
+  check_export_inputs(job_.exports, *training_);
 }
 
 void Pipeline::need_calibration() {
@@ -103,15 +124,23 @@ Model Pipeline::model_of(const Table& table) {
                    "calibrate it, or tabulate again");
 }
 
+std::vector<std::string> Pipeline::model_names() const {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  const fs::path models = fs::path(job_.directory) / "models";
+  if (!fs::is_directory(models)) return names;
+  for (const auto& entry : fs::directory_iterator(models))
+    if (const std::string name = entry.path().stem().string();
+        law_behind(name) && !find_law(name) && entry.path().extension() == ".json")
+      names.push_back(name);
+  return names;
+}
+
 std::vector<std::string> Pipeline::table_names() const {
   std::vector<std::string> names;
   for (const Law& law : all_laws())
     names.push_back(law.name);
-  const auto is_band_of_a_law = [&](const std::string& name) {
-    const std::size_t mark = name.rfind("_q");
-    return mark != name.npos && find_law(name.substr(0, mark)) &&
-           name.find_first_not_of("0123456789", mark + 2) == name.npos;
-  };
   std::vector<fs::path> places{fs::path(job_.directory) / "tables"};
   for (const Exporter& exporter : all_exporters())
     places.push_back(fs::path(job_.directory) / "export" / exporter.name);
@@ -119,7 +148,7 @@ std::vector<std::string> Pipeline::table_names() const {
     if (!fs::is_directory(place)) continue;
     for (const auto& entry : fs::directory_iterator(place))
       if (const std::string name = entry.path().stem().string();
-          is_band_of_a_law(name) && std::find(names.begin(), names.end(), name) == names.end())
+          law_behind(name) && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
   }
   return names;
@@ -140,7 +169,9 @@ std::vector<const ModelFit*> Pipeline::chosen_fits() {
       }
     if (!found)
       throw InputError(job_.table.place, "table.model: law '" + name + "' was not calibrated",
-                       "add it to models.use, or map the columns it needs");
+                       name.ends_with(traced_suffix)
+                           ? "it is there where trace finds an effect that its law lacks"
+                           : "add it to models.use, or map the columns it needs");
   }
   return chosen;
 }
@@ -152,8 +183,8 @@ std::string Pipeline::export_directory(const std::string& target, const Table& t
 void Pipeline::calibrate() {
   need_data();
   calibration_ = frictab::calibrate({*training_, *validation_, job_.models, job_.calibration});
-  for (const Law& law : all_laws())
-    output_.remove_old("models/" + law.name + ".json");
+  for (const std::string& name : model_names())
+    output_.remove_old("models/" + name + ".json");
   output_.write("calibration.json", calibration_json(*calibration_));
   output_.write("benchmark.md", benchmark_md(*calibration_));
   for (const ModelFit& fit : calibration_->fits)

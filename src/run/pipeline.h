@@ -62,7 +62,10 @@ private:
   std::vector<const ModelFit*> chosen_fits();
   // "export/c" where there is one table, "export/c/<model>" where there are several.
   std::string export_directory(const std::string& target, const Table& table) const;
-  // Names that a table or its sources may have: laws, and what an earlier run left of their bands.
+  // Names that a model may have: laws, and what an earlier run left of laws with traced effects.
+  std::vector<std::string> model_names() const;
+  // Names that a table or its sources may have: laws, and what an earlier run left of
+  // their bands and of laws with traced effects.
   std::vector<std::string> table_names() const;
 
   Job job_;
