@@ -118,10 +118,15 @@ void check_models(JobReader& reader, const std::string& path,
   const std::vector<std::string>& use = reader.job.models.use;
   if (use.empty() || path == "export.targets") return;
   for (const std::string& name : models)
-    if (name != "best" && name != "all" && !std::count(use.begin(), use.end(), name))
+    if (const Law* law = law_behind(name); law && !std::count(use.begin(), use.end(), law->name))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),
-                   "add it to models.use");
+                   "add " + (law->name == name ? "it" : law->name) + " to models.use");
+}
+
+void remember_inputs(JobReader& reader) {
+  for (const auto& [name, choice] : reader.job.exports.inputs)
+    reader.job.exports.input_places[name] = reader.place_of("export.inputs." + name);
 }
 
 } // namespace
@@ -135,6 +140,7 @@ void check_job(JobReader& reader) {
   check_models(reader, "table.model", reader.job.table.model);
   check_models(reader, "trace.models", reader.job.trace.models);
   check_models(reader, "export.targets", reader.job.exports.targets);
+  remember_inputs(reader);
 }
 
 } // namespace frictab

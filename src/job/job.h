@@ -97,8 +97,9 @@ struct ExportOptions {
   std::string form = "table";                            // table | direct: the law itself
   // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
   // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
-  // "temperature", "solver"). By canonical name.
+  // "temperature", "solver"). By canonical name, or by the symbol of a traced law's further input.
   std::map<std::string, std::string> inputs;
+  std::map<std::string, Place> input_places;
   std::map<std::string, std::string> options; // choices that targets offer, by their names
   Place place;
 };

@@ -151,8 +151,9 @@ std::vector<KeyRule> table_keys() {
   return {
       key<std::vector<std::string>>(
           "table.model", [](Job & job) -> auto& { return job.table.model; },
-          "law or laws to tabulate: best (on held-out experiments), a name, a list, or all") |
-          Allowed{"friction law", laws_best_or_all},
+          "law or laws to tabulate: best (on held-out experiments), a name, a list, or all; "
+          "NAME_traced is the law with the effects that trace found") |
+          Allowed{"friction law", laws_best_or_all, false, true},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
           "share of experiments that stay below the table: 0.5 = the law itself, "
@@ -248,7 +249,8 @@ std::vector<KeyRule> export_keys() {
           "export.inputs.*",
           [](Job & job, const std::string& name) -> auto& { return job.exports.inputs[name]; },
           "where a state comes from that the solver does not give: \"constant:1.0\" (canonical "
-          "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field)",
+          "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field); also "
+          "for the columns and histories that a traced effect brought in",
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
       named<std::string>(

@@ -57,9 +57,23 @@ void unknown_key(JobReader& reader, const std::string& rule_path, const std::str
                hint);
 }
 
+// What an input of a law may be called: letters, digits and _.
+bool is_symbol(const std::string& name) {
+  const bool digit_first = !name.empty() && name.front() >= '0' && name.front() <= '9';
+  return !name.empty() && !digit_first && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+// What is measured is no input of any law.
+bool is_measured(const std::string& name) {
+  return name == "tau_R_MPa" || name == "F_R_N" || name == "F_N_N";
+}
+
 bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
+  if (section.others && is_symbol(entry.key) && !is_measured(entry.key)) return true;
   if (find_quantity(entry.key))
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, section.path),
                  "possible: " + join(names, ", "));

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "job/reader.h"
+#include "models/law.h"
 
 namespace frictab {
 
@@ -73,6 +74,8 @@ struct ValueReader {
     };
     const auto found = std::find_if(names.begin(), names.end(), same);
     if (found != names.end()) return *found;
+    if (rule.allowed.traced && node.text.ends_with(traced_suffix) && law_behind(node.text))
+      return node.text;
     if (rule.allowed.noun.empty()) {
       const std::string near = nearest_name(node.text, names);
       const std::string hint = near.empty() || node.text.size() < 2

@@ -95,7 +95,7 @@ const std::vector<SectionRule>& section_rules() {
        nullptr, nullptr},
       {"export", "the friction routines", "", nullptr, export_place},
       {"export.inputs", "where states come from that the solver does not give",
-       "psi = \"constant:1.0\"", schema::state_names, nullptr},
+       "psi = \"constant:1.0\"", schema::state_names, nullptr, "quantity", true},
       {"export.options", "choices that targets offer, by the names `frictab explain TARGET` lists",
        "", schema::option_names, nullptr, "option"},
       {"verify", "the proof of drift", "", nullptr, nullptr},

@@ -39,6 +39,7 @@ struct Allowed {
   std::string noun; // "friction law"; empty: a few fixed words
   std::vector<std::string> (*names)() = nullptr;
   bool any_case = false;
+  bool traced = false; // and such a name with traced_suffix: the law with effects found in the data
 };
 
 struct Problem {
@@ -69,6 +70,7 @@ struct SectionRule {
   std::vector<std::string> (*children)() = nullptr;
   Place* (*place)(Job&, const std::string& name) = nullptr; // where the job remembers the place
   std::string child = "quantity";                           // what a name of the user's stands for
+  bool others = false; // names that are not among `children` are taken too, and checked later
 };
 
 // "unit" of "data.columns.*.unit".

@@ -205,6 +205,36 @@ TEST(JobMessages, SayTheAllowedWords) {
             "  hint: for example psi = \"constant:1.0\"");
 }
 
+TEST(JobMessages, LetWhatATracedEffectBringsInBeAnInputOfARoutine) {
+  EXPECT_EQ(with("[export.inputs]\n"
+                 "humidity_pct = \"field:1\"\n"
+                 "friction_work = \"state\""),
+            "accepted");
+  EXPECT_EQ(with("[export.inputs]\n"
+                 "\"humidity pct\" = \"field:1\""),
+            "job.toml:4:1: error: unknown quantity 'humidity pct' in [export.inputs]\n"
+            "  hint: known: sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa");
+  EXPECT_EQ(with("[export.inputs]\n"
+                 "tau_R_MPa = \"field:1\""),
+            "job.toml:4:1: error: tau_R_MPa cannot stand in [export.inputs]\n"
+            "  hint: possible: sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa");
+}
+
+TEST(JobMessages, KnowALawWithTracedEffectsByItsName) {
+  EXPECT_EQ(with("[table]\n"
+                 "model = \"wzl_traced\""),
+            "accepted");
+  EXPECT_EQ(with("[models]\n"
+                 "use = [\"coulomb\"]\n"
+                 "[table]\n"
+                 "model = \"wzl_traced\""),
+            "job.toml:6:9: error: 'wzl_traced' in table.model is not among models.use\n"
+            "  hint: add wzl to models.use");
+  EXPECT_NE(with("[trace]\n"
+                 "models = \"wzl_traced\""),
+            "accepted");
+}
+
 TEST(JobMessages, SayWhatAListOfNumbersHolds) {
   const std::string text = with("[table]\n"
                                 "quantile = [0.05, 1.5]");
