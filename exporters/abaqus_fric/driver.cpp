@@ -7,6 +7,7 @@
 #include "../abaqus/standard.h"
 #include "call.h"
 #include "codegen/compile.h"
+#include "codegen/driver_rows.h"
 #include "source.h"
 
 namespace frictab::abaqus_fric {
@@ -28,6 +29,10 @@ public:
     call_.time_increment = time_increment;
     for (const SolverInput& input : inputs_)
       call_.predefined = std::max(call_.predefined, static_cast<int>(input.field));
+  }
+
+  bool posed(std::size_t row, std::span<const double* const> columns) const {
+    return frictab::posed(inputs_, columns, row, abaqus::any_pressure);
   }
 
   // Every other row slips in two directions.
@@ -101,7 +106,7 @@ void drive(const Built& built, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
   Point point(Library::address(built.library, "fric_"), request);
   for (std::size_t row = 0; row < rows; ++row)
-    tau[row] = point.tau(row, columns);
+    if (point.posed(row, columns)) tau[row] = point.tau(row, columns);
 }
 
 } // namespace frictab::abaqus_fric

@@ -93,8 +93,11 @@ private:
 void drive(const Built& built, const ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
   Block call(Library::address(built.library, "fric_coef_"), request);
+  std::vector<std::size_t> asked;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (posed(call.inputs(), columns, row, abaqus::any_pressure)) asked.push_back(row);
   for (const std::vector<std::size_t>& group :
-       call_groups(call.inputs(), all_rows(rows), columns, call.most()))
+       call_groups(call.inputs(), std::move(asked), columns, call.most()))
     call.run(group, columns, tau);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "data/meaning.h"
 #include "data/quantity.h"
 #include "table/bound.h"
 #include "table/frictab_kernel.h"
@@ -48,21 +49,33 @@ std::string argument_name(const InputArgument& input) {
   return name;
 }
 
+std::optional<std::string> attribute(const Table& table, const std::string& name) {
+  const auto found = table.text_attributes.find(name);
+  return found == table.text_attributes.end() ? std::nullopt : std::optional(found->second);
+}
+
+// "0 = A, 1 = B": of a text column.
+std::optional<std::string> level_text(const Table& table, const std::string& name) {
+  return attribute(table, "levels_" + name);
+}
+
 InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
   InputArgument input;
+  const Meaning meaning = meaning_of(name);
   input.name = name;
-  input.unit = "1";
-  input.meaning = "as recorded";
+  input.unit = meaning.unit;
+  input.meaning = meaning.text;
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     if (table.axes[a].name != name) continue;
     input.axis = a;
     input.unit = table.axes[a].unit;
     if (!table.axes[a].long_name.empty()) input.meaning = table.axes[a].long_name;
   }
-  if (const Quantity* known = find_quantity(name)) {
-    input.unit = known->unit;
-    input.meaning = known->meaning;
+  if (find_quantity(name)) { // whatever the axis says
+    input.unit = meaning.unit;
+    input.meaning = meaning.text;
   }
+  if (const auto levels = level_text(table, name)) input.meaning = *levels;
   input.solver = solver_unit(input.unit, units);
   input.argument = argument_name(input);
   return input;
@@ -114,8 +127,8 @@ std::optional<std::pair<double, double>> known_range(const Table& table, const s
 std::optional<double> typical_value(const Table& table, const std::string& name) {
   const auto range = known_range(table, name);
   if (!range) return std::nullopt;
-  const Quantity* known = find_quantity(name);
-  bool log = known && known->log_axis;
+  if (level_text(table, name)) return range->first; // the level whose factor is 1
+  bool log = meaning_of(name).log_axis;
   for (const TableAxis& axis : table.axes)
     if (axis.name == name) log = axis.log;
   const auto [low, high] = *range;
