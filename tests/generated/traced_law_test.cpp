@@ -1,0 +1,267 @@
+// A law with traced effects is a law like any other: table, every target, verification, report.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../../exporters/abaqus_vfric/call.h"
+#include "calibrate/calibration.h"
+#include "calibrate/calibration_file.h"
+#include "calibrate/input_columns.h"
+#include "codegen/solver_inputs.h"
+#include "core/error.h"
+#include "support/generated.h"
+#include "support/rebuilt.h"
+#include "support/run_command.h"
+#include "support/traced_law.h"
+#include "table/direct.h"
+#include "table/info.h"
+#include "table/table_file.h"
+#include "verify/verify.h"
+
+namespace frictab {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<std::string> all_effects_here = {"humidity", "work", "tool", "peak"};
+
+struct Case {
+  Model model;
+  Dataset data;
+  Table table;
+  explicit Case(const std::vector<std::string>& effects)
+      : model(test::traced_model(effects)), data(test::traced_data(model)),
+        table(build_table(model, state_ranges(model, data, {}), {})) {
+    table.number_attributes["tolerance_MPa"] = 0.5;
+  }
+};
+
+const Case& with_all_effects() {
+  static const Case all(all_effects_here);
+  return all;
+}
+
+TEST(TracedLaw, TableNeedsNoFurtherAxisAndSaysWhatItsInputsAre) {
+  const Table& table = with_all_effects().table;
+  EXPECT_EQ(table.axes.size(), 4u) << "those of log_coulomb";
+  EXPECT_LE(table.nodes(), 16u);
+  EXPECT_EQ(table.range("humidity_pct"), (std::pair{30.0, 60.0}));
+  EXPECT_EQ(table.range("tool"), (std::pair{0.0, 2.0}));
+  EXPECT_EQ(table.range("friction_work")->first, 0.0);
+  EXPECT_GT(table.range("friction_work")->second, 1000.0);
+  EXPECT_EQ(table.text_attributes.at("units_friction_work"), "MPa mm");
+  EXPECT_EQ(table.text_attributes.at("levels_tool"), "0 = A, 1 = B, 2 = C");
+  EXPECT_EQ(table.text_attributes.count("units_psi"), 0u);
+}
+
+TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
+  const Table& table = with_all_effects().table;
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("t.h5"));
+  const Table again = read_table(directory.path("t.h5"));
+  EXPECT_EQ(again.inputs(), table.inputs());
+  EXPECT_EQ(again.value, table.value);
+  EXPECT_EQ(to_text(again.combine), to_text(table.combine));
+  EXPECT_EQ(again.text_attributes, table.text_attributes);
+  EXPECT_EQ(again.number_attributes, table.number_attributes);
+  const std::string info = info_text(read_description(directory.path("t.h5")), "t.h5");
+  EXPECT_THAT(info, HasSubstr("tool          no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
+  EXPECT_THAT(info, HasSubstr("friction_work no axis, verified from 0 to "));
+}
+
+TEST(TracedLaw, OthersRebuildTauFromTheAttributesAlone) {
+  EXPECT_THAT(test::rebuilt_by_python(with_all_effects().table), testing::StartsWith("ok "));
+}
+
+TEST(TracedLaw, ModelFileReadsBackToTheSameBits) {
+  const Case& c = with_all_effects();
+  Calibration calibration;
+  ModelFit fit;
+  fit.model = c.model;
+  fit.std_error.assign(c.model.parameters.size(), 0.001);
+  calibration.fits.push_back(fit);
+  const std::string text = model_json(fit, calibration);
+  const Model again = parse_model(text, "m.json");
+  EXPECT_EQ(again.name(), "log_coulomb_traced");
+  EXPECT_EQ(again.law->base, "log_coulomb");
+  EXPECT_EQ(again.law->levels, c.model.law->levels);
+  EXPECT_EQ(again.law->formula, c.model.law->formula);
+  EXPECT_EQ(parameter_names(*again.law), parameter_names(*c.model.law));
+  EXPECT_EQ(again.law->parameters.back().upper, c.model.law->parameters.back().upper);
+  EXPECT_EQ(predict(again, c.data), predict(c.model, c.data));
+  ModelFit fit_again = fit;
+  fit_again.model = again;
+  EXPECT_EQ(model_json(fit_again, calibration), text);
+  const Calibration all = parse_calibration(calibration_json(calibration), "calibration.json");
+  EXPECT_EQ(predict(all.fits[0].model, c.data), predict(c.model, c.data));
+}
+
+TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      parse_model(text, "m.json");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(R"({"name": "log_coulomb_tracd"})"),
+            "m.json: error: unknown friction law 'log_coulomb_tracd'\n"
+            "  hint: did you mean 'log_coulomb'?");
+  EXPECT_THAT(refusal(R"({"name": "mine", "law": {"base": "log_colomb"}})"),
+              HasSubstr("law 'mine' extends 'log_colomb', which is no friction law\n"
+                        "  hint: did you mean 'log_coulomb'?"));
+}
+
+std::vector<DriftRecord> verified(const Case& c, const Exporter& exporter, const Table& form,
+                                  const std::string& units = "mm-t-s",
+                                  const std::map<std::string, std::string>& inputs = {}) {
+  const ExportRequest request{form, units, inputs};
+  return verify({c.model, c.table, "table", &c.data, 0.5, 2000},
+                {{&exporter, request, exporter.generate(request)}});
+}
+
+TEST(TracedLaw, TableIsProvenLikeAnyOther) {
+  for (const char* effect : {"humidity", "work", "tool", "peak"}) {
+    const Case c({effect});
+    const DriftRecord record = verify({c.model, c.table, "table", &c.data, 0.5, 2000}, {})[0];
+    EXPECT_TRUE(record.passed) << effect;
+    EXPECT_EQ(record.not_proven, "") << effect;
+    ASSERT_TRUE(record.proven_MPa) << effect;
+    EXPECT_LT(*record.proven_MPa, 0.01) << effect;
+  }
+}
+
+class TracedLawOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(TracedLawOf, TargetIsTheLawOnRowsAndOverTheRange) {
+  const Exporter& exporter = *find_exporter(GetParam());
+  const Case& c = with_all_effects();
+  const Table direct = direct_form(c.model, c.table);
+  std::map<std::string, std::string> held;
+  if (!exporter.whole()) held = {{"sigma_f_MPa", "constant:480"}};
+  for (const Table* form : {&c.table, &direct})
+    for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+      if (!exporter.whole() && form == &c.table) continue; // made from the law itself
+      Table with_tolerance = *form;
+      with_tolerance.number_attributes["tolerance_MPa"] = 0.5;
+      for (const DriftRecord& record : verified(c, exporter, with_tolerance, units, held)) {
+        if (!record.ran) GTEST_SKIP() << record.why_not;
+        EXPECT_TRUE(record.passed) << record.subject << ' ' << units << ' ' << record.worst_case_MPa
+                                   << ' ' << record.rows.max_abs;
+        EXPECT_LT(record.n_rows_not_posed, record.n_rows) << record.subject;
+      }
+    }
+}
+
+std::vector<std::string> all_targets() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : all_exporters())
+    names.push_back(exporter.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, TracedLawOf, testing::ValuesIn(all_targets()),
+                         [](const auto& given) { return given.param; });
+
+TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
+  const Case& c = with_all_effects();
+  const SourceBundle bundle = find_exporter("c")->generate({c.table, "m-kg-s", {}});
+  const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
+  std::vector<std::string> names, units;
+  for (const auto& argument : recipe.at("arguments")) {
+    names.push_back(argument.at("quantity"));
+    units.push_back(argument.at("unit"));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C",
+                                             "s_mm", "sigma_f_MPa", "friction_work", "humidity_pct",
+                                             "peak_sigma_n", "tool"}));
+  EXPECT_EQ(units[6], "Pa m");
+  EXPECT_EQ(units[8], "Pa");
+  EXPECT_THAT(bundle.at("recipe.json"), HasSubstr("0 = A, 1 = B, 2 = C"));
+}
+
+TEST(TracedLaw, InputsOfARoutineAreChosenByTheJob) {
+  const Case& c = with_all_effects();
+  const ExportRequest request{
+      c.table, "mm-t-s", {{"humidity_pct", "field:1"}, {"tool", "constant:2"}}};
+  const std::string source = find_exporter("abaqus_vfric")->generate(request).at("frictab_vfric.f");
+  EXPECT_THAT(source, HasSubstr("preDefSec(k,1)"));
+  EXPECT_THAT(source, HasSubstr("STATEV(2)"));
+  for (const DriftRecord& record : verified(c, *find_exporter("abaqus_vfric"), c.table, "mm-t-s",
+                                            {{"humidity_pct", "field:1"}, {"tool", "property"}}))
+    EXPECT_TRUE(record.passed || !record.ran) << record.subject;
+}
+
+TEST(TracedLaw, OfATextColumnStandsForItsFirstLevelWhereNothingIsSaid) {
+  EXPECT_EQ(typical_value(with_all_effects().table, "tool"), 0.0);
+}
+
+// VFRIC along one experiment, increment by increment: what it integrates is what predict() takes,
+// to first order in the increment.
+class WorkOnAPath : public testing::Test {
+protected:
+  static constexpr double slip_mm = 8, pressure = 900, humidity = 52;
+
+  static Dataset path(int increments) {
+    Dataset data;
+    const std::vector<std::pair<std::string, double>> held = {
+        {"sigma_n_MPa", pressure}, {"psi", 3},           {"v_rel_mm_s", 100},
+        {"T_contact_C", 90},       {"sigma_f_MPa", 480}, {"humidity_pct", humidity}};
+    const std::size_t rows = static_cast<std::size_t>(increments) + 1;
+    for (const auto& [name, value] : held)
+      data.columns.push_back({name, "", std::vector<double>(rows, value), {}});
+    data.columns.push_back({"s_mm", "mm", {}, {}});
+    for (std::size_t i = 0; i < rows; ++i)
+      data.columns.back().values.push_back(slip_mm * static_cast<double>(i) / increments);
+    data.first_row = {0, rows};
+    data.experiments = {"one"};
+    return data;
+  }
+
+  // tau_R at the end of the path, and the work it has done.
+  static std::pair<double, double> routine(const Case& c, int increments) {
+    const ExportRequest request{c.table,
+                                "mm-t-s",
+                                {{"psi", "constant:3"},
+                                 {"sigma_f_MPa", "constant:480"},
+                                 {"T_contact_C", "constant:90"},
+                                 {"humidity_pct", "constant:52"}}};
+    void* vfric = Library::address(
+        test::compiled("traced path", *find_exporter("abaqus_vfric"), request, "double")->handle(),
+        "vfric_");
+    abaqus_vfric::VfricCall<double> call;
+    call.states = 6;
+    call.resize(1, 1);
+    for (int i = 0; i < increments; ++i) {
+      call.slip[0] = slip_mm / increments;
+      call.time_increment = call.slip[0] / 100;
+      call.normal[0] = pressure;
+      call.run(vfric);
+      call.previous[0] = call.tangential[0];
+    }
+    return {-call.tangential[0], call.state[1]};
+  }
+};
+
+TEST_F(WorkOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const Case c({"humidity", "work"});
+  const std::vector<double> fine = predict(c.model, path(4000));
+  std::vector<double> off;
+  for (const int increments : {100, 200, 400}) {
+    EXPECT_NEAR(predict(c.model, path(increments)).back(), fine.back(), 0.01);
+    off.push_back(std::abs(routine(c, increments).first - fine.back()));
+  }
+  EXPECT_LT(std::abs(fine.back() / fine.front() - 1), 0.5);
+  EXPECT_GT(std::abs(fine.back() / fine.front() - 1), 0.05) << "the effect is at work";
+  EXPECT_LT(off[0], 0.5);
+  EXPECT_NEAR(off[0] / off[1], 2, 0.3);
+  EXPECT_NEAR(off[1] / off[2], 2, 0.3);
+}
+
+} // namespace
+} // namespace frictab
