@@ -15,6 +15,7 @@
 #include "support/generated.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
+#include "support/sample_data.h"
 #include "support/traced_law.h"
 #include "table/direct.h"
 #include "table/info.h"
@@ -32,11 +33,12 @@ struct Case {
   Model model;
   Dataset data;
   Table table;
-  explicit Case(const std::vector<std::string>& effects)
-      : model(test::traced_model(effects)), data(test::traced_data(model)),
+  explicit Case(Model of)
+      : model(std::move(of)), data(test::traced_data(model)),
         table(build_table(model, state_ranges(model, data, {}), {})) {
     table.number_attributes["tolerance_MPa"] = 0.5;
   }
+  explicit Case(const std::vector<std::string>& effects) : Case(test::traced_model(effects)) {}
 };
 
 const Case& with_all_effects() {
@@ -166,6 +168,53 @@ std::vector<std::string> all_targets() {
 
 INSTANTIATE_TEST_SUITE_P(Targets, TracedLawOf, testing::ValuesIn(all_targets()),
                          [](const auto& given) { return given.param; });
+
+// An effect on mu, one on the limit, one added, in every law that knows them.
+std::vector<PlacedEffect> everywhere(const Law& law) {
+  std::vector<PlacedEffect> effects = {test::traced_effect("humidity")};
+  if (has_limit(law, {})) {
+    effects.push_back(test::traced_effect("work"));
+    effects.back().acts_on = "m";
+  }
+  effects.push_back(test::traced_effect("tool_heat"));
+  effects.back().acts_on = "tau";
+  effects.back().tau_scale_MPa = 20;
+  return effects;
+}
+
+class TracedLawFrom : public testing::TestWithParam<std::string> {};
+
+TEST_P(TracedLawFrom, IsTabulatedExportedAndReadBack) {
+  const Law& law = *find_law(GetParam());
+  const Model base =
+      law.calibrated == Calibrated::train ? test::network_model(1) : test::plausible_model(law);
+  const Case c(test::traced_model(base, everywhere(law)));
+  ModelFit fit;
+  fit.model = c.model;
+  fit.std_error.assign(c.model.parameters.size(), 0);
+  EXPECT_EQ(predict(parse_model(model_json(fit, {}), "m.json"), c.data), predict(c.model, c.data));
+  for (const char* target : {"c", "abaqus_vfric", "qform_lua"})
+    for (const DriftRecord& record : verified(c, *find_exporter(target), c.table)) {
+      if (!record.ran) GTEST_SKIP() << record.why_not;
+      EXPECT_TRUE(record.passed) << record.subject << ' ' << record.worst_case_MPa << ' '
+                                 << record.rows.max_abs;
+      EXPECT_EQ(record.not_proven, "") << record.subject;
+    }
+}
+
+std::vector<std::string> all_law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, TracedLawFrom, testing::ValuesIn(all_law_names()),
+                         [](const auto& given) {
+                           std::string name = given.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 
 TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
   const Case& c = with_all_effects();

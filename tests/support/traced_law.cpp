@@ -22,6 +22,7 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "humidity") put("power", "humidity_pct", {0.3, 45}, 30, 60);
   if (which == "work") put("saturation", "friction_work", {-0.25, 400}, 0, 3000);
   if (which == "peak") put("linear", "peak_sigma_n", {0.2, 1500, 2000}, 500, 2750);
+  if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70}, 20, 120);
   if (which == "tool") {
     put("category", "tool", {0.1, -0.15}, 0, 1);
     effect.levels = {"A", "B", "C"};
@@ -30,13 +31,16 @@ PlacedEffect traced_effect(const std::string& which) {
 }
 
 Model traced_model(const std::vector<std::string>& which) {
-  Model base = plausible_model(*find_law("log_coulomb"));
   std::vector<PlacedEffect> effects;
   for (const std::string& one : which)
     effects.push_back(traced_effect(one));
+  return traced_model(plausible_model(*find_law("log_coulomb")), effects);
+}
+
+Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects) {
   Model model;
-  model.law = made(
-      extended_law(*base.law, model.conventions, base.parameters, effects, "log_coulomb_traced"));
+  model.law = made(extended_law(*base.law, model.conventions, base.parameters, effects,
+                                base.law->name + std::string(traced_suffix)));
   for (const Parameter& parameter : model.law->parameters)
     model.parameters.push_back(parameter.start);
   return model;
@@ -44,10 +48,11 @@ Model traced_model(const std::vector<std::string>& which) {
 
 namespace {
 
-Column humidity(const Dataset& data) {
-  Column column{"humidity_pct", "", {}, {}};
+// Jumps about between `low` and `high`.
+Column scattered(const Dataset& data, const char* name, double low, double high) {
+  Column column{name, "", {}, {}};
   for (std::size_t i = 0; i < data.rows(); ++i)
-    column.values.push_back(30 + 30 * static_cast<double>((7 * i) % 40) / 39);
+    column.values.push_back(low + (high - low) * static_cast<double>((7 * i) % 40) / 39);
   return column;
 }
 
@@ -69,7 +74,8 @@ Dataset traced_data(const Model& truth) {
   for (Column& column : data.columns)
     for (std::size_t i = 0; column.name == "s_mm" && i < data.rows(); ++i)
       column.values[i] = 20 * static_cast<double>(i % 40) / 39;
-  data.columns.push_back(humidity(data));
+  data.columns.push_back(scattered(data, "T_tool_C", 20, 120));
+  data.columns.push_back(scattered(data, "humidity_pct", 30, 60));
   data.columns.push_back(tool(data));
   data.columns.push_back({"tau_R_MPa", "MPa", predict(truth, data), {}});
   fingerprint(data);
