@@ -109,6 +109,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "plant an effect (repeatable): form=saturation,column=s_mm,strength=0.15,on=mu; "
                  "on = mu, m or tau; column may be a derived quantity or latent")
       ->allow_extra_args(false);
+  app.add_option("--profile", options->twin.profile,
+                 "contact normal stress over the stroke: constant, or varied (by test constant, "
+                 "rising, falling or a pulse, 0.3 to 1 of its level)")
+      ->capture_default_str();
   app.add_option("--noise-scale", options->twin.noise_scale, "0 (none) to 5, 1 = the set's")
       ->capture_default_str();
   app.add_option("--noise", options->twin.noise, "normal, t4 or heteroscedastic")

@@ -15,17 +15,6 @@ namespace frictab {
 
 namespace {
 
-void check_options(const TwinOptions& options) {
-  FaultList faults;
-  if (!(options.noise_scale >= 0 && options.noise_scale <= 5))
-    faults.add({"--noise-scale"}, shortest(options.noise_scale) + " is outside 0 to 5",
-               "1 is the noise of the parameter set, 0 is none");
-  static const std::vector<std::string> kinds = {"normal", "t4", "heteroscedastic"};
-  if (std::find(kinds.begin(), kinds.end(), options.noise) == kinds.end())
-    faults.add({"--noise"}, "unknown noise '" + options.noise + "'", suggest(options.noise, kinds));
-  faults.throw_if_any();
-}
-
 // What a law needs to be calibrated stays; everything else may be hidden.
 void hide_columns(const TwinOptions& options, Dataset& data) {
   FaultList faults;
@@ -71,7 +60,8 @@ Twin make_twin(TwinOptions options) {
   twin.set = twin_set(options.set);
   if (!options.design) options.design = default_design(twin.set);
 
-  const TwinPlan plan = make_plan(*options.design, options.seed);
+  TwinPlan plan = make_plan(*options.design, options.seed);
+  if (options.profile == "varied") vary_profiles(plan, options.seed);
   const std::size_t tests = plan.training.size() + plan.validation.size();
   TwinDraft training = draft_part(options, twin.set, plan, 0);
   TwinDraft validation = draft_part(options, twin.set, plan, 1);

@@ -48,8 +48,11 @@ struct TwinOptions {
   // figures (51 / 24 / 95 MPa for the constants, 12-15 calibrated).
   std::uint64_t seed = 3;
   std::optional<TwinDesign> design; // absent: default_design
-  double noise_scale = 1;           // 0..5, on every source of noise
-  std::string noise = "normal";     // normal | t4 (heavy tails) | heteroscedastic (grows with v)
+  // Contact normal stress over the stroke: constant | varied (by test constant, rising, falling or
+  // a pulse), so that momentary, highest and mean stress are different columns.
+  std::string profile = "constant";
+  double noise_scale = 1;       // 0..5, on every source of noise
+  std::string noise = "normal"; // normal | t4 (heavy tails) | heteroscedastic (grows with v)
   std::vector<EffectSpec> effects;
   bool bystanders = true;
   std::vector<std::string> hide; // columns left out of the files; an effect may still act by them
@@ -68,6 +71,9 @@ struct Twin {
   TwinPart validation;
   std::vector<PlantedEffect> effects;
 };
+
+// Throws InputError with every value that is unknown or out of range.
+void check_options(const TwinOptions& options);
 
 // Same options, same bits, on any number of threads. Throws InputError for what the user can mend.
 Twin make_twin(TwinOptions options);

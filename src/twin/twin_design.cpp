@@ -15,6 +15,8 @@ namespace frictab {
 
 namespace {
 
+constexpr unsigned profile_stream = 4;
+
 constexpr std::size_t most_rows = 50'000'000; // both files; far beyond any tribometer campaign
 
 void check_levels(const std::vector<double>& levels, const char* key, double low, double high,
@@ -66,6 +68,13 @@ std::vector<TwinExperiment> factorial(const TwinDesign& design) {
           for (double T : design.T)
             experiments.push_back({fmt::format("E{:03}", experiments.size() + 1), {p, psi, v, T}});
   return experiments;
+}
+
+void vary_profile(TwinTest& test, Random random) {
+  static constexpr TwinProfile profiles[] = {TwinProfile::constant, TwinProfile::ramp,
+                                             TwinProfile::decay, TwinProfile::pulse};
+  test.profile = profiles[random.below(std::size(profiles))];
+  test.pulse_at = random.uniform(0.25, 0.75);
 }
 
 TwinExperiment random_test(const TwinDesign& design, std::uint64_t seed, std::size_t index) {
@@ -133,6 +142,13 @@ TwinPlan make_plan(const TwinDesign& design, std::uint64_t seed) {
     (i < n ? plan.training[i] : plan.validation[i - n]).run_order = order[i];
   }
   return plan;
+}
+
+void vary_profiles(TwinPlan& plan, std::uint64_t seed) {
+  for (std::size_t e = 0; e < plan.training.size(); ++e)
+    vary_profile(plan.training[e].test, Random(seed, twin_stream(0, e, profile_stream)));
+  for (std::size_t e = 0; e < plan.validation.size(); ++e)
+    vary_profile(plan.validation[e].test, Random(seed, twin_stream(1, e, profile_stream)));
 }
 
 } // namespace frictab

@@ -43,6 +43,9 @@ struct TwinPlan {
 };
 TwinPlan make_plan(const TwinDesign& design, std::uint64_t seed);
 
+// Gives every test a profile of its own, drawn by seed; replicates differ.
+void vary_profiles(TwinPlan& plan, std::uint64_t seed);
+
 // Key of a random stream: one per part (0 training, 1 validation, 2 campaign), experiment, purpose.
 std::uint64_t twin_stream(unsigned part, std::size_t experiment, unsigned purpose);
 

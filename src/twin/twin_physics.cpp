@@ -46,6 +46,20 @@ double twin_tau(double tau0_MPa, double limit_MPa) {
   return limit_MPa * std::tanh(tau0_MPa / limit_MPa);
 }
 
+double profile_share(const TwinTest& test, double x) {
+  switch (test.profile) {
+  case TwinProfile::constant:
+    return 1;
+  case TwinProfile::ramp:
+    return 0.3 + 0.7 * x;
+  case TwinProfile::decay:
+    return 1 - 0.7 * x;
+  case TwinProfile::pulse:
+    return 0.4 + 0.6 * std::exp(-0.5 * std::pow((x - test.pulse_at) / 0.1, 2));
+  }
+  return 1;
+}
+
 TwinRow twin_row(const TwinParameters& set, const TwinTest& test, std::size_t i, std::size_t n) {
   const double x = static_cast<double>(i) / static_cast<double>(n);
   State now{};
@@ -53,7 +67,8 @@ TwinRow twin_row(const TwinParameters& set, const TwinTest& test, std::size_t i,
   now.T_tool = test.T_tool;
   now.s = round_to(twin_stroke_mm * x, 4);
   const double drift = 1 + 0.10 * std::log(test.psi) / std::log(20.0) * (x - 0.5);
-  now.sigma_n = round_to(std::max(500.0, test.p * (1 - std::exp(-x / 0.018)) * drift), 2);
+  const double level = std::max(500.0, test.p * (1 - std::exp(-x / 0.018)) * drift);
+  now.sigma_n = round_to(level * profile_share(test, x), 2);
   now.psi = round_to(1 + (test.psi - 1) * (1 - std::exp(-x / 0.03)), 4);
   now.T_contact = round_to(test.T_tool + std::min(60.0, 0.5 * std::sqrt(test.v * now.s)), 2);
   const double strain = 0.25 + 0.6 * std::log(now.psi);

@@ -33,10 +33,18 @@ std::span<const TwinParameters> twin_sets();
 // Throws InputError naming the known sets.
 const TwinParameters& twin_set(std::string_view name);
 
+// How the contact normal stress goes over the stroke, as a share of the test's level.
+enum class TwinProfile { constant, ramp, decay, pulse };
+
 // One test: nominal stress in MPa, final expansion ratio, mm/s, degC.
 struct TwinTest {
   double p, psi, v, T_tool;
+  TwinProfile profile = TwinProfile::constant;
+  double pulse_at = 0.5; // share of the stroke
 };
+
+// Share of the level at a share x of the stroke: 1 throughout, or between 0.3 and 1.
+double profile_share(const TwinTest& test, double x);
 
 // State at one row, rounded as an instrument would record it, and the two pieces of the law:
 // tau = limit * tanh(tau0 / limit).
