@@ -17,6 +17,7 @@ struct Options {
   std::string directory;
   std::string format = "csv";
   std::string design;
+  std::string scatter;
   std::vector<std::string> effects;
   TwinOptions twin;
   bool oracle = false;
@@ -60,6 +61,7 @@ void read_options(Options& options, const CommonOptions& common) {
   options.twin.bystanders = !options.no_bystanders;
   if (!options.design.empty())
     options.twin.design = parse_design(options.design, default_design(twin_set(options.twin.set)));
+  options.twin.scatter = parse_scatter(options.scatter);
   FaultList faults;
   options.twin.effects.clear();
   for (const std::string& text : options.effects) {
@@ -117,6 +119,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->capture_default_str();
   app.add_option("--noise", options->twin.noise, "normal, t4 or heteroscedastic")
       ->capture_default_str();
+  app.add_option("--scatter", options->scatter,
+                 "noise instead of the set's, relative: \"test=0.04,slow=0.035,rho=0.95,"
+                 "white=0.012\", any subset; rho: of the slow part, from row to row");
   app.add_option("--hide", options->twin.hide, "leave a column out of the files (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--no-bystanders", options->no_bystanders, "write canonical columns only");

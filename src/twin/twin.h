@@ -42,6 +42,17 @@ struct PlantedEffect {
   double strength = 0;            // reached, with this effect alone
 };
 
+// Relative standard deviations that replace the parameter set's.
+struct TwinScatter {
+  std::optional<double> test;  // between tests, one hidden factor each
+  std::optional<double> slow;  // within a test, autocorrelated
+  std::optional<double> rho;   // the correlation from row to row
+  std::optional<double> white; // from row to row
+};
+
+// "test=0.04,slow=0.035,rho=0.95,white=0.012", any subset. Throws InputError with every fault.
+TwinScatter parse_scatter(std::string_view text);
+
 struct TwinOptions {
   std::string set = "D";
   // 30 validation experiments scatter: of the seeds 1..8 this one is nearest to the published
@@ -53,6 +64,7 @@ struct TwinOptions {
   std::string profile = "constant";
   double noise_scale = 1;       // 0..5, on every source of noise
   std::string noise = "normal"; // normal | t4 (heavy tails) | heteroscedastic (grows with v)
+  TwinScatter scatter;
   std::vector<EffectSpec> effects;
   bool bystanders = true;
   std::vector<std::string> hide; // columns left out of the files; an effect may still act by them
@@ -71,6 +83,12 @@ struct Twin {
   TwinPart validation;
   std::vector<PlantedEffect> effects;
 };
+
+// The noise of a campaign before noise_scale.
+struct TwinNoise {
+  double test, slow, rho, white;
+};
+TwinNoise noise_of(const TwinOptions& options, const TwinParameters& set);
 
 // Throws InputError with every value that is unknown or out of range.
 void check_options(const TwinOptions& options);

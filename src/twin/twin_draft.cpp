@@ -61,21 +61,22 @@ void fill_noise(const TwinOptions& options, const TwinParameters& set, TwinDraft
                 std::size_t points) {
   draft.noise.resize(draft.plan.size() * points);
   const bool heavy = options.noise == "t4";
+  const TwinNoise level = noise_of(options, set);
   parallel_for(draft.plan.size(), [&](std::size_t e) {
     Random random(options.seed, twin_stream(draft.part, e, noise_stream));
     const auto draw = [&] { return heavy ? heavy_tailed(random) : random.normal(); };
     double scale = options.noise_scale;
     if (options.noise == "heteroscedastic")
       scale *= std::clamp(std::pow(draft.plan[e].test.v / 50, 0.3), 0.25, 2.5);
-    const double factor = std::exp(scale * set.s_test * draw());
-    const double step = std::sqrt(1 - twin_ar_rho * twin_ar_rho);
+    const double factor = std::exp(scale * level.test * draw());
+    const double step = std::sqrt(1 - level.rho * level.rho);
     double slow = random.normal();
     for (std::size_t i = 0; i < points; ++i) {
-      if (i > 0) slow = twin_ar_rho * slow + step * random.normal();
+      if (i > 0) slow = level.rho * slow + step * random.normal();
       const double white = draw();
       // Exponentials of small numbers: 1 + noise that cannot turn negative.
       draft.noise[e * points + i] =
-          factor * std::exp(scale * set.s_ar * slow) * std::exp(scale * twin_white * white);
+          factor * std::exp(scale * level.slow * slow) * std::exp(scale * level.white * white);
     }
   });
 }

@@ -38,6 +38,19 @@ std::string unit_of(const std::string& column) {
   return "1";
 }
 
+// Levels between tests and of the slow noise are the set's where they are not given.
+Json noise_json(const Twin& twin) {
+  const TwinScatter& given = twin.options.scatter;
+  const TwinNoise level = noise_of(twin.options, twin.set);
+  Json json{{"kind", twin.options.noise},
+            {"scale", twin.options.noise_scale},
+            {"white", level.white},
+            {"ar_rho", level.rho}};
+  if (given.test) json["test"] = level.test;
+  if (given.slow) json["slow"] = level.slow;
+  return json;
+}
+
 Json effect_json(const PlantedEffect& effect) {
   const EffectSpec& spec = effect.spec;
   Json parameters = Json::array();
@@ -109,11 +122,7 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
             {"seed", options.seed},
             {"set", set_json(twin.set)},
             {"design", design_json(*options.design)},
-            {"noise",
-             {{"kind", options.noise},
-              {"scale", options.noise_scale},
-              {"white", twin_white},
-              {"ar_rho", twin_ar_rho}}},
+            {"noise", noise_json(twin)},
             {"bystanders", options.bystanders},
             {"hidden_columns", options.hide},
             {"effects", effects},

@@ -1,4 +1,4 @@
-// Claims about campaigns that residual tracing is scored on: stress profiles.
+// Claims about campaigns that residual tracing is scored on: stress profiles, noise levels.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "twin/twin.h"
-#include "twin/twin_draft.h"
+#include "twin/twin_effect.h"
 
 namespace frictab {
 namespace {
@@ -68,6 +68,75 @@ TEST(TwinProfiles, UnknownOneIsNamed) {
   TwinOptions options = small();
   options.profile = "variid";
   EXPECT_THAT(fault_of(options), HasSubstr("unknown profile 'variid'\n  hint: did you mean"));
+}
+
+// Standard deviation of the mean logarithm of noise per test, about the mean of all.
+double between_tests(const Twin& twin) {
+  const auto tau = column(twin.training, "tau_R_MPa");
+  const auto& first = twin.training.data.first_row;
+  std::vector<double> means;
+  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+    double sum = 0;
+    for (std::size_t i = first[e]; i < first[e + 1]; ++i)
+      sum += std::log(tau[i] / twin.training.oracle_MPa[i]);
+    means.push_back(sum / static_cast<double>(first[e + 1] - first[e]));
+  }
+  const double mean = mean_of(means);
+  double square = 0;
+  for (const double m : means)
+    square += (m - mean) * (m - mean);
+  return std::sqrt(square / static_cast<double>(means.size() - 1));
+}
+
+TEST(TwinScatter, LevelsAreThoseAskedFor) {
+  TwinOptions options = small("v=5,50,500;replicates=3;points=110;validation=0");
+  options.scatter = parse_scatter("test=0.04, slow=0, white=0");
+  EXPECT_NEAR(between_tests(make_twin(options)), 0.04, 0.006); // 243 tests: 0.0018
+  options.scatter = parse_scatter("test=0,slow=0,white=0.012");
+  const Twin white = make_twin(options);
+  const auto tau = column(white.training, "tau_R_MPa");
+  double square = 0;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    square += std::pow(std::log(tau[i] / white.training.oracle_MPa[i]), 2);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(tau.size())), 0.012, 2e-4);
+}
+
+TEST(TwinScatter, SlowNoiseHasTheCorrelationAskedFor) {
+  TwinOptions options = small("v=5,50,500;points=550;validation=0");
+  options.scatter = parse_scatter("test=0,slow=0.04,rho=0.8,white=0");
+  const Twin twin = make_twin(options);
+  const auto tau = column(twin.training, "tau_R_MPa");
+  double next = 0, own = 0;
+  double before = 0;
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    const double noise = std::log(tau[i] / twin.training.oracle_MPa[i]);
+    if (i % 550 > 0) next += noise * before;
+    if (i % 550 > 0) own += before * before;
+    before = noise;
+  }
+  EXPECT_NEAR(next / own, 0.8, 0.01);
+}
+
+TEST(TwinScatter, GivenAsInTheSetLeavesEveryBit) {
+  TwinOptions options = small();
+  const Twin plain = make_twin(options);
+  options.scatter = parse_scatter("white=0.025,rho=0.97");
+  EXPECT_EQ(plain.training.data.find("tau_R_MPa")->values,
+            make_twin(options).training.data.find("tau_R_MPa")->values);
+}
+
+TEST(TwinScatter, FaultsAreNamed) {
+  const auto fault = [](const char* text) -> std::string {
+    try {
+      parse_scatter(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  EXPECT_THAT(fault("tests=0.04"), HasSubstr("unknown key 'tests'\n  hint: did you mean 'test'?"));
+  EXPECT_THAT(fault("rho=1"), HasSubstr("rho = 1 is outside 0 to 0.9999\n  hint: "));
+  EXPECT_THAT(fault("white=4 %"), HasSubstr("is not a finite number"));
 }
 
 } // namespace
