@@ -125,6 +125,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--hide", options->twin.hide, "leave a column out of the files (repeatable)")
       ->allow_extra_args(false);
   app.add_flag("--no-bystanders", options->no_bystanders, "write canonical columns only");
+  app.add_flag("--more-bystanders", options->twin.more_bystanders,
+               "six more: film2_um (follows film_um, acts on nothing), vib, lab_T_C, dwell_s, "
+               "direction, batch");
   app.add_flag("--oracle", options->oracle,
                "write the noise-free stress to *_oracle files too; job.toml names them");
   return [options, &common] { return run(*options, common); };

@@ -67,6 +67,8 @@ struct TwinOptions {
   TwinScatter scatter;
   std::vector<EffectSpec> effects;
   bool bystanders = true;
+  // film2_um (follows film_um, acts on nothing), vib, lab_T_C, dwell_s, direction, batch.
+  bool more_bystanders = false;
   std::vector<std::string> hide; // columns left out of the files; an effect may still act by them
 };
 

@@ -7,21 +7,13 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "data/quantity.h"
+#include "twin/twin_bystanders.h"
 
 namespace frictab {
 
 namespace {
 
-// What each random stream of an experiment is for; 0 draws the test itself.
-constexpr unsigned noise_stream = 1;
-constexpr unsigned bystander_stream = 2;
-constexpr unsigned humidity_stream = 3;
-
-Column& add_column(Dataset& data, const char* name, std::size_t rows) {
-  const Quantity* quantity = find_quantity(name);
-  data.columns.push_back({name, quantity ? quantity->unit : "", std::vector<double>(rows), {}});
-  return data.columns.back();
-}
+constexpr unsigned noise_stream = 1; // 0 draws the test itself
 
 void fill_states(const TwinParameters& set, TwinDraft& draft, std::size_t points) {
   static constexpr double TwinRow::*members[] = {
@@ -81,42 +73,6 @@ void fill_noise(const TwinOptions& options, const TwinParameters& set, TwinDraft
   });
 }
 
-// Room climate follows the order of tests: an AR(1) over both parts.
-std::vector<double> humidity_by_order(std::uint64_t seed, std::size_t tests) {
-  Random random(seed, twin_stream(2, 0, humidity_stream));
-  std::vector<double> humidity(tests);
-  double state = random.normal();
-  for (double& value : humidity) {
-    value = round_to(std::clamp(45 + 8 * state, 5.0, 95.0), 1);
-    state = 0.9 * state + std::sqrt(1 - 0.81) * random.normal();
-  }
-  return humidity;
-}
-
-void fill_constant(Column& column, std::size_t experiment, std::size_t points, double value) {
-  std::fill_n(column.values.begin() + static_cast<std::ptrdiff_t>(experiment * points), points,
-              value);
-}
-
-void fill_bystanders(std::uint64_t seed, std::size_t tests, TwinDraft& draft, std::size_t points) {
-  const std::size_t rows = draft.plan.size() * points;
-  const std::size_t first = draft.data.columns.size();
-  for (const char* name : {"run_order", "humidity_pct", "film_um", "Ra_um", "tool"})
-    add_column(draft.data, name, rows);
-  draft.data.columns.back().levels = {"A", "B", "C"};
-  const auto humidity = humidity_by_order(seed, tests);
-  for (std::size_t e = 0; e < draft.plan.size(); ++e) {
-    Random random(seed, twin_stream(draft.part, e, bystander_stream));
-    const std::size_t order = draft.plan[e].run_order;
-    const double film = round_to(8 * std::exp(0.15 * random.normal()), 2);
-    const double roughness = round_to(0.35 * std::exp(0.25 * random.normal()), 3);
-    const double values[] = {static_cast<double>(order), humidity[order - 1], film, roughness,
-                             static_cast<double>(random.below(3))};
-    for (std::size_t c = 0; c < std::size(values); ++c)
-      fill_constant(draft.data.columns[first + c], e, points, values[c]);
-  }
-}
-
 } // namespace
 
 TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, const TwinPlan& plan,
@@ -131,8 +87,14 @@ TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, cons
   }
   fill_states(set, draft, points);
   fill_noise(options, set, draft, points);
-  fill_bystanders(options.seed, plan.training.size() + plan.validation.size(), draft, points);
+  add_bystanders(options, plan.training.size() + plan.validation.size(), draft);
   return draft;
+}
+
+Column& add_column(Dataset& data, const char* name, std::size_t rows) {
+  const Quantity* quantity = find_quantity(name);
+  data.columns.push_back({name, quantity ? quantity->unit : "", std::vector<double>(rows), {}});
+  return data.columns.back();
 }
 
 const Column* find_column(const Dataset& data, std::string_view name) {

@@ -23,6 +23,9 @@ struct TwinDraft {
 TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, const TwinPlan& plan,
                      unsigned part);
 
+// A new column of zeros, behind the others.
+Column& add_column(Dataset& data, const char* name, std::size_t rows);
+
 // The column with this name, or nullptr.
 const Column* find_column(const Dataset& data, std::string_view name);
 Column* find_column(Dataset& data, std::string_view name);

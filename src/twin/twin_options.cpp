@@ -64,6 +64,8 @@ void check_options(const TwinOptions& options) {
   check_choice("--noise", options.noise, {"normal", "t4", "heteroscedastic"}, faults);
   check_choice("--profile", options.profile, {"constant", "varied"}, faults);
   check_scatter(options.scatter, faults);
+  if (options.more_bystanders && !options.bystanders)
+    faults.add({"--more-bystanders"}, "contradicts --no-bystanders", "leave one of them out");
   faults.throw_if_any();
 }
 

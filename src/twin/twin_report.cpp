@@ -131,6 +131,7 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
   if (twin.validation.data.rows() > 0)
     json["validation"] = part_json(twin.validation, summary, &TwinLaw::validation);
   if (options.profile != "constant") json["profile"] = options.profile;
+  if (options.more_bystanders) json["more_bystanders"] = true;
   json["notes"] = {"oracle: error of the noise-free law, effects included, without knowing the "
                    "hidden factor of each test; no model can do better than that on average",
                    "base_law: the same law without the effects, times one fitted factor",

@@ -1,6 +1,8 @@
-// Claims about campaigns that residual tracing is scored on: stress profiles, noise levels.
+// Claims about campaigns that residual tracing is scored on: stress profiles, noise levels,
+// bystanders.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -137,6 +139,76 @@ TEST(TwinScatter, FaultsAreNamed) {
   EXPECT_THAT(fault("tests=0.04"), HasSubstr("unknown key 'tests'\n  hint: did you mean 'test'?"));
   EXPECT_THAT(fault("rho=1"), HasSubstr("rho = 1 is outside 0 to 0.9999\n  hint: "));
   EXPECT_THAT(fault("white=4 %"), HasSubstr("is not a finite number"));
+}
+
+double correlation(std::span<const double> x, std::span<const double> y) {
+  const double n = static_cast<double>(x.size());
+  double sx = 0, sy = 0, xx = 0, yy = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sx += x[i];
+    sy += y[i];
+    xx += x[i] * x[i];
+    yy += y[i] * y[i];
+    xy += x[i] * y[i];
+  }
+  return (xy - sx * sy / n) / std::sqrt((xx - sx * sx / n) * (yy - sy * sy / n));
+}
+
+TwinOptions many_tests() {
+  TwinOptions options = small("v=5,50,500;replicates=3;points=20;validation=30");
+  options.more_bystanders = true;
+  return options;
+}
+
+TEST(TwinBystanders, MoreOfThemAreWhatTheySay) {
+  const Twin twin = make_twin(many_tests());
+  const TwinPart& part = twin.training;
+  EXPECT_NEAR(correlation(column(part, "film_um"), column(part, "film2_um")), 0.9, 0.04);
+  EXPECT_GT(correlation(column(part, "run_order"), column(part, "lab_T_C")), 0.9);
+  EXPECT_NEAR(correlation(column(part, "vib"), column(part, "tau_R_MPa")), 0, 0.05);
+  const auto dwell = column(part, "dwell_s");
+  EXPECT_GE(*std::min_element(dwell.begin(), dwell.end()), 1);
+  EXPECT_LE(*std::max_element(dwell.begin(), dwell.end()), 100);
+  EXPECT_EQ(part.data.find("direction")->levels, (std::vector<std::string>{"across", "along"}));
+}
+
+TEST(TwinBystanders, BatchesAreContiguousInTheOrderOfTests) {
+  const Twin twin = make_twin(many_tests());
+  std::map<double, std::set<double>> batches; // places by batch, both parts
+  for (const TwinPart* part : {&twin.training, &twin.validation})
+    for (std::size_t i = 0; i < part->data.rows(); ++i)
+      batches[column(*part, "batch")[i]].insert(column(*part, "run_order")[i]);
+  EXPECT_EQ(batches.size(), 6u);
+  for (const auto& [batch, places] : batches)
+    EXPECT_EQ(*places.rbegin() - *places.begin() + 1, static_cast<double>(places.size()));
+}
+
+TEST(TwinBystanders, MoreOfThemLeaveTheOthersAndTheMeasurement) {
+  const Twin plain = make_twin(small());
+  TwinOptions options = small();
+  options.more_bystanders = true;
+  const Twin more = make_twin(options);
+  EXPECT_EQ(more.training.data.columns.size(), plain.training.data.columns.size() + 6);
+  for (const Column& c : plain.training.data.columns)
+    EXPECT_EQ(c.values, more.training.data.find(c.name)->values) << c.name;
+}
+
+TEST(TwinBystanders, EffectsActOnAddedOnes) {
+  for (const char* effect :
+       {"form=power,column=dwell_s", "form=category,column=direction", "form=category,column=batch",
+        "form=linear,column=vib", "form=linear,column=lab_T_C", "form=hinge,column=film2_um"}) {
+    TwinOptions options = small();
+    options.more_bystanders = true;
+    options.effects = {parse_effect(effect + std::string(",strength=0.1"))};
+    EXPECT_NEAR(make_twin(options).effects[0].strength, 0.1, 1e-6) << effect;
+  }
+}
+
+TEST(TwinBystanders, NoneAndMoreContradictEachOther) {
+  TwinOptions options = small();
+  options.more_bystanders = true;
+  options.bystanders = false;
+  EXPECT_THAT(fault_of(options), HasSubstr("contradicts --no-bystanders\n  hint: "));
 }
 
 } // namespace
