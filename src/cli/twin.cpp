@@ -111,6 +111,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "plant an effect (repeatable): form=saturation,column=s_mm,strength=0.15,on=mu; "
                  "on = mu, m or tau; column may be a derived quantity or latent")
       ->allow_extra_args(false);
+  app.add_option(
+      "--law", options->twin.law,
+      "the truth is this friction law, fitted to the twin's own physics, instead of that "
+      "physics (frictab list models)");
   app.add_option("--profile", options->twin.profile,
                  "contact normal stress over the stroke: constant, or varied (by test constant, "
                  "rising, falling or a pulse, 0.3 to 1 of its level)")

@@ -32,9 +32,34 @@ void hide_columns(const TwinOptions& options, Dataset& data) {
   faults.throw_if_any();
 }
 
+// Fits the law to the physics of the training part and puts it into its place.
+void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
+  find_column(training.data, "tau_R_MPa")->values = base_tau(training);
+  const auto law = std::make_shared<const LawTruth>(*find_law(name), training.data);
+  for (TwinDraft* draft : {&training, &validation}) {
+    draft->law = law;
+    draft->base.tau0.assign(draft->data.rows(), 1.0);
+    draft->base.limit.assign(draft->data.rows(), 1.0);
+  }
+}
+
+// What calibration of the law alone finds where effects are planted.
+std::vector<double> recalibrated(const TwinOptions& options, const TwinDraft& training,
+                                 std::size_t tests, const std::vector<PlantedEffect>& effects,
+                                 double tau_scale) {
+  if (!training.law || effects.empty()) return {};
+  auto measured = truth_with(options, training, tests, effects, tau_scale);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    measured[i] *= training.noise[i];
+  return training.law->recalibrated(training.data, training.base, measured);
+}
+
 TwinPart finish(const TwinOptions& options, TwinDraft draft, std::size_t tests,
-                const std::vector<PlantedEffect>& effects, double tau_scale) {
+                const std::vector<PlantedEffect>& effects, double tau_scale,
+                const std::vector<double>& parameters) {
   TwinPart part;
+  if (!parameters.empty())
+    part.recalibrated_MPa = draft.law->tau(draft.data, draft.base, parameters);
   part.base_MPa = truth_with(options, draft, tests, {}, tau_scale);
   part.oracle_MPa =
       effects.empty() ? part.base_MPa : truth_with(options, draft, tests, effects, tau_scale);
@@ -65,11 +90,16 @@ Twin make_twin(TwinOptions options) {
   const std::size_t tests = plan.training.size() + plan.validation.size();
   TwinDraft training = draft_part(options, twin.set, plan, 0);
   TwinDraft validation = draft_part(options, twin.set, plan, 1);
+  if (!options.law.empty()) take_law(options.law, training, validation);
+  twin.law = training.law;
 
   twin.effects = plant_effects(options, training, validation);
   const double tau_scale = mean_of(truth_with(options, training, tests, {}, 1.0));
-  twin.training = finish(options, std::move(training), tests, twin.effects, tau_scale);
-  twin.validation = finish(options, std::move(validation), tests, twin.effects, tau_scale);
+  twin.recalibrated = recalibrated(options, training, tests, twin.effects, tau_scale);
+  twin.training =
+      finish(options, std::move(training), tests, twin.effects, tau_scale, twin.recalibrated);
+  twin.validation =
+      finish(options, std::move(validation), tests, twin.effects, tau_scale, twin.recalibrated);
   twin.options = std::move(options);
   return twin;
 }

@@ -13,6 +13,7 @@
 #include "data/dataset.h"
 #include "effects/effect.h"
 #include "twin/twin_design.h"
+#include "twin/twin_law.h"
 #include "twin/twin_physics.h"
 
 namespace frictab {
@@ -59,6 +60,9 @@ struct TwinOptions {
   // figures (51 / 24 / 95 MPa for the constants, 12-15 calibrated).
   std::uint64_t seed = 3;
   std::optional<TwinDesign> design; // absent: default_design
+  // A law of the registry as the noise-free truth, with parameters fitted to the twin's own
+  // physics; empty: that physics, which no registered law can represent.
+  std::string law;
   // Contact normal stress over the stroke: constant | varied (by test constant, rising, falling or
   // a pulse), so that momentary, highest and mean stress are different columns.
   std::string profile = "constant";
@@ -76,6 +80,7 @@ struct TwinPart {
   Dataset data;
   std::vector<double> oracle_MPa; // noise-free tau per row, effects included, hidden factor not
   std::vector<double> base_MPa;   // the same without the effects
+  std::vector<double> recalibrated_MPa; // by the law with Twin::recalibrated; else empty
 };
 
 struct Twin {
@@ -84,6 +89,10 @@ struct Twin {
   TwinPart training;
   TwinPart validation;
   std::vector<PlantedEffect> effects;
+  std::shared_ptr<const LawTruth> law; // empty: the twin's own physics
+  // Of a law: parameters by least squares on the training measurements without the effects; empty
+  // where none are planted.
+  std::vector<double> recalibrated;
 };
 
 // The noise of a campaign before noise_scale.

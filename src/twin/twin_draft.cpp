@@ -24,16 +24,15 @@ void fill_states(const TwinParameters& set, TwinDraft& draft, std::size_t points
   const std::size_t rows = draft.plan.size() * points;
   for (const char* name : names)
     add_column(draft.data, name, rows);
-  draft.tau0.resize(rows);
-  draft.limit.resize(rows);
+  draft.base = {std::vector<double>(rows), std::vector<double>(rows), std::vector<double>(rows)};
   parallel_for(draft.plan.size(), [&](std::size_t e) {
     for (std::size_t i = 0; i < points; ++i) {
       const TwinRow row = twin_row(set, draft.plan[e].test, i, points);
       const std::size_t at = e * points + i;
       for (std::size_t c = 0; c < std::size(members); ++c)
         draft.data.columns[c].values[at] = row.*members[c];
-      draft.tau0[at] = row.tau0_MPa;
-      draft.limit[at] = row.limit_MPa;
+      draft.base.tau0[at] = row.tau0_MPa;
+      draft.base.limit[at] = row.limit_MPa;
     }
   });
   add_column(draft.data, "tau_R_MPa", rows);
@@ -89,6 +88,18 @@ TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, cons
   fill_noise(options, set, draft, points);
   add_bystanders(options, plan.training.size() + plan.validation.size(), draft);
   return draft;
+}
+
+std::vector<double> tau_of(const TwinDraft& draft, const TauPieces& pieces) {
+  if (draft.law) return draft.law->tau(draft.data, pieces, draft.law->parameters());
+  std::vector<double> tau(pieces.tau0.size());
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    tau[i] = twin_tau(pieces.tau0[i], pieces.limit[i]) + pieces.shift[i];
+  return tau;
+}
+
+std::vector<double> base_tau(const TwinDraft& draft) {
+  return tau_of(draft, draft.base);
 }
 
 Column& add_column(Dataset& data, const char* name, std::size_t rows) {

@@ -10,10 +10,10 @@
 namespace frictab {
 
 struct TwinDraft {
-  Dataset data;              // tau_R_MPa still 0
-  std::vector<double> tau0;  // MPa, before the limit
-  std::vector<double> limit; // MPa
-  std::vector<double> noise; // measured = truth * noise
+  Dataset data;                        // tau_R_MPa still 0
+  TauPieces base;                      // without effects
+  std::shared_ptr<const LawTruth> law; // empty: the twin's own physics
+  std::vector<double> noise;           // measured = truth * noise
   std::span<const TwinExperiment> plan;
   unsigned part = 0;
 };
@@ -22,6 +22,10 @@ struct TwinDraft {
 // validation).
 TwinDraft draft_part(const TwinOptions& options, const TwinParameters& set, const TwinPlan& plan,
                      unsigned part);
+
+// Noise-free tau per row, MPa.
+std::vector<double> tau_of(const TwinDraft& draft, const TauPieces& pieces);
+std::vector<double> base_tau(const TwinDraft& draft); // without effects
 
 // A new column of zeros, behind the others.
 Column& add_column(Dataset& data, const char* name, std::size_t rows);

@@ -63,10 +63,6 @@ std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
   return column == nullptr ? 2 : column->levels.size();
 }
 
-struct TauPieces {
-  std::vector<double> tau0, limit, shift;
-};
-
 void apply(const PlantedEffect& effect, const std::vector<double>& factor, double tau_scale,
            TauPieces& pieces) {
   for (std::size_t i = 0; i < factor.size(); ++i) {
@@ -76,27 +72,42 @@ void apply(const PlantedEffect& effect, const std::vector<double>& factor, doubl
   }
 }
 
-std::vector<double> tau_of(const TauPieces& pieces) {
-  std::vector<double> tau(pieces.tau0.size());
-  for (std::size_t i = 0; i < tau.size(); ++i)
-    tau[i] = twin_tau(pieces.tau0[i], pieces.limit[i]) + pieces.shift[i];
-  return tau;
-}
-
-TauPieces pieces_of(const TwinDraft& draft) {
-  return {draft.tau0, draft.limit, std::vector<double>(draft.tau0.size(), 0.0)};
-}
-
 // --- strength -----------------------------------------------------------------------------------
 
-// MAE of law * c against the measurement, c by least squares: what recalibration leaves.
-double recalibrated_mae(const std::vector<double>& law, const std::vector<double>& measured) {
-  const double c = std::inner_product(law.begin(), law.end(), measured.begin(), 0.0) /
-                   std::inner_product(law.begin(), law.end(), law.begin(), 0.0);
+double mae(const std::vector<double>& law, const std::vector<double>& measured, double factor = 1) {
   double sum = 0;
   for (std::size_t i = 0; i < law.size(); ++i)
-    sum += std::abs(measured[i] - c * law[i]);
+    sum += std::abs(measured[i] - factor * law[i]);
   return sum / static_cast<double>(law.size());
+}
+
+// MAE of law * c against the measurement, c by least squares.
+double mae_but_for_a_factor(const std::vector<double>& law, const std::vector<double>& measured) {
+  const double c = std::inner_product(law.begin(), law.end(), measured.begin(), 0.0) /
+                   std::inner_product(law.begin(), law.end(), law.begin(), 0.0);
+  return mae(law, measured, c);
+}
+
+struct NoiseFree {
+  TauPieces pieces;
+  std::vector<double> tau;
+};
+
+// What recalibration leaves: of a law all its parameters, of the twin's own physics one factor.
+double base_mae(const TwinDraft& draft, const std::vector<double>& base,
+                const std::vector<double>& measured) {
+  if (!draft.law) return mae_but_for_a_factor(base, measured);
+  const auto parameters = draft.law->recalibrated(draft.data, draft.base, measured);
+  return mae(draft.law->tau(draft.data, draft.base, parameters), measured);
+}
+
+// The same of the truth. Noise moves its parameters little, which is one step; where effects take
+// rows to the shear limit there are other minima further off.
+double floor_mae(const TwinDraft& draft, const NoiseFree& truth,
+                 const std::vector<double>& measured) {
+  if (!draft.law) return mae_but_for_a_factor(truth.tau, measured);
+  const auto parameters = draft.law->recalibrated(draft.data, truth.pieces, measured, 1);
+  return mae(draft.law->tau(draft.data, truth.pieces, parameters), measured);
 }
 
 // One part of the campaign with one effect of varying amplitude.
@@ -106,19 +117,19 @@ public:
       : draft_(draft), effect_(effect), rows_(std::move(rows)), scale_(tau_scale),
         levels_(level_count(effect, draft)) {}
 
-  // Noise-free tau; empty where the amplitude would turn mu, the limit or tau negative, or nearly.
-  std::vector<double> truth(double amplitude) const {
+  // Empty where the amplitude would turn mu, the limit or tau negative, or nearly.
+  NoiseFree truth(double amplitude) const {
     std::vector<double> parameters = effect_.parameters;
     parameters[0] = amplitude;
     const auto factor = factors(effect_, rows_, parameters, levels_);
     const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
     if (effect_.spec.on != "tau" && std::any_of(factor.begin(), factor.end(), below(least_factor)))
       return {};
-    TauPieces pieces = pieces_of(draft_);
-    apply(effect_, factor, scale_, pieces);
-    auto tau = tau_of(pieces);
-    if (std::any_of(tau.begin(), tau.end(), below(least_tau_MPa))) return {};
-    return tau;
+    NoiseFree truth{draft_.base, {}};
+    apply(effect_, factor, scale_, truth.pieces);
+    truth.tau = tau_of(draft_, truth.pieces);
+    if (std::any_of(truth.tau.begin(), truth.tau.end(), below(least_tau_MPa))) return {};
+    return truth;
   }
 
 private:
@@ -140,12 +151,12 @@ public:
 
   double operator()(double amplitude) const {
     const auto truth = on_training_.truth(amplitude);
-    if (truth.empty() || (has_validation_ && on_validation_.truth(amplitude).empty()))
+    if (truth.tau.empty() || (has_validation_ && on_validation_.truth(amplitude).tau.empty()))
       return std::nan("");
-    std::vector<double> measured(truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      measured[i] = truth[i] * training_.noise[i];
-    return recalibrated_mae(base_, measured) / recalibrated_mae(truth, measured) - 1;
+    std::vector<double> measured(truth.tau.size());
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      measured[i] = truth.tau[i] * training_.noise[i];
+    return base_mae(training_, base_, measured) / floor_mae(training_, truth, measured) - 1;
   }
 
 private:
@@ -254,19 +265,20 @@ std::vector<PlantedEffect> plant_effects(const TwinOptions& options, const TwinD
 std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draft,
                                std::size_t tests, const std::vector<PlantedEffect>& effects,
                                double tau_scale) {
-  TauPieces pieces = pieces_of(draft);
+  TauPieces pieces = draft.base;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Resolved rows = resolve(options, i, tests, draft);
     const auto factor =
         factors(effects[i], rows, effects[i].parameters, level_count(effects[i], draft));
     apply(effects[i], factor, tau_scale, pieces);
   }
-  const auto tau = tau_of(pieces);
-  for (const double value : tau)
-    if (!(value > 0))
-      throw InputError({"--effect"}, "the effects together turn friction negative",
-                       "use smaller strengths or amplitudes");
-  return tau;
+  const auto tau = tau_of(draft, pieces);
+  if (std::all_of(tau.begin(), tau.end(), [](double value) { return value > 0; })) return tau;
+  if (effects.empty())
+    throw InputError({"--law"}, "law '" + options.law + "' gives no friction in some rows",
+                     "use narrower levels in --design, or another law");
+  throw InputError({"--effect"}, "the effects together turn friction negative",
+                   "use smaller strengths or amplitudes");
 }
 
 } // namespace frictab

@@ -62,6 +62,10 @@ void check_options(const TwinOptions& options) {
     faults.add({"--noise-scale"}, shortest(options.noise_scale) + " is outside 0 to 5",
                "1 is the noise of the parameter set, 0 is none");
   check_choice("--noise", options.noise, {"normal", "t4", "heteroscedastic"}, faults);
+  const auto laws = truth_names();
+  if (!options.law.empty() && std::find(laws.begin(), laws.end(), options.law) == laws.end())
+    faults.add({"--law"}, "'" + options.law + "' is no law that is fitted to data",
+               "known: " + join(laws, ", "));
   check_choice("--profile", options.profile, {"constant", "varied"}, faults);
   check_scatter(options.scatter, faults);
   if (options.more_bystanders && !options.bystanders)

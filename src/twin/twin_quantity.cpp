@@ -46,17 +46,6 @@ std::vector<double> latent(const TwinOptions& options, std::size_t effect, std::
   return rows;
 }
 
-} // namespace
-
-std::vector<double> base_tau(const TwinDraft& draft) {
-  std::vector<double> tau(draft.tau0.size());
-  for (std::size_t i = 0; i < tau.size(); ++i)
-    tau[i] = twin_tau(draft.tau0[i], draft.limit[i]);
-  return tau;
-}
-
-namespace {
-
 std::vector<std::string> known_columns(const TwinDraft& draft) {
   std::vector<std::string> names;
   for (const Column& column : draft.data.columns)
@@ -79,6 +68,9 @@ std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect
 
 void check_column(const EffectSpec& spec, const std::string& name, const TwinDraft& draft,
                   FaultList& faults) {
+  if (spec.on == "m" && draft.law && !draft.law->has_limit())
+    faults.add({"--effect"}, "law '" + draft.law->law().name + "' has no limit to act on",
+               "it is a limit itself: use on=mu");
   const auto known = known_columns(draft);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     faults.add({"--effect"}, "unknown column '" + name + "'", suggest(name, known));

@@ -9,10 +9,8 @@
 
 namespace frictab {
 
-// Noise-free tau per row without any effect, MPa.
-std::vector<double> base_tau(const TwinDraft& draft);
-
-// Adds a fault where `name` is unknown or does not go with the form (text and numbers).
+// Adds a fault where `name` is unknown or does not go with the form (text and numbers), or where
+// the truth has no limit that an effect on it could change.
 void check_column(const EffectSpec& spec, const std::string& name, const TwinDraft& draft,
                   FaultList& faults);
 

@@ -90,6 +90,34 @@ Json part_json(const TwinPart& part, const TwinSummary& summary, TwinError TwinL
           {"errors", laws}};
 }
 
+Json law_json(const LawTruth& truth) {
+  Json parameters = Json::object();
+  for (std::size_t p = 0; p < truth.parameters().size(); ++p)
+    parameters[truth.law().parameters[p].name] = truth.parameters()[p];
+  return {{"name", truth.law().name}, {"parameters", parameters}};
+}
+
+Json notes_json(bool law) {
+  return {"oracle: error of the noise-free law, effects included, without knowing the "
+          "hidden factor of each test; no model can do better than that on average",
+          law ? "base_law: the same law without the effects, parameters fitted to the training part"
+              : "base_law: the same law without the effects, times one fitted factor",
+          law ? "strength: training MAE of base_law over that of the true law, minus 1, parameters "
+                "of both fitted by least squares; each effect alone"
+              : "strength: training MAE of base_law over that of the true law, both times one "
+                "factor fitted by least squares, minus 1; each effect alone",
+          "histories (friction_work, ...) follow the noise-free law without effects"};
+}
+
+std::string law_line(const Twin& twin) {
+  if (!twin.law) return "";
+  std::string text = "truth       " + twin.law->law().name + ":";
+  for (std::size_t p = 0; p < twin.law->parameters().size(); ++p)
+    text += fmt::format("{} {} {:.4g}", p > 0 ? "," : "", twin.law->law().parameters[p].name,
+                        twin.law->parameters()[p]);
+  return text + "\n";
+}
+
 std::string effects_line(const Twin& twin) {
   if (twin.effects.empty()) return "effects     none planted\n";
   std::string text;
@@ -130,14 +158,10 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
             {"training", part_json(twin.training, summary, &TwinLaw::training)}};
   if (twin.validation.data.rows() > 0)
     json["validation"] = part_json(twin.validation, summary, &TwinLaw::validation);
+  if (twin.law) json["law"] = law_json(*twin.law);
   if (options.profile != "constant") json["profile"] = options.profile;
   if (options.more_bystanders) json["more_bystanders"] = true;
-  json["notes"] = {"oracle: error of the noise-free law, effects included, without knowing the "
-                   "hidden factor of each test; no model can do better than that on average",
-                   "base_law: the same law without the effects, times one fitted factor",
-                   "strength: training MAE of base_law over that of the true law, both times one "
-                   "factor fitted by least squares, minus 1; each effect alone",
-                   "histories (friction_work, ...) follow the noise-free law without effects"};
+  json["notes"] = notes_json(twin.law != nullptr);
   return json_text(json);
 }
 
@@ -164,7 +188,7 @@ std::string twin_text(const Twin& twin, const TwinSummary& summary, const std::s
   text +=
       fmt::format("validation  {:>4} experiments {:>9} rows\n",
                   twin.validation.data.experiments.size(), thousands(twin.validation.data.rows()));
-  text += effects_line(twin);
+  text += law_line(twin) + effects_line(twin);
   text += fmt::format("MAE, MPa        training{}\n", held_out ? "   validation" : "");
   for (const TwinLaw& law : summary.laws) {
     text += fmt::format("  {:<13} {:>8.2f}", law.name, law.training.mae_MPa);

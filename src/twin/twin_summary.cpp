@@ -84,6 +84,13 @@ std::array<double, 2> fit_orowan(const Part& part, double mu0, double m0) {
   return best;
 }
 
+std::vector<std::pair<std::string, double>> named(const Law& law, const Values& parameters) {
+  std::vector<std::pair<std::string, double>> constants;
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    constants.emplace_back(law.parameters[p].name, parameters[p]);
+  return constants;
+}
+
 class Builder {
 public:
   explicit Builder(const Twin& twin)
@@ -91,11 +98,16 @@ public:
         validation_(columns_of(twin.validation)) {}
 
   void truth() {
-    const auto factor = slope(twin_.training.base_MPa, training_.tau);
     add("oracle", {}, twin_.training.oracle_MPa, twin_.validation.oracle_MPa, 1);
-    if (!twin_.effects.empty())
-      add("base_law", {{"factor", factor}}, twin_.training.base_MPa, twin_.validation.base_MPa,
-          factor);
+    if (twin_.effects.empty()) return;
+    if (twin_.law) {
+      add("base_law", named(twin_.law->law(), twin_.recalibrated), twin_.training.recalibrated_MPa,
+          twin_.validation.recalibrated_MPa, 1);
+      return;
+    }
+    const auto factor = slope(twin_.training.base_MPa, training_.tau);
+    add("base_law", {{"factor", factor}}, twin_.training.base_MPa, twin_.validation.base_MPa,
+        factor);
   }
 
   void constants() {

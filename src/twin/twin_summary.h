@@ -24,9 +24,9 @@ struct TwinLaw {
 
 struct TwinSummary {
   // oracle: noise-free law, effects included, hidden factor per test unknown: the best any model
-  // can do. base_law: the same without the effects, times one factor fitted to the training part.
-  // Then the constants of the literature and those calibrated on the training part (least squares),
-  // as far as the columns written allow.
+  // can do. base_law: the same without the effects, times one factor fitted to the training part;
+  // of a law of the registry all its parameters fitted. Then the constants of the literature and
+  // those calibrated on the training part (least squares), as far as the columns written allow.
   std::vector<TwinLaw> laws;
   const TwinLaw* find(std::string_view name) const;
 };

@@ -133,5 +133,26 @@ TEST_F(TwinCommand, WritesHdf5AndNoBystanders) {
   EXPECT_THAT(content("job.toml"), HasSubstr("training.h5"));
 }
 
+TEST_F(TwinCommand, RecordsLawProfileAndScatter) {
+  auto arguments = small_;
+  EXPECT_THAT(run(arguments), testing::Not(HasSubstr("truth ")));
+  for (const char* key : {"law", "profile", "more_bystanders"})
+    EXPECT_FALSE(nlohmann::json::parse(content("twin.json")).contains(key)) << key;
+  arguments.insert(arguments.end(), {"--law", "orowan", "--profile", "varied", "--scatter",
+                                     "test=0.04,rho=0.9", "--more-bystanders", "--effect",
+                                     "form=category,column=direction,strength=0.1,on=m"});
+  EXPECT_THAT(run(arguments, true), HasSubstr("truth       orowan: mu 0."));
+  const auto json = nlohmann::json::parse(content("twin.json"));
+  EXPECT_EQ(json["law"]["name"], "orowan");
+  EXPECT_GT(json["law"]["parameters"]["m"], 0.1);
+  EXPECT_EQ(json["constants"]["base_law"].size(), 2u);
+  EXPECT_EQ(json["profile"], "varied");
+  EXPECT_EQ(json["noise"]["test"], 0.04);
+  EXPECT_EQ(json["noise"]["ar_rho"], 0.9);
+  EXPECT_EQ(json["more_bystanders"], true);
+  EXPECT_THAT(content("training.csv"),
+              HasSubstr(",tool,film2_um,lab_T_C,dwell_s,direction,batch,vib,origin\n"));
+}
+
 } // namespace
 } // namespace frictab
