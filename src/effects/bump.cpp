@@ -13,6 +13,14 @@ Expr factor() {
   return 1.0 + a * exp(-0.5 * (u * u));
 }
 
+std::vector<std::vector<double>> grid(const Spread& s) {
+  std::vector<std::vector<double>> shapes;
+  for (const double place : places_to_try(s, 8))
+    for (const double share : {0.06, 0.15})
+      shapes.push_back({place, share * (s.maximum - s.minimum)});
+  return shapes;
+}
+
 EffectForm make() {
   EffectForm form;
   form.name = "bump";
@@ -25,6 +33,7 @@ EffectForm make() {
   form.shapes = {{[](const Spread& s) { return s.median; }, true, 0},
                  {[](const Spread& s) { return s.span() / 6.0; }, true, 0}};
   form.factor = factor;
+  form.grid = grid;
   return form;
 }
 

@@ -36,6 +36,14 @@ std::vector<double> start_values(const EffectForm& form, const Spread& x, const 
   return values;
 }
 
+std::vector<double> places_to_try(const Spread& spread, int count) {
+  std::vector<double> places;
+  for (int i = 0; i < count; ++i)
+    places.push_back(spread.minimum +
+                     (spread.maximum - spread.minimum) * (0.05 + 0.9 * (i + 0.5) / count));
+  return places;
+}
+
 const std::vector<EffectForm>& all_effects() {
   return Registry<EffectForm>::instance().all();
 }

@@ -49,11 +49,17 @@ struct EffectForm {
   bool two_columns = false;
   std::size_t amplitudes = 1;
   Expr (*factor)() = nullptr; // nullptr where categorical
+  // Shape parameters (behind the amplitude) that a search over a column should try: near enough to
+  // each other that one of them finds what a fit would; nullptr: the start values alone.
+  std::vector<std::vector<double>> (*grid)(const Spread&) = nullptr;
 };
 
 // Start values of all parameters but the amplitude, which is 0. `x2` is used by forms of two
 // columns only.
 std::vector<double> start_values(const EffectForm& form, const Spread& x, const Spread& x2 = {});
+
+// Evenly spaced inside the 5 % .. 95 % part of a column's range: places that a grid tries.
+std::vector<double> places_to_try(const Spread& spread, int count);
 
 // In listing order.
 const std::vector<EffectForm>& all_effects();

@@ -12,6 +12,13 @@ Expr factor() {
   return 1.0 + a * (maximum(x - x0, 0.0) / w);
 }
 
+std::vector<std::vector<double>> grid(const Spread& s) {
+  std::vector<std::vector<double>> shapes;
+  for (const double place : places_to_try(s, 9))
+    shapes.push_back({place, 0.5 * s.span()});
+  return shapes;
+}
+
 EffectForm make() {
   EffectForm form;
   form.name = "hinge";
@@ -24,6 +31,7 @@ EffectForm make() {
   form.shapes = {{[](const Spread& s) { return s.median; }, true, 0},
                  {[](const Spread& s) { return 0.5 * s.span(); }, false, 0}};
   form.factor = factor;
+  form.grid = grid;
   return form;
 }
 

@@ -14,6 +14,17 @@ Expr factor() {
   return 1.0 + a * sin(two_pi * ((x - x0) / w));
 }
 
+// Wavelengths from twice the range to a fifteenth of it, with two phases each.
+std::vector<std::vector<double>> grid(const Spread& s) {
+  std::vector<std::vector<double>> shapes;
+  for (int i = 0; i < 24; ++i) {
+    const double wave = (s.maximum - s.minimum) / (0.5 + 0.6 * i);
+    shapes.push_back({s.minimum, wave});
+    shapes.push_back({s.minimum + 0.25 * wave, wave});
+  }
+  return shapes;
+}
+
 EffectForm make() {
   EffectForm form;
   form.name = "periodic";
@@ -26,6 +37,7 @@ EffectForm make() {
   form.shapes = {{[](const Spread& s) { return s.low; }, true, 0},
                  {[](const Spread& s) { return 0.3 * s.span(); }, true, 0}};
   form.factor = factor;
+  form.grid = grid;
   return form;
 }
 

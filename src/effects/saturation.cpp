@@ -11,6 +11,13 @@ Expr factor() {
   return 1.0 + a * (1.0 - exp(-(maximum(x, 0.0) / x0)));
 }
 
+std::vector<std::vector<double>> grid(const Spread& s) {
+  std::vector<std::vector<double>> shapes;
+  for (const double share : {0.02, 0.05, 0.12, 0.3, 0.8})
+    shapes.push_back({share * (s.maximum - s.minimum)});
+  return shapes;
+}
+
 EffectForm make() {
   EffectForm form;
   form.name = "saturation";
@@ -21,6 +28,7 @@ EffectForm make() {
                      {"x0", "x", "distance over which 63 % is reached", 1, 1e-12, 1e12}};
   form.shapes = {{[](const Spread& s) { return 0.25 * s.span(); }, true, 0}};
   form.factor = factor;
+  form.grid = grid;
   return form;
 }
 

@@ -13,6 +13,14 @@ Expr factor() {
   return 1.0 + a * (exp(-(speed / x0)) + speed / x1);
 }
 
+std::vector<std::vector<double>> grid(const Spread& s) {
+  std::vector<std::vector<double>> shapes;
+  for (const double fall : {0.03, 0.1, 0.3})
+    for (const double rise : {0.5, 2.0})
+      shapes.push_back({fall * s.maximum, rise * s.maximum});
+  return shapes;
+}
+
 EffectForm make() {
   EffectForm form;
   form.name = "stribeck";
@@ -27,6 +35,7 @@ EffectForm make() {
       {[](const Spread& s) { return 0.5 * s.positive(); }, true, 0},
       {[](const Spread& s) { return s.maximum > 0 ? 2.0 * s.maximum : 2.0 * s.span(); }, true, 0}};
   form.factor = factor;
+  form.grid = grid;
   return form;
 }
 

@@ -109,11 +109,14 @@ struct VerifyOptions {
   std::size_t samples = 200000;        // points over the whole range
 };
 
-struct TraceOptions { // checked here, used by the trace stage
-  std::vector<std::string> models{"best"};
-  double alpha = 0.02;
-  std::vector<std::string> ignore;
-  std::optional<double> repeatability;
+struct TraceOptions {
+  std::vector<std::string> models{"best"}; // best | names | all that were calibrated
+  double alpha = 0.02;                     // family-wise error of a false alarm
+  std::vector<std::string> ignore;         // columns that cannot be a cause
+  std::optional<double> repeatability;     // relative scatter between repeated tests
+  std::string
+      tool_distance; // column of the tool's wear: may be shipped though it follows the order
+  Place place;
 };
 
 struct Job {

@@ -290,6 +290,11 @@ std::vector<KeyRule> proof_keys() {
           "scatter is reported, not judged", "0.03") |
           between(0, 1),
       key<std::string>(
+          "trace.tool_distance", [](Job & job) -> auto& { return job.trace.tool_distance; },
+          "column that says how far the tool has slid before the test: its wear may become part of "
+          "the law although it follows the order of tests",
+          "no column: what follows the order is reported, not added", "\"run_order\""),
+      key<std::string>(
           "output.directory", [](Job & job) -> auto& { return job.directory; },
           "where results are written; relative to the job file"),
   };

@@ -1,0 +1,371 @@
+// Lists candidate columns and the shapes an effect of each may have.
+#include "trace/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/quantity.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using Rows = std::span<const double>;
+
+constexpr std::size_t most_levels = 12; // a text column with more names experiments
+const std::set<std::string> measured_ones = {"tau_R_MPa", "F_R_N", "F_N_N"};
+
+bool is_constant(Rows values) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+bool varies_within(Rows values, const Dataset& data) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (!is_constant(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])))
+      return true;
+  return false;
+}
+
+// A column that numbers the experiments: whole numbers, constant within each, no two alike.
+bool numbers_experiments(const Column& column, const Dataset& data) {
+  if (!column.levels.empty() || find_quantity(column.name) || varies_within(column.values, data))
+    return false;
+  std::set<double> seen;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const double value = column.values[data.first_row[e]];
+    if (value != std::round(value) || !seen.insert(value).second) return false;
+  }
+  return true;
+}
+
+bool same_values(const VectorXd& a, const VectorXd& b) {
+  const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
+  const double xy = x.dot(y), xx = x.squaredNorm(), yy = y.squaredNorm();
+  return xx > 0 && yy > 0 && xy * xy > (1 - 1e-9) * xx * yy;
+}
+
+class Finder {
+public:
+  Finder(const Dataset& training, const Dataset& validation, const Blocks& blocks, Rows predicted,
+         const std::vector<std::string>& inputs, const CandidateRules& rules)
+      : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
+        inputs_(inputs), rules_(rules) {}
+
+  Candidates run() {
+    check_names();
+    find_order();
+    for (const Column& column : training_.columns)
+      if (allowed(column)) add_recorded(column);
+    for (const DerivedQuantity& quantity : derived_quantities())
+      if (possible(quantity)) add_derived(quantity);
+    return std::move(found_);
+  }
+
+private:
+  void check_names() const {
+    std::vector<std::string> known;
+    for (const Column& column : training_.columns)
+      known.push_back(column.name);
+    for (const DerivedQuantity& quantity : derived_quantities())
+      known.push_back(quantity.name);
+    std::vector<std::string> asked = rules_.ignore;
+    if (!rules_.tool_distance.empty()) asked.push_back(rules_.tool_distance);
+    FaultList faults;
+    for (const std::string& name : asked)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        faults.add({"[trace]"}, "the data have no column '" + name + "'", suggest(name, known));
+    faults.throw_if_any();
+  }
+
+  bool ignored(const std::string& name) const {
+    return std::find(rules_.ignore.begin(), rules_.ignore.end(), name) != rules_.ignore.end();
+  }
+
+  void find_order() {
+    const Column* order = training_.find("run_order");
+    for (const Column& column : training_.columns)
+      if (!order && numbers_experiments(column, training_)) order = &column;
+    for (std::size_t e = 0; e < training_.experiments.size(); ++e)
+      found_.order.push_back(order ? order->values[training_.first_row[e]]
+                                   : static_cast<double>(e + 1));
+    if (order) found_.order_column = order->name;
+  }
+
+  bool allowed(const Column& column) {
+    if (measured_ones.count(column.name) || column.name == "origin" || ignored(column.name))
+      return false;
+    if (column.name == found_.order_column) {
+      if (column.name != "run_order") add_column(column.name, {column.name}, false, column.values);
+      return false;
+    }
+    if (is_constant(column.values)) {
+      found_.constant.push_back(column.name);
+      return false;
+    }
+    if (!validation_.has(column.name)) {
+      found_.notes.push_back(column.name + " is not in the validation data: left out");
+      return false;
+    }
+    return true;
+  }
+
+  void add_column(const std::string& name, std::vector<std::string> recorded, bool derived,
+                  Rows values) {
+    CandidateColumn column;
+    column.name = name;
+    column.recorded = std::move(recorded);
+    column.derived = derived;
+    column.values = blocks_.mean(values);
+    column.spread = spread_of(values);
+    column.within = varies_within(values, training_);
+    column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
+    found_.by_symbol[symbol_of(name)] = column.values;
+    if (const auto twin = std::find_if(
+            found_.columns.begin(), found_.columns.end(),
+            [&](const CandidateColumn& c) { return same_values(c.values, column.values); });
+        twin != found_.columns.end()) {
+      found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
+      return;
+    }
+    found_.columns.push_back(std::move(column));
+  }
+
+  void add_recorded(const Column& column) {
+    if (column.levels.empty()) return add_column(column.name, {column.name}, false, column.values);
+    if (column.levels.size() > most_levels) {
+      found_.notes.push_back(fmt::format("{} has {} levels, more than {}: left out", column.name,
+                                         column.levels.size(), most_levels));
+      return;
+    }
+    CandidateColumn text;
+    text.name = column.name;
+    text.recorded = {column.name};
+    text.levels = column.levels;
+    // A block of two levels belongs to the one it begins with.
+    text.values.resize(static_cast<Index>(blocks_.count()));
+    for (std::size_t b = 0; b < blocks_.count(); ++b)
+      text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
+    text.within = varies_within(column.values, training_);
+    found_.by_symbol[symbol_of(column.name)] = text.values;
+    found_.columns.push_back(std::move(text));
+  }
+
+  bool possible(const DerivedQuantity& quantity) const {
+    if (ignored(quantity.name)) return false;
+    return std::all_of(quantity.needs.begin(), quantity.needs.end(), [&](const std::string& need) {
+      return need == "tau" || (training_.has(need) && validation_.has(need) && !ignored(need));
+    });
+  }
+
+  void add_derived(const DerivedQuantity& quantity) {
+    const std::vector<double> values = derive(quantity, training_, predicted_);
+    if (is_constant(values)) return;
+    std::vector<std::string> recorded;
+    for (const std::string& need : quantity.needs)
+      if (need != "tau") recorded.push_back(need);
+    add_column(quantity.name, std::move(recorded), true, values);
+  }
+
+  const Dataset& training_;
+  const Dataset& validation_;
+  const Blocks& blocks_;
+  Rows predicted_;
+  const std::vector<std::string>& inputs_;
+  const CandidateRules& rules_;
+  Candidates found_;
+};
+
+// Whether a pair with this column is another thing than the column's partner alone.
+bool may_pair(const CandidateColumn& column) {
+  const Spread& s = column.spread;
+  return column.levels.empty() && s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300) &&
+         (!column.derived || column.name == "sliding_distance" || column.name == "friction_work");
+}
+
+} // namespace
+
+Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
+                           Rows predicted, const std::vector<std::string>& inputs,
+                           const CandidateRules& rules) {
+  Candidates found = Finder(training, validation, blocks, predicted, inputs, rules).run();
+  for (const std::string& name : inputs)
+    if (!found.by_symbol.count(name)) found.by_symbol[name] = blocks.mean(training.values(name));
+  return found;
+}
+
+std::vector<Source> sources(const Candidates& candidates) {
+  std::vector<Source> all;
+  const auto& columns = candidates.columns;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    all.push_back({c});
+  for (std::size_t a = 0; a < columns.size(); ++a)
+    for (std::size_t b = a + 1; b < columns.size(); ++b)
+      if (may_pair(columns[a]) && may_pair(columns[b])) all.push_back({a, b});
+  return all;
+}
+
+PlacedEffect start_effect(const EffectForm& form, const Source& source,
+                          const Candidates& candidates, const std::string& acts_on,
+                          double tau_scale_MPa) {
+  const CandidateColumn& x = candidates.columns[source.column];
+  PlacedEffect effect;
+  effect.form = &form;
+  effect.column = x.name;
+  effect.levels = x.levels;
+  effect.acts_on = acts_on;
+  effect.tau_scale_MPa = tau_scale_MPa;
+  effect.low = x.spread.minimum;
+  effect.high = x.spread.maximum;
+  Spread second;
+  if (source.pair()) {
+    const CandidateColumn& x2 = candidates.columns[source.second];
+    effect.column2 = x2.name;
+    second = x2.spread;
+    effect.low2 = second.minimum;
+    effect.high2 = second.maximum;
+  }
+  if (form.categorical)
+    effect.parameters.assign(x.levels.size() - 1, 0.0);
+  else
+    effect.parameters = start_values(form, x.spread, second);
+  return effect;
+}
+
+namespace {
+
+// A form that needs positive values, or degrees, is tried where it has a meaning.
+bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
+  if (form.name == "arrhenius")
+    return x.name.find("_C") != std::string::npos || x.name.find("T_") != std::string::npos;
+  if (form.name == "power" || form.name == "logarithmic")
+    return x.spread.median > 0 && x.spread.minimum >= 0;
+  if (form.name == "saturation" || form.name == "stribeck")
+    return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
+  if (form.name == "periodic") return x.within;
+  return true;
+}
+
+// d factor/d amplitude at amplitude 0, per block.
+Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
+  const auto& form = *effect.form;
+  std::vector<std::string> names, symbols{symbol_of(effect.column)};
+  if (form.two_columns) symbols.push_back(symbol_of(effect.column2));
+  std::vector<double> neutral = fitted_values(effect);
+  for (const Parameter& p : fitted_parameters(effect))
+    names.push_back("e_" + p.name);
+  const Program program(factor_of(effect, "e_"), symbols, names);
+  std::vector<const double*> data;
+  for (const std::string& symbol : symbols)
+    data.push_back(columns.at(symbol).data());
+  const Index count = columns.at(symbols[0]).size();
+  Eigen::VectorXf direction(count);
+  BoundProgram(program, static_cast<std::size_t>(count), data)
+      .sweep(neutral, true, [&](const BoundProgram::Block& block) {
+        for (std::size_t i = 0; i < block.count; ++i)
+          direction(static_cast<Index>(block.first + i)) =
+              static_cast<float>(block.derivative[0][i]);
+      });
+  return direction;
+}
+
+// One direction per level against the others.
+std::vector<GridShape> level_shapes(const Source& source, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[source.column];
+  std::vector<GridShape> shapes;
+  for (std::size_t level = 0; level < x.levels.size(); ++level) {
+    if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
+    Eigen::VectorXf is = (x.values.array() == static_cast<double>(level)).cast<float>();
+    shapes.push_back(
+        {start_effect(*find_effect("category"), source, candidates, "mu", 1), std::move(is)});
+  }
+  return shapes;
+}
+
+// Shapes that say almost the same are tried once.
+void keep_different(std::vector<GridShape>& shapes) {
+  std::vector<GridShape> kept;
+  std::vector<Eigen::VectorXf> centred;
+  for (GridShape& shape : shapes) {
+    Eigen::VectorXf d = shape.direction.array() - shape.direction.mean();
+    const float norm = d.norm();
+    if (!(norm > 1e-6f) || !std::isfinite(norm)) continue;
+    d /= norm;
+    if (std::any_of(centred.begin(), centred.end(),
+                    [&](const Eigen::VectorXf& other) { return std::abs(other.dot(d)) > 0.999f; }))
+      continue;
+    centred.push_back(std::move(d));
+    kept.push_back(std::move(shape));
+  }
+  shapes = std::move(kept);
+}
+
+} // namespace
+
+bool form_fits(const EffectForm& form, const Source& source, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[source.column];
+  return form.categorical == !x.levels.empty() && form.two_columns == source.pair() &&
+         has_meaning(form, x);
+}
+
+std::vector<GridShape> shapes_of(const Source& source, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[source.column];
+  if (!x.levels.empty()) return level_shapes(source, candidates);
+  std::vector<GridShape> shapes;
+  for (const EffectForm& form : all_effects()) {
+    if (form.amplitudes > 1 || !form_fits(form, source, candidates)) continue;
+    PlacedEffect effect = start_effect(form, source, candidates, "mu", 1);
+    std::vector<std::vector<double>> grid;
+    if (form.grid)
+      grid = form.grid(x.spread);
+    else
+      grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
+    for (const auto& values : grid) {
+      std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
+      shapes.push_back({effect, amplitude_direction(effect, candidates.by_symbol)});
+    }
+  }
+  keep_different(shapes);
+  return shapes;
+}
+
+void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> effects) {
+  std::size_t next = own;
+  for (const PlacedEffect& effect : effects) {
+    const std::size_t count = fitted_parameters(effect).size();
+    const std::size_t first = next + (effect.form->categorical ? count : effect.form->amplitudes);
+    const double span = effect.high - effect.low;
+    for (std::size_t p = first; p < next + count; ++p) {
+      Parameter& parameter = extended.parameters[p];
+      const bool width = parameter.lower > 0;
+      parameter.lower = width ? span / 60 : effect.low;
+      parameter.upper = width ? 6 * span : effect.high;
+      parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
+    }
+    next += count;
+  }
+}
+
+std::string source_name(const Source& source, const Candidates& candidates) {
+  const std::string& name = candidates.columns[source.column].name;
+  return source.pair() ? name + " x " + candidates.columns[source.second].name : name;
+}
+
+int complexity(const Source& source, const Candidates& candidates) {
+  if (source.pair()) return 4;
+  return candidates.columns[source.column].derived ? 1 : 0;
+}
+
+bool constant_in_experiments(const Source& source, const Candidates& candidates) {
+  return !candidates.columns[source.column].within &&
+         (!source.pair() || !candidates.columns[source.second].within);
+}
+
+} // namespace frictab

@@ -1,0 +1,79 @@
+// What an undeclared effect may follow: recorded columns, what can be computed from them along an
+// experiment, and pairs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "effects/extended_law.h"
+#include "trace/blocks.h"
+#include "trace/law_on_blocks.h"
+
+namespace frictab {
+
+struct CandidateColumn {
+  std::string name;                  // recorded column or derived quantity
+  std::vector<std::string> recorded; // the recorded columns behind it
+  bool derived = false;
+  std::vector<std::string> levels; // of a text column
+  Eigen::VectorXd values;          // per block
+  Spread spread;                   // over rows
+  bool within = false;             // varies within experiments
+  bool in_law = false;             // the law uses it: its form may be wrong
+};
+
+struct Candidates {
+  std::vector<CandidateColumn> columns;
+  BlockColumns by_symbol;    // all of them, and the law's inputs
+  std::string order_column;  // column that gives the order of tests; empty: none
+  std::vector<double> order; // per experiment: by that column, else as in the file
+  std::vector<std::string> notes;
+  std::vector<std::string> constant; // recorded, but never varied: nothing can be said
+};
+
+struct CandidateRules {
+  std::vector<std::string> ignore;
+  std::string tool_distance; // declared by the user: may be shipped although it follows the order
+};
+
+// `predicted`: the law's tau_R per row, from which work is integrated (never from measured tau_R).
+// Throws InputError where `ignore` or `tool_distance` name no column.
+Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
+                           std::span<const double> predicted,
+                           const std::vector<std::string>& inputs, const CandidateRules& rules);
+
+// A quantity of one kind or a pair of them, as a place where an effect may act.
+struct Source {
+  std::size_t column = 0;
+  std::size_t second = npos; // of a pair
+  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+  bool pair() const { return second != npos; }
+  auto operator<=>(const Source&) const = default;
+};
+
+// All columns, then pairs of those that differ.
+std::vector<Source> sources(const Candidates& candidates);
+
+// One shape of an effect before it is fitted: amplitude 0, and what its factor changes per
+// amplitude.
+struct GridShape {
+  PlacedEffect effect;
+  Eigen::VectorXf direction; // per block, d factor/d amplitude at 0
+};
+std::vector<GridShape> shapes_of(const Source& source, const Candidates& candidates);
+
+// An effect of that form with the form's own start values; category: all levels.
+PlacedEffect start_effect(const EffectForm& form, const Source& source,
+                          const Candidates& candidates, const std::string& acts_on,
+                          double tau_scale_MPa);
+// Whether the form has a meaning for the source: logarithms need positive values, ...
+bool form_fits(const EffectForm& form, const Source& source, const Candidates& candidates);
+// Bounds of a fit inside what the data can tell: places inside the range, widths like it.
+void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const PlacedEffect> effects);
+
+std::string source_name(const Source& source, const Candidates& candidates);
+// 0 a recorded column, 1 derived, 4 a pair.
+int complexity(const Source& source, const Candidates& candidates);
+bool constant_in_experiments(const Source& source, const Candidates& candidates);
+
+} // namespace frictab

@@ -1,0 +1,133 @@
+// Curves with bands, partial residuals, deciding experiments.
+#include "trace/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t curve_points = 61;
+constexpr std::size_t bins = 5; // partial residuals per experiment
+
+Program factor_program(const PlacedEffect& effect) {
+  std::vector<std::string> symbols{symbol_of(effect.column)}, names;
+  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
+  for (const Parameter& p : fitted_parameters(effect))
+    names.push_back("e_" + p.name);
+  return Program(factor_of(effect, "e_"), symbols, names);
+}
+
+double factor_at(const Program& program, const PlacedEffect& effect, double x, double x2) {
+  const double row[] = {x, x2};
+  return program({row, effect.form->two_columns ? 2u : 1u}, fitted_values(effect));
+}
+
+// Of the factor at x, from the covariance of its parameters.
+double deviation(const Program& program, const PlacedEffect& effect, double x, double x2,
+                 const MatrixXd& covariance) {
+  const double row[] = {x, x2};
+  std::vector<double> at = fitted_values(effect);
+  VectorXd slope(static_cast<Index>(at.size()));
+  for (std::size_t p = 0; p < at.size(); ++p) {
+    const double step = 1e-5 * std::max(std::abs(at[p]), 1e-3), kept = at[p];
+    at[p] = kept + step;
+    const double up = program({row, effect.form->two_columns ? 2u : 1u}, at);
+    at[p] = kept - step;
+    const double down = program({row, effect.form->two_columns ? 2u : 1u}, at);
+    at[p] = kept;
+    slope(static_cast<Index>(p)) = (up - down) / (2 * step);
+  }
+  return std::sqrt(std::max(slope.dot(covariance * slope), 0.0));
+}
+
+// x of a plot: along the column; of a pair, with the second one at its middle.
+std::vector<double> places_of(const PlacedEffect& effect) {
+  std::vector<double> x;
+  if (effect.form->categorical) {
+    for (std::size_t level = 0; level < effect.levels.size(); ++level)
+      x.push_back(static_cast<double>(level));
+    return x;
+  }
+  for (std::size_t i = 0; i < curve_points; ++i)
+    x.push_back(effect.low +
+                (effect.high - effect.low) * static_cast<double>(i) / (curve_points - 1));
+  return x;
+}
+
+} // namespace
+
+EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
+                         const Sensitivities& sensitivities, std::size_t index,
+                         std::size_t parameter, const MatrixXd& covariance) {
+  const PlacedEffect& effect = rival.effects[index];
+  const Program program = factor_program(effect);
+  const auto count = static_cast<Index>(fitted_parameters(effect).size());
+  const MatrixXd own =
+      covariance.block(static_cast<Index>(parameter), static_cast<Index>(parameter), count, count);
+  const double middle = 0.25 * effect.low2 + 0.75 * effect.high2;
+  EffectCurve curve;
+  for (const double x : places_of(effect)) {
+    const double f = factor_at(program, effect, x, middle);
+    const double d = 1.96 * deviation(program, effect, x, middle, own);
+    curve.x.push_back(x);
+    curve.factor.push_back(f);
+    curve.low.push_back(f - d);
+    curve.high.push_back(f + d);
+  }
+  const std::size_t place = effect.acts_on == "mu" ? 0 : effect.acts_on == "m" ? 1 : 2;
+  const VectorXd& sensitivity = sensitivities[place];
+  if (effect.form->two_columns || sensitivity.size() == 0) return curve;
+  const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.column));
+  const VectorXd residual = campaign.measured - rival.predicted;
+  const auto& first = campaign.blocks.first;
+  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+    const std::size_t blocks = first[e + 1] - first[e];
+    const std::size_t parts = campaign.blocks.count() == 0 ? 1 : std::min(bins, blocks);
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto begin = static_cast<Index>(first[e] + part * blocks / parts);
+      const auto size = static_cast<Index>(first[e] + (part + 1) * blocks / parts) - begin;
+      const VectorXd s = sensitivity.segment(begin, size);
+      if (!(s.squaredNorm() > 1e-6 * sensitivity.squaredNorm() / static_cast<double>(first.back())))
+        continue;
+      const double at = x.segment(begin, size).mean();
+      curve.point_x.push_back(at);
+      curve.point_factor.push_back(factor_at(program, effect, at, 0) +
+                                   s.dot(residual.segment(begin, size)) / s.squaredNorm());
+    }
+  }
+  return curve;
+}
+
+std::string deciding_experiment(const Rival& one, const Rival& other,
+                                const Candidates& candidates) {
+  const PlacedEffect &a = one.effects.back(), &b = other.effects.back();
+  if (a.form->categorical || b.form->categorical || a.form->two_columns || b.form->two_columns)
+    return fmt::format("experiments in which {} varies while {} stays as it is",
+                       source_name(one.sources.back(), candidates),
+                       source_name(other.sources.back(), candidates));
+  const Program fa = factor_program(a), fb = factor_program(b);
+  double most = -1;
+  std::string text;
+  for (const bool high_a : {false, true})
+    for (const bool high_b : {false, true}) {
+      const double xa = high_a ? a.high : a.low, xb = high_b ? b.high : b.low;
+      const double apart = std::abs(factor_at(fa, a, xa, 0) - factor_at(fb, b, xb, 0));
+      if (apart <= most || high_a == high_b) continue;
+      most = apart;
+      text =
+          fmt::format("an experiment with {} near {:.4g} and {} near {:.4g}: the two differ there "
+                      "by {:.1f} %",
+                      a.column, xa, b.column, xb, 100 * apart);
+    }
+  return text;
+}
+
+} // namespace frictab

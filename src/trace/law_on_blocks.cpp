@@ -1,0 +1,177 @@
+// Programs bound to blocks, and their weighted fits.
+#include "trace/law_on_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <Eigen/Cholesky>
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Rounds off every minimum that depends on parameters.
+class Smoother {
+public:
+  Smoother(double width, const std::vector<std::string>& parameters)
+      : width_(width), parameters_(parameters.begin(), parameters.end()) {}
+
+  Expr operator()(const Expr& e) {
+    if (e.operands().empty()) return e;
+    if (const auto done = done_.find(e.id()); done != done_.end()) return done->second;
+    std::vector<Expr> operands;
+    for (const Expr& operand : e.operands())
+      operands.push_back((*this)(operand));
+    const bool smooth = e.op() == Op::minimum && depends(e);
+    const Expr result = smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
+    done_.emplace(e.id(), result);
+    return result;
+  }
+
+private:
+  bool depends(const Expr& e) const {
+    const auto used = symbols(e);
+    return std::any_of(used.begin(), used.end(),
+                       [&](const std::string& s) { return parameters_.count(s) > 0; });
+  }
+  Expr rounded(const Expr& a, const Expr& b) const {
+    const Expr d = a - b;
+    return 0.5 * (a + b - sqrt(d * d + width_ * width_));
+  }
+  double width_;
+  std::set<std::string> parameters_;
+  std::unordered_map<const Expr::Node*, Expr> done_;
+};
+
+} // namespace
+
+LawOnBlocks::LawOnBlocks(const Law& law, const Conventions& conventions,
+                         const BlockColumns& columns, double smooth_MPa)
+    : parameters_(law.parameters) {
+  const auto names = inputs(law, conventions);
+  const auto scalars = parameter_names(law);
+  Expr formula = tau_formula(law, conventions);
+  if (smooth_MPa > 0) formula = Smoother(smooth_MPa, scalars)(formula);
+  program_ = std::make_unique<Program>(formula, names, scalars);
+  std::vector<const double*> bound;
+  for (const std::string& name : names)
+    bound.push_back(columns.at(name).data());
+  count_ = columns.begin()->second.size();
+  bound_ = std::make_unique<BoundProgram>(*program_, static_cast<std::size_t>(count_), bound);
+}
+
+VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
+  VectorXd tau(count_);
+  bound_->sweep(parameters, false, [&](const BoundProgram::Block& block) {
+    std::copy_n(block.value, block.count, tau.data() + block.first);
+  });
+  return tau;
+}
+
+VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jacobian) const {
+  VectorXd tau(count_);
+  jacobian.setZero(count_, static_cast<Index>(parameters.size()));
+  bound_->sweep(parameters, true, [&](const BoundProgram::Block& block) {
+    std::copy_n(block.value, block.count, tau.data() + block.first);
+    for (std::size_t p = 0; p < block.derivative.size(); ++p)
+      std::copy_n(block.derivative[p], block.count,
+                  jacobian.col(static_cast<Index>(p)).data() + block.first);
+  });
+  return tau;
+}
+
+namespace {
+
+constexpr int most_iterations = 30;
+constexpr double enough = 1e-7; // relative gain of a step
+
+class BlockSolver {
+public:
+  BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
+              const VectorXd& use, const std::vector<bool>& frozen)
+      : law_(law), measured_(measured), whitener_(whitener), use_(use), frozen_(frozen) {}
+
+  BlockFit run(std::vector<double> start) {
+    BlockFit here = evaluate(std::move(start));
+    double damping = 1e-3;
+    for (int i = 0; i < most_iterations && damping < 1e8; ++i) {
+      const BlockFit there = evaluate(step(here, damping));
+      if (there.cost < here.cost) {
+        const bool done = here.cost - there.cost < enough * here.cost;
+        here = there;
+        damping = std::max(0.2 * damping, 1e-10);
+        if (done) break;
+      } else {
+        damping *= 8;
+      }
+    }
+    here.jacobian = raw_;
+    here.predicted = law_.predict(here.parameters, here.jacobian);
+    return here;
+  }
+
+private:
+  // jacobian and predicted hold whitened derivatives and the whitened residual while it runs.
+  BlockFit evaluate(std::vector<double> parameters) {
+    BlockFit fit;
+    fit.parameters = std::move(parameters);
+    const VectorXd tau = law_.predict(fit.parameters, raw_);
+    MatrixXd all(tau.size(), raw_.cols() + 1);
+    all.col(0) = measured_ - tau;
+    all.rightCols(raw_.cols()) = raw_;
+    whitener_.apply(all);
+    if (use_.size() > 0) all = use_.asDiagonal() * all;
+    fit.predicted = all.col(0);
+    fit.jacobian = all.rightCols(raw_.cols());
+    fit.cost = fit.predicted.squaredNorm();
+    if (!std::isfinite(fit.cost)) fit.cost = std::numeric_limits<double>::infinity();
+    return fit;
+  }
+
+  std::vector<double> step(const BlockFit& at, double damping) const {
+    MatrixXd normal = at.jacobian.transpose() * at.jacobian;
+    VectorXd gradient = at.jacobian.transpose() * at.predicted;
+    const auto& bounds = law_.parameters();
+    for (std::size_t p = 0; p < bounds.size(); ++p) { // a bound that the step would cross holds it
+      const auto i = static_cast<Index>(p);
+      const bool held = (at.parameters[p] <= bounds[p].lower && gradient(i) < 0) ||
+                        (at.parameters[p] >= bounds[p].upper && gradient(i) > 0) ||
+                        (!frozen_.empty() && frozen_[p]) || normal(i, i) == 0;
+      if (!held) continue;
+      normal.row(i).setZero();
+      normal.col(i).setZero();
+      normal(i, i) = 1;
+      gradient(i) = 0;
+    }
+    normal.diagonal() *= 1 + damping;
+    const VectorXd move = normal.ldlt().solve(gradient);
+    std::vector<double> to = at.parameters;
+    for (std::size_t p = 0; p < to.size(); ++p)
+      to[p] = std::clamp(to[p] + move(static_cast<Index>(p)), bounds[p].lower, bounds[p].upper);
+    return to;
+  }
+
+  const LawOnBlocks& law_;
+  const VectorXd& measured_;
+  const Whitener& whitener_;
+  const VectorXd& use_;
+  const std::vector<bool>& frozen_;
+  MatrixXd raw_;
+};
+
+} // namespace
+
+BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
+                    std::vector<double> start, const VectorXd& use,
+                    const std::vector<bool>& frozen) {
+  for (std::size_t p = 0; p < start.size(); ++p)
+    start[p] = std::clamp(start[p], law.parameters()[p].lower, law.parameters()[p].upper);
+  return BlockSolver(law, measured, whitener, use, frozen).run(std::move(start));
+}
+
+} // namespace frictab

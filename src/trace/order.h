@@ -1,0 +1,31 @@
+// Structure along the order of tests: drift, wear and batch look alike there.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "trace/noise.h"
+
+namespace frictab {
+
+// One score per experiment: how far its friction as a whole lies from the law, in units of its
+// standard deviation under the noise model.
+Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
+                                  const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
+                                  const Whitener& whitener, std::span<const std::size_t> first);
+
+// p-value of "the scores have no structure along the order": neighbours alike, a cumulated sum that
+// strays, or slow waves; the smallest of the three, its distribution by permutation.
+double order_p_value(const Eigen::VectorXd& scores, std::span<const double> order,
+                     std::size_t permutations, std::uint64_t seed);
+
+// Slow functions of the order (cosines of the rank), per experiment; each has mean 0.
+Eigen::MatrixXd order_functions(std::span<const double> order, int count);
+
+// Per block of each experiment: sensitivity times the functions.
+Eigen::MatrixXd on_blocks(const Eigen::MatrixXd& functions, const Eigen::VectorXd& sensitivity,
+                          std::span<const std::size_t> first);
+
+} // namespace frictab

@@ -1,0 +1,351 @@
+// Joint fits of law, effects and noise; short lists; comparison by experiment.
+#include "trace/rivals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "calibrate/resampling.h"
+#include "core/parallel.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
+constexpr double per_complexity = 1.5; // and a step away from a recorded column
+constexpr std::size_t short_list = 14;
+
+// Start values of the extended law: the law's own, each effect's, and the limit's.
+std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
+                             std::span<const PlacedEffect> effects) {
+  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
+  for (const PlacedEffect& effect : effects)
+    for (const double value : fitted_values(effect))
+      start.push_back(value);
+  while (start.size() < extended.parameters.size()) // m_limit
+    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
+  return start;
+}
+
+void take_parameters(Rival& rival, std::size_t own) {
+  std::size_t next = own;
+  for (PlacedEffect& effect : rival.effects) {
+    const std::size_t count = fitted_parameters(effect).size();
+    set_fitted(effect, std::span(rival.parameters).subspan(next, count));
+    next += count;
+  }
+}
+
+VectorXd by_experiment(const VectorXd& whitened, const Whitener& whitener,
+                       std::span<const std::size_t> first) {
+  VectorXd value(static_cast<Index>(first.size() - 1));
+  for (Index e = 0; e < value.size(); ++e) {
+    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
+    const auto end = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]);
+    value(e) = -0.5 * (whitened.segment(begin, end - begin).squaredNorm() + whitener.log_det()(e));
+  }
+  return value;
+}
+
+bool on_limit(const std::vector<PlacedEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const PlacedEffect& e) { return e.acts_on == "m"; });
+}
+
+void judge(Rival& rival, const Campaign& campaign) {
+  const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
+  MatrixXd residual = campaign.measured - rival.predicted;
+  whitener.apply(residual);
+  rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
+  rival.total = rival.log_likelihood.sum();
+  double cost = per_parameter * static_cast<double>(rival.parameters.size());
+  for (const Source& source : rival.sources)
+    cost += per_complexity * complexity(source, campaign.candidates);
+  rival.penalised = rival.total - cost;
+}
+
+} // namespace
+
+Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                std::vector<Source> sources, std::span<const double> parameters,
+                const NoiseModel& noise, int noise_evaluations) {
+  const std::size_t own = campaign.law.parameters.size();
+  Law extended = extended_law(campaign.law, campaign.conventions, parameters.first(own), effects,
+                              campaign.law.name);
+  bound_shapes(extended, own, effects);
+  Rival rival;
+  rival.parameters = start_of(extended, parameters, own, effects);
+  rival.effects = std::move(effects);
+  rival.sources = std::move(sources);
+  rival.noise = noise;
+  const BlockColumns& columns = campaign.candidates.by_symbol;
+  const LawOnBlocks law(extended, campaign.conventions, columns);
+  const auto refit = [&](const LawOnBlocks& with) {
+    rival.predicted = with.predict(rival.parameters);
+    const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
+    BlockFit fit = fit_blocks(with, campaign.measured, whitener, rival.parameters);
+    rival.parameters = std::move(fit.parameters);
+    rival.predicted = std::move(fit.predicted);
+    rival.jacobian = std::move(fit.jacobian);
+  };
+  if (on_limit(rival.effects)) // a limit that no row has reached yet would never be seen
+    for (const double width : {15.0, 5.0})
+      refit(LawOnBlocks(extended, campaign.conventions, columns, width));
+  refit(law);
+  if (noise_evaluations > 0) {
+    rival.noise =
+        fit_noise(campaign.measured - rival.predicted, rival.predicted, campaign.blocks.first, {},
+                  rival.noise, noise_evaluations, campaign.nuisance)
+            .noise;
+    refit(law);
+  }
+  take_parameters(rival, own);
+  judge(rival, campaign);
+  return rival;
+}
+
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
+  constexpr double step = 0.06;
+  const std::size_t own = campaign.law.parameters.size();
+  BlockColumns columns = campaign.candidates.by_symbol;
+  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
+  const auto change = [&](const char* place) {
+    PlacedEffect everywhere;
+    everywhere.form = find_effect("linear");
+    everywhere.column = "everywhere";
+    everywhere.acts_on = place;
+    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
+    everywhere.low = 0;
+    std::vector<PlacedEffect> effects = rival.effects;
+    effects.push_back(everywhere);
+    const Law law = extended_law(campaign.law, campaign.conventions,
+                                 std::span(rival.parameters).first(own), effects, "sensitivity");
+    const LawOnBlocks on(law, campaign.conventions, columns);
+    std::vector<double> at = start_of(law, rival.parameters, own, effects);
+    const auto amplitude = static_cast<std::size_t>(
+        std::find_if(law.parameters.begin(), law.parameters.end(),
+                     [&](const Parameter& p) {
+                       return p.name == "e" + std::to_string(effects.size()) + "_a";
+                     }) -
+        law.parameters.begin());
+    at[amplitude] = step;
+    const VectorXd up = on.predict(at);
+    at[amplitude] = -step;
+    return VectorXd((up - on.predict(at)) / (2 * step));
+  };
+  Sensitivities all;
+  all[0] = change("mu");
+  if (has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change("m");
+    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
+  }
+  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
+  return all;
+}
+
+namespace {
+
+// Straight lines between seven places of a quantity: what any form of it could be.
+MatrixXd hat_functions(const VectorXd& x) {
+  constexpr int places = 7;
+  std::vector<double> sorted(x.data(), x.data() + x.size());
+  std::sort(sorted.begin(), sorted.end());
+  std::set<double> knots;
+  for (int i = 0; i < places; ++i)
+    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (places - 1)]);
+  MatrixXd columns(x.size(), static_cast<Index>(knots.size()));
+  Index next = 0;
+  for (const double knot : knots)
+    columns.col(next++) = (x.array() - knot).max(0.0).matrix();
+  columns.col(next - 1) = x; // the last hinge is zero everywhere
+  return columns;
+}
+
+MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
+  MatrixXd columns(x.size(), static_cast<Index>(levels));
+  for (std::size_t level = 0; level < levels; ++level)
+    columns.col(static_cast<Index>(level)) =
+        (x.array() == static_cast<double>(level)).cast<double>().matrix();
+  return columns;
+}
+
+MatrixXd any_form(const Source& source, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[source.column];
+  if (!x.levels.empty()) return level_functions(x.values, x.levels.size());
+  if (!source.pair()) return hat_functions(x.values);
+  const VectorXd& y = candidates.columns[source.second].values;
+  return hat_functions((x.values.array() - x.values.mean()) * (y.array() - y.mean()));
+}
+
+std::size_t place_of(const PlacedEffect& effect) {
+  return static_cast<std::size_t>(std::find(places.begin(), places.end(), effect.acts_on) -
+                                  places.begin());
+}
+
+} // namespace
+
+MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
+                           const Sensitivities& sensitivities) {
+  MatrixXd all = rival.jacobian;
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const VectorXd& sensitivity = sensitivities[place_of(rival.effects[i])];
+    if (sensitivity.size() == 0) continue;
+    const MatrixXd forms = any_form(rival.sources[i], campaign.candidates);
+    const Index before = all.cols();
+    all.conservativeResize(Eigen::NoChange, before + forms.cols());
+    all.rightCols(forms.cols()) = sensitivity.asDiagonal() * forms;
+  }
+  return all;
+}
+
+namespace {
+
+struct Trial {
+  PlacedEffect effect;
+  Source source;
+};
+
+// A shape of the grid, with the amplitude that the screening suggests.
+Trial trial_of(const Direction& direction, const std::vector<Source>& sources,
+               const std::vector<std::vector<GridShape>>& shapes, double tau_scale_MPa) {
+  Trial trial{shapes[direction.source][direction.shape].effect, sources[direction.source]};
+  trial.effect.acts_on = places[direction.place];
+  trial.effect.tau_scale_MPa = tau_scale_MPa;
+  if (!trial.effect.form->categorical)
+    trial.effect.parameters[0] =
+        std::clamp(static_cast<double>(direction.statistic / direction.size), -0.5, 0.5);
+  return trial;
+}
+
+std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current,
+                           const std::vector<Trial>& trials) {
+  std::vector<Rival> rivals(trials.size());
+  parallel_for(trials.size(), [&](std::size_t i) {
+    std::vector<PlacedEffect> effects = current.effects;
+    std::vector<Source> sources = current.sources;
+    effects.push_back(trials[i].effect);
+    sources.push_back(trials[i].source);
+    std::vector<double> own(current.parameters.begin(),
+                            current.parameters.begin() +
+                                static_cast<long>(campaign.law.parameters.size()));
+    if (on_limit(current.effects)) own.push_back(current.parameters.back());
+    rivals[i] = fit_rival(campaign, effects, sources, own, current.noise);
+  });
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  return rivals;
+}
+
+// Per source its directions, largest statistic first; sources by their best.
+std::vector<std::vector<Direction>> by_source(const ScreenResult& screened, std::size_t count) {
+  std::vector<std::vector<Direction>> lists(count);
+  for (const Direction& direction : screened.directions)
+    lists[direction.source].push_back(direction);
+  const auto larger = [](const Direction& a, const Direction& b) {
+    return std::abs(a.statistic) > std::abs(b.statistic);
+  };
+  for (auto& list : lists)
+    std::stable_sort(list.begin(), list.end(), larger);
+  std::erase_if(lists, [](const auto& list) { return list.empty(); });
+  std::stable_sort(lists.begin(), lists.end(),
+                   [&](const auto& a, const auto& b) { return larger(a.front(), b.front()); });
+  return lists;
+}
+
+// The best shapes of a source: two whatever their place, and the best of every other place.
+std::vector<Direction> best_shapes(const std::vector<Direction>& list,
+                                   const std::vector<std::vector<GridShape>>& shapes) {
+  std::vector<Direction> best;
+  std::set<std::pair<std::string, std::size_t>> kinds;
+  std::set<std::size_t> seen;
+  for (const Direction& direction : list) {
+    const std::string& form = shapes[direction.source][direction.shape].effect.form->name;
+    const bool new_place = !seen.count(direction.place);
+    if ((kinds.size() >= 2 && !new_place) || !kinds.insert({form, direction.place}).second)
+      continue;
+    seen.insert(direction.place);
+    best.push_back(direction);
+  }
+  return best;
+}
+
+} // namespace
+
+std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
+                               const std::vector<Source>& sources,
+                               const std::vector<std::vector<GridShape>>& shapes,
+                               const ScreenResult& screened, double tau_scale_MPa) {
+  auto lists = by_source(screened, sources.size());
+  const float least = 0.6f * std::abs(lists.front().front().statistic);
+  std::vector<Trial> trials;
+  std::size_t taken = 0;
+  for (const auto& list : lists) {
+    if (taken++ >= short_list || std::abs(list.front().statistic) < least) break;
+    for (const Direction& direction : best_shapes(list, shapes))
+      trials.push_back(trial_of(direction, sources, shapes, tau_scale_MPa));
+  }
+  return fit_all(campaign, current, trials);
+}
+
+std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
+                              const std::vector<Source>& sources,
+                              const std::vector<std::vector<GridShape>>& shapes,
+                              const ScreenResult& screened) {
+  const Source source = winner.sources.back();
+  const PlacedEffect& won = winner.effects.back();
+  if (won.form->categorical || source.pair()) return {winner};
+  const auto index =
+      static_cast<std::size_t>(std::find(sources.begin(), sources.end(), source) - sources.begin());
+  std::vector<Trial> trials;
+  for (const EffectForm& form : all_effects()) {
+    if (!form_fits(form, source, campaign.candidates)) continue;
+    Trial trial{start_effect(form, source, campaign.candidates, won.acts_on, won.tau_scale_MPa),
+                source};
+    const Direction* best = nullptr;
+    for (const Direction& d : screened.directions)
+      if (d.source == index && places[d.place] == won.acts_on &&
+          shapes[index][d.shape].effect.form == &form &&
+          (!best || std::abs(d.statistic) > std::abs(best->statistic)))
+        best = &d;
+    if (best) trial = trial_of(*best, sources, shapes, won.tau_scale_MPa);
+    trials.push_back(std::move(trial));
+  }
+  std::vector<Rival> rivals = fit_all(campaign, current, trials);
+  rivals.push_back(winner); // whose grid start may have been the better one
+  const double spline_margin = 1.3 * per_parameter;
+  for (Rival& rival : rivals)
+    if (rival.effects.back().form->amplitudes > 1)
+      rival.penalised -=
+          0.3 * per_parameter * static_cast<double>(rival.effects.back().form->amplitudes) +
+          spline_margin;
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  return rivals;
+}
+
+std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed) {
+  constexpr std::size_t resamples = 500;
+  const Index experiments = rivals.front().log_likelihood.size();
+  MatrixXd times(static_cast<Index>(resamples), experiments);
+  std::vector<double> counts(static_cast<std::size_t>(experiments));
+  for (Index b = 0; b < times.rows(); ++b) {
+    resample(seed, static_cast<std::size_t>(b), counts);
+    times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
+  }
+  std::vector<bool> same;
+  for (const Rival& rival : rivals) {
+    const VectorXd difference = rivals.front().log_likelihood - rival.log_likelihood;
+    const VectorXd drawn = times * difference;
+    const auto better = static_cast<double>((drawn.array() > 0).count());
+    const double lead = rivals.front().penalised - rival.penalised;
+    same.push_back(better < 0.95 * static_cast<double>(resamples) || lead < 2);
+  }
+  return same;
+}
+
+} // namespace frictab

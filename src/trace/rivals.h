@@ -1,0 +1,68 @@
+// Ways to explain the residual, fitted to the end and compared.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trace/candidates.h"
+#include "trace/law_on_blocks.h"
+#include "trace/screen.h"
+
+namespace frictab {
+
+// The campaign as every fit sees it.
+struct Campaign {
+  const Law& law; // the one that is traced
+  Conventions conventions;
+  const Blocks& blocks;
+  const Candidates& candidates;
+  Eigen::VectorXd measured; // per block; minus what averaging over a block does to the law
+  Eigen::MatrixXd nuisance; // per block: what may not explain anything
+};
+
+// The law with some effects, fitted together with the noise.
+struct Rival {
+  std::vector<PlacedEffect> effects; // parameters fitted
+  std::vector<Source> sources;       // one per effect
+  std::vector<double> parameters;    // of the extended law
+  NoiseModel noise;
+  Eigen::VectorXd predicted;
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd log_likelihood; // per experiment
+  double total = 0;
+  double penalised = 0; // minus what parameters and complexity cost
+};
+
+// All parameters by generalised least squares, the noise by maximum likelihood, twice in turn.
+// `parameters`: start of the law's own (and m_limit, if any, behind them).
+Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                std::vector<Source> sources, std::span<const double> parameters,
+                const NoiseModel& noise, int noise_evaluations = 25);
+
+// Directions of what is fitted already, for a test of what is not: parameters, and a spline of each
+// chosen quantity, so that a form that does not fit is not sold as another effect.
+Eigen::MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
+                                  const Sensitivities& sensitivities);
+
+// How tau_R changes with a factor on mu, with one on the limit, and with an addition of tau_scale.
+// Over +-6 %, so that rows near the limit feel both.
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa);
+
+// Best first; never empty. Every short-listed source with its best shapes in every place.
+std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
+                               const std::vector<Source>& sources,
+                               const std::vector<std::vector<GridShape>>& shapes,
+                               const ScreenResult& screened, double tau_scale_MPa);
+
+// The winner in every form that its column allows; a spline only where no form comes within
+// `margin` of it. Best first.
+std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
+                              const std::vector<Source>& sources,
+                              const std::vector<std::vector<GridShape>>& shapes,
+                              const ScreenResult& screened);
+
+// Which rivals these experiments cannot tell from the first (Vuong 1989, by resampling whole
+// experiments): not worse with 95 %, or within 2 of its log likelihood.
+std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed);
+
+} // namespace frictab

@@ -1,0 +1,71 @@
+// Restricted likelihood of the noise, and chi-square limits of the scatter between experiments.
+#include "trace/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Wilson and Hilferty's chi-square quantile, at a normal quantile z.
+double chi_square(double degrees, double z) {
+  const double a = 2 / (9 * degrees);
+  return degrees * std::pow(1 - a + z * std::sqrt(a), 3);
+}
+
+// Mean square of the measured rows about their block's line of blocks: what block means leave out.
+double within_blocks(const Dataset& training, const Blocks& blocks) {
+  const auto tau = training.values("tau_R_MPa");
+  double sum = 0;
+  for (std::size_t b = 0; b < blocks.count(); ++b) {
+    const std::size_t begin = blocks.first_row[b], end = blocks.first_row[b + 1];
+    const auto n = static_cast<double>(end - begin);
+    if (end - begin < 3) continue;
+    double my = 0, mx = (n - 1) / 2, xy = 0, xx = 0, yy = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      my += tau[i] / n;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double dx = static_cast<double>(i - begin) - mx, dy = tau[i] - my;
+      xy += dx * dy;
+      xx += dx * dx;
+      yy += dy * dy;
+    }
+    sum += std::max(yy - xy * xy / xx, 0.0) * n / (n - 2) * (n - 1) / n;
+  }
+  return sum / static_cast<double>(training.rows());
+}
+
+} // namespace
+
+void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
+                 const Dataset& training) {
+  const VectorXd residual = campaign.measured - last.predicted;
+  const NoiseFit fit = fit_noise(residual, last.predicted, campaign.blocks.first, last.jacobian,
+                                 last.noise, 120, campaign.nuisance);
+  const NoiseModel& noise = fit.noise;
+  const Whitener whitener(noise, last.predicted, campaign.blocks.first);
+  const double modelled = whitener.variance().mean() + within_blocks(training, campaign.blocks);
+  const Metrics& after = last.effects.empty() ? trace.recalibrated.training : trace.after.training;
+  const double rmse = std::sqrt(modelled);
+  trace.noise_floor.method =
+      "noise model: scatter between experiments, slow and white noise within, "
+      "by restricted maximum likelihood";
+  trace.noise_floor.part = "training";
+  trace.noise_floor.rmse_MPa = rmse;
+  trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
+  trace.noise_floor.n_rows = training.rows();
+  trace.noise_floor.n_experiments = training.experiments.size();
+  const double share = std::hypot(noise.multiplicative, noise.additive / noise.scale);
+  trace.scatter_between = share;
+  const double degrees = std::max(1.0, static_cast<double>(training.experiments.size()) -
+                                           static_cast<double>(last.parameters.size()));
+  trace.scatter_interval = {share * std::sqrt(degrees / chi_square(degrees, 1.96)),
+                            share *
+                                std::sqrt(degrees / std::max(chi_square(degrees, -1.96), 1e-9))};
+}
+
+} // namespace frictab

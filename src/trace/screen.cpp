@@ -1,0 +1,209 @@
+// Whitens, projects, scores and flips; single precision, a source at a time.
+#include "trace/screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/parallel.h"
+#include "core/random.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXd;
+using Eigen::VectorXf;
+
+constexpr double least_left = 0.002; // of a direction, behind what fitted parameters imitate
+constexpr std::uint64_t flip_stream = 71;
+
+// (I - H_ee)^-1/2 r, H_ee = Q_e Q_e': the residual as if its own experiment had not been fitted.
+void unshrink(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
+  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+    const auto begin = static_cast<Index>(first[e]);
+    const auto count = static_cast<Index>(first[e + 1]) - begin;
+    const MatrixXd own = q.middleRows(begin, count);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(own.transpose() * own);
+    VectorXd factor = solver.eigenvalues();
+    for (Index i = 0; i < factor.size(); ++i) {
+      const double l = std::clamp(factor(i), 0.0, 0.98);
+      factor(i) = l < 1e-9 ? 0.5 : (1 / std::sqrt(1 - l) - 1) / l;
+    }
+    const VectorXd along =
+        solver.eigenvectors().transpose() * (own.transpose() * residual.segment(begin, count));
+    residual.segment(begin, count) += own * (solver.eigenvectors() * factor.cwiseProduct(along));
+  }
+}
+
+MatrixXf signs(std::size_t flips, std::size_t experiments, std::uint64_t seed) {
+  MatrixXf s(static_cast<Index>(flips), static_cast<Index>(experiments));
+  for (Index b = 0; b < s.rows(); ++b) {
+    Random random(seed, flip_stream + 1000 * static_cast<std::uint64_t>(b));
+    for (Index e = 0; e < s.cols(); ++e)
+      s(b, e) = random.uniform() < 0.5 ? -1.0f : 1.0f;
+  }
+  return s;
+}
+
+struct SourceScores {
+  std::vector<Direction> directions;
+  MatrixXf scores; // experiments x directions
+  VectorXf maxima; // per flip
+  bool absorbed = false;
+};
+
+class Screening {
+public:
+  explicit Screening(const ScreenInput& input) : in_(input) {
+    MatrixXd fitted = in_.fitted;
+    in_.whitener.apply(fitted);
+    const MatrixXd q = orthonormal(fitted);
+    MatrixXd residual = in_.residual;
+    in_.whitener.apply(residual);
+    VectorXd r = residual.col(0) - q * (q.transpose() * residual.col(0));
+    unshrink(q, in_.first, r);
+    q_ = q.cast<float>();
+    residual_ = r.cast<float>();
+    signs_ = signs(in_.flips, in_.first.size() - 1, in_.seed);
+    for (std::size_t p = 0; p < places.size(); ++p)
+      sensitivity_[p] = in_.sensitivities[p].cast<float>();
+  }
+
+  SourceScores run(std::size_t source) const {
+    SourceScores found;
+    MatrixXf x = columns(source, found.directions);
+    found.absorbed = x.cols() == 0;
+    if (x.cols() == 0) return found;
+    in_.whitener.apply(x);
+    const VectorXf before = x.colwise().norm();
+    x -= q_ * (q_.transpose() * x).eval();
+    VectorXf size = x.colwise().norm();
+    x.array().colwise() *= residual_.array();
+    MatrixXf scores = sums(x);
+    keep_identifiable(before, size, scores, found);
+    if (found.directions.empty()) {
+      found.absorbed = true;
+      return found;
+    }
+    found.maxima = (signs_ * found.scores).cwiseAbs().rowwise().maxCoeff();
+    return found;
+  }
+
+private:
+  MatrixXf columns(std::size_t source, std::vector<Direction>& directions) const {
+    const auto& shapes = in_.shapes[source];
+    MatrixXf x(in_.residual.size(), static_cast<Index>(shapes.size() * places.size()));
+    Index next = 0;
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+      for (std::size_t p = 0; p < places.size(); ++p) {
+        if (sensitivity_[p].size() == 0) continue;
+        x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
+        directions.push_back({source, s, p});
+      }
+    x.conservativeResize(Eigen::NoChange, next);
+    return x;
+  }
+
+  // Per experiment.
+  MatrixXf sums(const MatrixXf& x) const {
+    MatrixXf s(static_cast<Index>(in_.first.size() - 1), x.cols());
+    for (Index e = 0; e < s.rows(); ++e) {
+      const auto begin = static_cast<Index>(in_.first[static_cast<std::size_t>(e)]);
+      const auto end = static_cast<Index>(in_.first[static_cast<std::size_t>(e) + 1]);
+      s.row(e) = x.middleRows(begin, end - begin).colwise().sum();
+    }
+    return s;
+  }
+
+  // Scores are divided by the direction's size (statistics in units of their standard deviation
+  // under the noise model) and kept where enough is left of the direction.
+  void keep_identifiable(const VectorXf& before, const VectorXf& size, const MatrixXf& scores,
+                         SourceScores& found) const {
+    std::vector<Direction> kept;
+    found.scores.resize(scores.rows(), scores.cols());
+    for (Index c = 0; c < scores.cols(); ++c) {
+      const float spread = scores.col(c).norm();
+      if (!(size(c) * size(c) > least_left * before(c) * before(c)) || !(spread > 0)) continue;
+      Direction direction = found.directions[static_cast<std::size_t>(c)];
+      direction.size = size(c);
+      const float by = denominator(size(c), spread);
+      found.scores.col(static_cast<Index>(kept.size())) = scores.col(c) / by;
+      direction.statistic = scores.col(c).sum() / by;
+      kept.push_back(direction);
+    }
+    found.scores.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
+    found.directions = std::move(kept);
+  }
+
+  static float denominator(float size, float spread);
+
+  const ScreenInput& in_;
+  MatrixXf q_, signs_;
+  VectorXf residual_;
+  std::array<VectorXf, 3> sensitivity_;
+};
+
+// The larger of what the noise model and what the experiments themselves say: where some
+// experiments scatter more than others, directions that live on them do not win by that.
+float Screening::denominator(float size, float spread) {
+  return std::max(size, spread);
+}
+
+} // namespace
+
+double ScreenResult::threshold(double alpha) const {
+  const double at = (1 - alpha) * static_cast<double>(flipped_maxima.size() + 1);
+  const auto index = static_cast<std::size_t>(std::ceil(at)) - 1;
+  return flipped_maxima[std::min(index, flipped_maxima.size() - 1)];
+}
+
+ScreenResult screen(const ScreenInput& input) {
+  const Screening screening(input);
+  std::vector<SourceScores> parts(input.shapes.size());
+  parallel_for(parts.size(), [&](std::size_t s) {
+    parts[s] = screening.run(s);
+    if (!input.keep_scores) parts[s].scores.resize(0, 0);
+  });
+  ScreenResult result;
+  VectorXf maxima = VectorXf::Zero(static_cast<Index>(input.flips));
+  Index columns = 0;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    if (parts[s].absorbed) {
+      result.absorbed.push_back(s);
+      continue;
+    }
+    maxima = maxima.cwiseMax(parts[s].maxima);
+    columns += parts[s].scores.cols();
+    result.directions.insert(result.directions.end(), parts[s].directions.begin(),
+                             parts[s].directions.end());
+  }
+  if (input.keep_scores) {
+    result.scores.resize(static_cast<Index>(input.first.size() - 1), columns);
+    Index next = 0;
+    for (const SourceScores& part : parts) {
+      if (part.absorbed) continue;
+      result.scores.middleCols(next, part.scores.cols()) = part.scores;
+      next += part.scores.cols();
+    }
+  }
+  result.flipped_maxima.assign(maxima.data(), maxima.data() + maxima.size());
+  std::sort(result.flipped_maxima.begin(), result.flipped_maxima.end());
+  float most = 0;
+  for (std::size_t d = 0; d < result.directions.size(); ++d)
+    if (std::abs(result.directions[d].statistic) > most) {
+      most = std::abs(result.directions[d].statistic);
+      result.best = d;
+    }
+  const auto beyond =
+      result.flipped_maxima.end() -
+      std::lower_bound(result.flipped_maxima.begin(), result.flipped_maxima.end(), most);
+  result.p_value = static_cast<double>(beyond + 1) / static_cast<double>(input.flips + 1);
+  return result;
+}
+
+} // namespace frictab

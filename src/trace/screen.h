@@ -1,0 +1,57 @@
+// The test: which of thousands of directions does the residual follow, more than any of them would
+// by chance?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "trace/candidates.h"
+#include "trace/noise.h"
+
+namespace frictab {
+
+inline constexpr std::array<const char*, 3> places = {"mu", "m", "tau"};
+
+// What tau_R changes, per block, where an effect's factor changes by 1: on mu, on the limit, added.
+using Sensitivities = std::array<Eigen::VectorXd, 3>; // of size 0 where there is no such place
+
+struct Direction {
+  std::size_t source = 0; // in the list of sources
+  std::size_t shape = 0;  // of that source
+  std::size_t place = 0;
+  float statistic = 0;
+  float size = 0; // norm, whitened and projected: statistic per amplitude
+};
+
+// Sign-flip max-T over effective scores, with the experiment as the unit (Hemerik, Goeman, Finos
+// 2020; the leverage of fitted parameters is corrected as in CR2): no normality, no equal variances
+// and no stationarity are assumed, and an effect that shows in G experiments can never get a
+// p-value below 2^(1-G). Family-wise over everything that was tried.
+struct ScreenResult {
+  std::vector<Direction> directions; // identifiable ones
+  std::vector<float> flipped_maxima; // ascending
+  Eigen::MatrixXf scores;            // experiments x directions; only where asked for
+  std::vector<std::size_t> absorbed; // sources that fitted parameters can imitate completely
+  std::size_t best = 0;              // index of the largest statistic
+  double p_value = 1;
+  double threshold(double alpha) const;
+};
+
+struct ScreenInput {
+  const std::vector<std::vector<GridShape>>& shapes; // per source
+  const Sensitivities& sensitivities;
+  const Whitener& whitener;
+  std::span<const std::size_t> first; // blocks of each experiment
+  const Eigen::VectorXd& residual;    // per block, not whitened
+  const Eigen::MatrixXd& fitted;      // directions of fitted parameters, not whitened
+  std::size_t flips = 999;
+  std::uint64_t seed = 1;
+  bool keep_scores = false;
+};
+
+ScreenResult screen(const ScreenInput& input);
+
+} // namespace frictab

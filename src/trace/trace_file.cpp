@@ -1,0 +1,281 @@
+// Traces to JSON and back.
+#include "trace/trace_file.h"
+
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "calibrate/judgement_json.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "io/json.h"
+
+namespace frictab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+Json derived_json(const std::string& derived) {
+  return derived.empty() ? Json() : Json(derived);
+}
+
+std::string parse_derived(const Json& j) {
+  return j.is_null() ? "" : j.get<std::string>();
+}
+
+Json parameters_json(const TracedEffect& effect) {
+  Json list = Json::array();
+  for (const TracedParameter& p : effect.parameters)
+    list.push_back(
+        {{"name", p.name}, {"value", p.value}, {"std_error", p.std_error}, {"unit", p.unit}});
+  return list;
+}
+
+Json alternatives_json(const TracedEffect& effect) {
+  Json list = Json::array();
+  for (const Alternative& a : effect.alternatives)
+    list.push_back({{"columns", a.columns},
+                    {"derived", derived_json(a.derived)},
+                    {"form", a.form},
+                    {"acts_on", a.acts_on},
+                    {"cannot_be_told_apart", a.in_set},
+                    {"why_not", a.why_not}});
+  return list;
+}
+
+Json placed_json(const PlacedEffect& p) {
+  Json j = {{"column", p.column}, {"held_between", {p.low, p.high}}, {"values", p.parameters}};
+  if (!p.column2.empty()) {
+    j["column2"] = p.column2;
+    j["held_between_2"] = {p.low2, p.high2};
+  }
+  if (!p.levels.empty()) j["levels"] = p.levels;
+  if (p.acts_on == "tau") j["unit_MPa"] = p.tau_scale_MPa;
+  return j;
+}
+
+Json curve_json(const EffectCurve& c) {
+  return {{"x", c.x},          {"factor", c.factor},   {"low_95", c.low},
+          {"high_95", c.high}, {"point_x", c.point_x}, {"point_factor", c.point_factor}};
+}
+
+Json effect_json(const TracedEffect& e) {
+  return {{"columns", e.columns},
+          {"derived", derived_json(e.derived)},
+          {"form", e.placed.form->name},
+          {"formula", e.placed.form->formula},
+          {"acts_on", e.placed.acts_on},
+          {"parameters", parameters_json(e)},
+          {"p_value", e.p_value},
+          {"statistic", e.statistic},
+          {"threshold", e.threshold},
+          {"gain_MPa", e.gain_MPa},
+          {"order_confounded", e.order_confounded},
+          {"discriminating_experiment", e.discriminating},
+          {"alternatives", alternatives_json(e)},
+          {"in_the_law", placed_json(e.placed)},
+          {"curve", curve_json(e.curve)}};
+}
+
+PlacedEffect parse_placed(const Json& j, const Json& effect) {
+  PlacedEffect p;
+  p.form = find_effect(effect.at("form").get<std::string>());
+  if (!p.form) throw InputError({"trace.json", 0, 0}, "unknown effect form", "trace again");
+  p.column = j.at("column");
+  p.low = j.at("held_between").at(0);
+  p.high = j.at("held_between").at(1);
+  p.parameters = j.at("values").get<std::vector<double>>();
+  if (j.contains("column2")) {
+    p.column2 = j.at("column2");
+    p.low2 = j.at("held_between_2").at(0);
+    p.high2 = j.at("held_between_2").at(1);
+  }
+  if (j.contains("levels")) p.levels = j.at("levels").get<std::vector<std::string>>();
+  if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
+  p.acts_on = effect.at("acts_on");
+  return p;
+}
+
+std::vector<double> numbers(const Json& j) {
+  std::vector<double> values;
+  for (const Json& value : j)
+    values.push_back(number(value));
+  return values;
+}
+
+TracedEffect parse_effect_json(const Json& j) {
+  TracedEffect e;
+  e.placed = parse_placed(j.at("in_the_law"), j);
+  e.columns = j.at("columns").get<std::vector<std::string>>();
+  e.derived = parse_derived(j.at("derived"));
+  for (const Json& p : j.at("parameters"))
+    e.parameters.push_back(
+        {p.at("name"), number(p.at("value")), number(p.at("std_error")), p.at("unit")});
+  e.p_value = number(j.at("p_value"));
+  e.statistic = number(j.at("statistic"));
+  e.threshold = number(j.at("threshold"));
+  e.gain_MPa = number(j.at("gain_MPa"));
+  e.order_confounded = j.at("order_confounded");
+  e.discriminating = j.at("discriminating_experiment");
+  for (const Json& a : j.at("alternatives"))
+    e.alternatives.push_back({a.at("columns").get<std::vector<std::string>>(),
+                              parse_derived(a.at("derived")), a.at("form"), a.at("acts_on"),
+                              a.at("cannot_be_told_apart"), a.at("why_not")});
+  const Json& c = j.at("curve");
+  e.curve = {numbers(c.at("x")),       numbers(c.at("factor")),  numbers(c.at("low_95")),
+             numbers(c.at("high_95")), numbers(c.at("point_x")), numbers(c.at("point_factor"))};
+  return e;
+}
+
+Json errors_json(const TraceErrors& errors) {
+  return {{"training", metrics_json(errors.training)},
+          {"validation", metrics_json(errors.validation)}};
+}
+
+TraceErrors parse_errors(const Json& j) {
+  return {parse_metrics(j.at("training")), parse_metrics(j.at("validation"))};
+}
+
+Json detectable_json(const std::vector<Detectable>& all) {
+  Json list = Json::array();
+  for (const Detectable& d : all)
+    list.push_back({{"column", d.column},
+                    {"derived", derived_json(d.derived)},
+                    {"acts_on", d.acts_on},
+                    {"identifiable", d.identifiable},
+                    {"size_MPa", d.identifiable ? Json(d.size_MPa) : Json()},
+                    {"share", d.identifiable ? Json(d.share) : Json()}});
+  return list;
+}
+
+Json order_json(const OrderStructure& o) {
+  return {{"structure", o.found},          {"column", o.column}, {"p_value", o.p_value},
+          {"size_MPa", o.size_MPa},        {"share", o.share},   {"order_confounded", o.found},
+          {"law_holds_it_at", o.reference}};
+}
+
+const char* const verdicts = "effect_added, nothing_missing, unexplained_structure";
+
+Verdict parse_verdict(const std::string& text) {
+  for (const Verdict v :
+       {Verdict::effect_added, Verdict::nothing_missing, Verdict::unexplained_structure})
+    if (text == verdict_name(v)) return v;
+  throw InputError({"trace.json", 0, 0}, "unknown verdict '" + text + "'",
+                   std::string("known: ") + verdicts);
+}
+
+Json one_json(const Trace& t) {
+  Json effects = Json::array();
+  for (const TracedEffect& effect : t.effects)
+    effects.push_back(effect_json(effect));
+  const auto& floor = t.noise_floor;
+  return {{"model", t.model},
+          {"extended_model", derived_json(t.extended_model)},
+          {"verdict", verdict_name(t.verdict)},
+          {"alpha", t.alpha},
+          {"effects", effects},
+          {"before", errors_json(t.before)},
+          {"recalibrated", errors_json(t.recalibrated)},
+          {"after", errors_json(t.after)},
+          {"improvement",
+           {{"validation_mae_MPa", t.improvement.value_MPa},
+            {"interval_95", {t.improvement.interval.low, t.improvement.interval.high}},
+            {"p_value", t.improvement.p_value}}},
+          {"noise_floor",
+           {{"mae_MPa", floor.mae_MPa}, {"rmse_MPa", floor.rmse_MPa}, {"method", floor.method}}},
+          {"scatter_between_experiments",
+           {{"share", t.scatter_between},
+            {"interval_95", {t.scatter_interval.low, t.scatter_interval.high}},
+            {"repeatability", t.repeatability ? Json(*t.repeatability) : Json()}}},
+          {"order_of_tests", order_json(t.order)},
+          {"remaining",
+           {{"structure", t.remaining.structure},
+            {"p_value", t.remaining.p_value},
+            {"note", t.remaining.note}}},
+          {"detectable", detectable_json(t.detectable)},
+          {"tried",
+           {{"columns", t.n_columns}, {"directions", t.n_candidates}, {"sign_flips", t.n_flips}}},
+          {"not_identifiable", t.not_identifiable},
+          {"rejected", t.rejected},
+          {"notes", t.notes}};
+}
+
+OrderStructure parse_order(const Json& j) {
+  return {j.at("structure"),        j.at("column"),        number(j.at("p_value")),
+          number(j.at("size_MPa")), number(j.at("share")), j.at("law_holds_it_at")};
+}
+
+Trace parse_one(const Json& j) {
+  Trace t;
+  t.model = j.at("model");
+  t.extended_model = parse_derived(j.at("extended_model"));
+  t.verdict = parse_verdict(j.at("verdict"));
+  t.alpha = j.at("alpha");
+  for (const Json& effect : j.at("effects"))
+    t.effects.push_back(parse_effect_json(effect));
+  t.before = parse_errors(j.at("before"));
+  t.recalibrated = parse_errors(j.at("recalibrated"));
+  t.after = parse_errors(j.at("after"));
+  const Json& gain = j.at("improvement");
+  t.improvement = {number(gain.at("validation_mae_MPa")),
+                   {number(gain.at("interval_95").at(0)), number(gain.at("interval_95").at(1))},
+                   number(gain.at("p_value"))};
+  t.noise_floor.mae_MPa = number(j.at("noise_floor").at("mae_MPa"));
+  t.noise_floor.rmse_MPa = number(j.at("noise_floor").at("rmse_MPa"));
+  t.noise_floor.method = j.at("noise_floor").at("method");
+  const Json& scatter = j.at("scatter_between_experiments");
+  t.scatter_between = number(scatter.at("share"));
+  t.scatter_interval = {number(scatter.at("interval_95").at(0)),
+                        number(scatter.at("interval_95").at(1))};
+  if (!scatter.at("repeatability").is_null()) t.repeatability = scatter.at("repeatability");
+  t.order = parse_order(j.at("order_of_tests"));
+  t.remaining = {j.at("remaining").at("structure"), number(j.at("remaining").at("p_value")),
+                 j.at("remaining").at("note")};
+  for (const Json& d : j.at("detectable"))
+    t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")), d.at("acts_on"),
+                            number(d.at("size_MPa")), number(d.at("share")), d.at("identifiable")});
+  t.n_columns = j.at("tried").at("columns");
+  t.n_candidates = j.at("tried").at("directions");
+  t.n_flips = j.at("tried").at("sign_flips");
+  t.not_identifiable = j.at("not_identifiable").get<std::vector<std::string>>();
+  t.rejected = j.at("rejected").get<std::vector<std::string>>();
+  t.notes = j.at("notes").get<std::vector<std::string>>();
+  return t;
+}
+
+} // namespace
+
+std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
+  Json j = {{"schema", "frictab/trace/1"},
+            {"tool_version", FRICTAB_VERSION},
+            {"synthetic_data", synthetic}};
+  j.update(one_json(traces.front()));
+  Json others = Json::array();
+  for (std::size_t i = 1; i < traces.size(); ++i)
+    others.push_back(one_json(traces[i]));
+  if (!others.empty()) j["others"] = others;
+  return json_text(j);
+}
+
+std::vector<Trace> parse_traces(std::string_view text, const std::string& file) {
+  const Json j = parse_json(text, file);
+  try {
+    std::vector<Trace> traces{parse_one(j)};
+    if (j.contains("others"))
+      for (const Json& other : j.at("others"))
+        traces.push_back(parse_one(other));
+    return traces;
+  } catch (const nlohmann::ordered_json::exception& error) {
+    std::string what = error.what();
+    what = what.substr(std::min(what.size(), what.find("] ") + 2));
+    throw InputError({file, 0, 0}, "not as frictab writes it: " + what, "trace again");
+  }
+}
+
+} // namespace frictab

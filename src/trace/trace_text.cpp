@@ -1,0 +1,101 @@
+// A trace in words.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "trace/trace_file.h"
+
+namespace frictab {
+
+namespace {
+
+std::string mae_line(const char* what, const TraceErrors& e) {
+  const auto one = [](const Metrics& m) {
+    return fmt::format(
+        "{:8.2f}{:>18}{:9.2f}{:9.2f}", m.mae_MPa,
+        std::isfinite(m.mae_interval.low)
+            ? fmt::format("{:.2f} .. {:.2f}", m.mae_interval.low, m.mae_interval.high)
+            : "-",
+        m.rmse_MPa, m.bias_MPa);
+  };
+  return fmt::format("  {:<14}{}{:10.2f}\n", what, one(e.validation), e.training.mae_MPa);
+}
+
+std::string place_text(const std::string& acts_on) {
+  return acts_on == "mu" ? "on mu" : acts_on == "m" ? "on the limit" : "added to tau_R";
+}
+
+std::string parameter_text(const TracedEffect& effect) {
+  std::string text;
+  for (const TracedParameter& p : effect.parameters)
+    if (std::isfinite(p.std_error))
+      text += fmt::format("{}{} = {:.4g} +- {:.2g}{}", text.empty() ? "" : ", ", p.name, p.value,
+                          p.std_error, p.unit == "1" ? "" : " " + p.unit);
+  return text;
+}
+
+void add_effect(std::string& out, const TracedEffect& e) {
+  out += fmt::format("  + {}: {}, {}, p = {:.3g}, gains {:.2f} MPa on unseen experiments\n",
+                     cause_text(e), e.placed.form->name, place_text(e.placed.acts_on), e.p_value,
+                     e.gain_MPa);
+  out += fmt::format("      {}: {}\n", e.placed.form->formula, parameter_text(e));
+  std::vector<std::string> same;
+  for (const Alternative& a : e.alternatives)
+    if (a.in_set) same.push_back(a.derived.empty() ? join(a.columns, " x ") : a.derived);
+  if (!same.empty())
+    out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
+  if (!e.discriminating.empty()) out += fmt::format("      would decide: {}\n", e.discriminating);
+}
+
+} // namespace
+
+std::string cause_text(const TracedEffect& effect) {
+  const std::string& one = effect.placed.column;
+  std::string text = effect.placed.column2.empty() ? one : one + " x " + effect.placed.column2;
+  if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
+  return text;
+}
+
+std::string trace_text(const Trace& t) {
+  std::string out = fmt::format("\nWhat {} lacks, by its residual: {}\n", t.model,
+                                t.verdict == Verdict::effect_added      ? "effect added"
+                                : t.verdict == Verdict::nothing_missing ? "nothing is missing"
+                                                                        : "unexplained structure");
+  for (const TracedEffect& effect : t.effects)
+    add_effect(out, effect);
+  if (!t.effects.empty()) {
+    out += fmt::format("  {:<14}{:>8}{:>18}{:>9}{:>9}{:>10}\n", "tau_R, MPa", "MAE",
+                       "95 % interval", "RMSE", "bias", "train MAE");
+    out += mae_line("before", t.before) + mae_line("after", t.after);
+    out += fmt::format("  gained on unseen experiments: {:.2f} MPa (95 %: {:.2f} to {:.2f}, paired "
+                       "by experiment)\n",
+                       t.improvement.value_MPa, t.improvement.interval.low,
+                       t.improvement.interval.high);
+  }
+  out += fmt::format("  noise floor by the noise model: {:.2f} MPa\n", t.noise_floor.mae_MPa);
+  out += "  left: " + t.remaining.note + "\n";
+  for (const std::string& rejected : t.rejected)
+    out += "  not added: " + rejected + "\n";
+  out += fmt::format("  tried: {} quantities in {} directions; a false alarm has a probability of "
+                     "{:g}, over all of them\n",
+                     t.n_columns, thousands(t.n_candidates), t.alpha);
+  return out;
+}
+
+std::string power_text(const Trace& t) {
+  if (t.detectable.empty()) return "";
+  std::string out =
+      "\nSmallest effect on mu that this campaign would have shown (80 % of the time, "
+      "straight line over the column's range; root mean square of tau_R):\n";
+  for (const Detectable& d : t.detectable)
+    out += d.identifiable
+               ? fmt::format("  {:<20}{:8.2f} MPa{:8.2f} %\n", d.column, d.size_MPa, 100 * d.share)
+               : fmt::format("  {:<20}  cannot be seen: the law's own parameters imitate it\n",
+                             d.column);
+  out += "  Twice as many experiments would show effects 0.7 times as large; twice the spread of a "
+         "column, effects per unit half as large.\n";
+  return out;
+}
+
+} // namespace frictab
