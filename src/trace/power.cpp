@@ -46,7 +46,7 @@ void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
       const Direction& direction = screened.directions[d];
       if (direction.source != s || direction.place != 0) continue;
       const GridShape& shape = search.shapes[s][direction.shape];
-      if (shape.effect.form->name != "linear" && !shape.effect.form->categorical) continue;
+      if (fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical) continue;
       const double statistic =
           amplitude_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);
       VectorXd change = shape.direction.cast<double>();
