@@ -52,6 +52,35 @@ bool same_values(const VectorXd& a, const VectorXd& b) {
   return xx > 0 && yy > 0 && xy * xy > (1 - 1e-9) * xx * yy;
 }
 
+double widest_gap(Rows values) {
+  constexpr std::size_t parts = 30;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  double widest = 0;
+  for (std::size_t i = 0; i < parts; ++i)
+    widest = std::max(widest, sorted[(i + 1) * (sorted.size() - 1) / parts] -
+                                  sorted[i * (sorted.size() - 1) / parts]);
+  return widest;
+}
+
+// A form with a place and a width has structure of that width there.
+bool is_local(const PlacedEffect& effect) {
+  const auto& all = effect.form->parameters;
+  const auto fitted = fitted_parameters(effect);
+  const auto has = [&](bool width) {
+    return std::any_of(fitted.begin() + static_cast<long>(effect.form->amplitudes), fitted.end(),
+                       [&](const Parameter& p) { return (p.lower > 0) == width; });
+  };
+  return !effect.form->categorical && all.size() > 2 &&
+         fitted.size() > effect.form->amplitudes + 1 && has(true) && has(false);
+}
+
+double gap_of(const std::string& column, const Candidates& candidates) {
+  for (const CandidateColumn& c : candidates.columns)
+    if (c.name == column) return c.gap;
+  return 0;
+}
+
 class Finder {
 public:
   Finder(const Dataset& training, const Dataset& validation, const Blocks& blocks, Rows predicted,
@@ -126,6 +155,7 @@ private:
     column.values = blocks_.mean(values);
     column.spread = spread_of(values);
     column.within = varies_within(values, training_);
+    column.gap = widest_gap(values);
     column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
     found_.by_symbol[symbol_of(name)] = column.values;
     if (const auto twin = std::find_if(
@@ -253,6 +283,14 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
   return true;
 }
 
+// Structure between values that were never tested.
+bool too_narrow(const PlacedEffect& effect, double gap) {
+  if (!is_local(effect)) return false;
+  for (std::size_t p = effect.form->amplitudes; p < effect.parameters.size(); ++p)
+    if (effect.form->parameters[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
+  return false;
+}
+
 // d factor/d amplitude at amplitude 0, per block.
 Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
   const auto& form = *effect.form;
@@ -329,6 +367,7 @@ std::vector<GridShape> shapes_of(const Source& source, const Candidates& candida
       grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
     for (const auto& values : grid) {
       std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
+      if (too_narrow(effect, x.gap)) continue;
       shapes.push_back({effect, amplitude_direction(effect, candidates.by_symbol)});
     }
   }
@@ -336,16 +375,19 @@ std::vector<GridShape> shapes_of(const Source& source, const Candidates& candida
   return shapes;
 }
 
-void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> effects) {
+void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
+                  const Candidates& candidates) {
   std::size_t next = own;
   for (const PlacedEffect& effect : effects) {
     const std::size_t count = fitted_parameters(effect).size();
     const std::size_t first = next + (effect.form->categorical ? count : effect.form->amplitudes);
     const double span = effect.high - effect.low;
+    const double least =
+        is_local(effect) ? std::max(span / 60, 0.5 * gap_of(effect.column, candidates)) : span / 60;
     for (std::size_t p = first; p < next + count; ++p) {
       Parameter& parameter = extended.parameters[p];
       const bool width = parameter.lower > 0;
-      parameter.lower = width ? span / 60 : effect.low;
+      parameter.lower = width ? least : effect.low;
       parameter.upper = width ? 6 * span : effect.high;
       parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
     }

@@ -19,6 +19,7 @@ struct CandidateColumn {
   Eigen::VectorXd values;          // per block
   Spread spread;                   // over rows
   bool within = false;             // varies within experiments
+  double gap = 0;                  // the widest part of the range that hardly any row is in
   bool in_law = false;             // the law uses it: its form may be wrong
 };
 
@@ -68,8 +69,10 @@ PlacedEffect start_effect(const EffectForm& form, const Source& source,
                           double tau_scale_MPa);
 // Whether the form has a meaning for the source: logarithms need positive values, ...
 bool form_fits(const EffectForm& form, const Source& source, const Candidates& candidates);
-// Bounds of a fit inside what the data can tell: places inside the range, widths like it.
-void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const PlacedEffect> effects);
+// Bounds of a fit inside what the data can tell: places inside the range, widths like it, and not
+// below half of the widest gap between values that were tested: what lies there nobody has seen.
+void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const PlacedEffect> effects,
+                  const Candidates& candidates);
 
 std::string source_name(const Source& source, const Candidates& candidates);
 // 0 a recorded column, 1 derived, 4 a pair.

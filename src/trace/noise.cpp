@@ -2,7 +2,6 @@
 #include "trace/noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -20,18 +19,6 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 constexpr double least_share = 0.05; // of the mean tau: noise that grows with tau does not vanish
-
-MatrixXd within(const NoiseModel& noise, Index size) {
-  MatrixXd k(size, size);
-  std::vector<double> powers(static_cast<std::size_t>(size), 1.0);
-  for (std::size_t i = 1; i < powers.size(); ++i)
-    powers[i] = powers[i - 1] * noise.rho;
-  for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j)
-      k(i, j) = noise.slow * noise.slow * powers[static_cast<std::size_t>(std::abs(i - j))];
-  k.diagonal().array() += noise.white * noise.white;
-  return k;
-}
 
 // Random effects of one experiment as two columns, already within-whitened: their directions.
 struct Shared {
@@ -68,73 +55,103 @@ MatrixXd orthonormal(const MatrixXd& columns) {
 }
 
 Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const std::size_t> first,
-                   const MatrixXd& nuisance) {
+                   const MatrixXd& nuisance)
+    : rho_(noise.rho) {
   const Eigen::ArrayXd d = (tau.array() / noise.scale).max(least_share).pow(noise.growth);
   shrink_ = d.inverse().matrix();
-  log_det_.resize(static_cast<Index>(first.size() - 1));
-  variance_ = (noise.additive * noise.additive +
-               noise.multiplicative * noise.multiplicative * tau.array().square() +
-               d.square() * (noise.slow * noise.slow + noise.white * noise.white))
-                  .matrix();
-  std::map<Index, double> log_dets;
-  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-    Part part;
-    part.first = static_cast<Index>(first[e]);
-    part.size = static_cast<Index>(first[e + 1] - first[e]);
-    auto [found, fresh] = inverses_.try_emplace(part.size);
-    if (fresh) {
-      const Eigen::LLT<MatrixXd> cholesky(within(noise, part.size));
-      found->second.first = cholesky.matrixL().solve(MatrixXd::Identity(part.size, part.size));
-      found->second.second = found->second.first.cast<float>();
-      log_dets[part.size] = 2 * MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
-    }
-    part.inverse = &found->second.first;
-    part.inverse_f = &found->second.second;
-    MatrixXd effects(part.size, 2);
-    effects.col(0).setConstant(noise.additive);
-    effects.col(1) = noise.multiplicative * tau.segment(part.first, part.size);
-    effects = *part.inverse * (shrink_.segment(part.first, part.size).asDiagonal() * effects);
-    Shared shared = shared_effects(effects);
-    part.q = std::move(shared.q);
-    part.c = std::move(shared.c);
+  const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
+  const Eigen::ArrayXd shared = noise.additive * noise.additive +
+                                noise.multiplicative * noise.multiplicative * tau.array().square();
+  variance_ = (shared + d.square() * (slow + white)).matrix();
+  std::size_t longest = 0;
+  for (std::size_t e = 0; e + 1 < first.size(); ++e)
+    longest = std::max(longest, first[e + 1] - first[e]);
+  std::vector<double> log_det(longest + 1, 0.0); // of the first so many places
+  double predicted = slow;
+  for (std::size_t i = 0; i < longest; ++i) {
+    const double innovation = predicted + white;
+    gain_.push_back(predicted / innovation);
+    scale_.push_back(1 / std::sqrt(innovation));
+    log_det[i + 1] = log_det[i] + std::log(innovation);
+    predicted = rho_ * rho_ * predicted * (1 - gain_.back()) + slow * (1 - rho_ * rho_);
+  }
+  MatrixXd effects(tau.size(), 2);
+  effects.col(0).setConstant(noise.additive);
+  effects.col(1) = noise.multiplicative * tau;
+  for (std::size_t e = 0; e + 1 < first.size(); ++e)
+    parts_.push_back({static_cast<Index>(first[e]),
+                      static_cast<Index>(first[e + 1] - first[e]),
+                      {},
+                      {},
+                      {},
+                      {}});
+  filter(effects);
+  log_det_.resize(static_cast<Index>(parts_.size()));
+  for (std::size_t e = 0; e < parts_.size(); ++e) {
+    Part& part = parts_[e];
+    const Shared both = shared_effects(effects.middleRows(part.first, part.size));
+    part.q = both.q;
+    part.qc = both.q * both.c.asDiagonal();
     part.q_f = part.q.cast<float>();
-    part.qc_f = (part.q * part.c.asDiagonal()).cast<float>();
+    part.qc_f = part.qc.cast<float>();
     log_det_(static_cast<Index>(e)) =
-        log_dets[part.size] + shared.log_det -
+        log_det[static_cast<std::size_t>(part.size)] + both.log_det -
         2 * shrink_.segment(part.first, part.size).array().log().sum();
-    parts_.push_back(std::move(part));
   }
   if (nuisance.cols() == 0) return;
-  MatrixXd white = nuisance;
-  apply(white);
-  const Eigen::LLT<MatrixXd> information(white.transpose() * white +
-                                         1e-10 * (white.transpose() * white).trace() *
-                                             MatrixXd::Identity(white.cols(), white.cols()));
+  MatrixXd whitened = nuisance;
+  apply(whitened);
+  const Eigen::LLT<MatrixXd> information(whitened.transpose() * whitened +
+                                         1e-10 * (whitened.transpose() * whitened).trace() *
+                                             MatrixXd::Identity(whitened.cols(), whitened.cols()));
   nuisance_log_det_ = 2 * MatrixXd(information.matrixL()).diagonal().array().log().sum();
-  nuisance_ = orthonormal(white);
+  nuisance_ = orthonormal(whitened);
   nuisance_f_ = nuisance_.cast<float>();
 }
 
+// Innovations over their standard deviation, along each experiment; several columns at a time, so
+// that a processor does not wait for the one before.
+template <class Matrix> void Whitener::filter(Matrix& columns) const {
+  using Number = typename Matrix::Scalar;
+  constexpr Index lanes = 8;
+  const auto rho = static_cast<Number>(rho_);
+  for (Index c = 0; c < columns.cols(); c += lanes) {
+    const Index width = std::min(lanes, columns.cols() - c);
+    for (const Part& part : parts_) {
+      Number state[lanes] = {};
+      Number* value[lanes];
+      for (Index l = 0; l < width; ++l)
+        value[l] = &columns(part.first, c + l);
+      for (Index i = 0; i < part.size; ++i) {
+        const auto shrink = static_cast<Number>(shrink_(part.first + i));
+        const auto gain = static_cast<Number>(gain_[static_cast<std::size_t>(i)]);
+        const auto scale = static_cast<Number>(scale_[static_cast<std::size_t>(i)]);
+        for (Index l = 0; l < width; ++l) {
+          const Number v = value[l][i] * shrink - state[l];
+          state[l] = rho * (state[l] + gain * v);
+          value[l][i] = v * scale;
+        }
+      }
+    }
+  }
+}
+
 void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
+  filter(columns);
   for (const Part& part : parts_) {
     auto rows = columns.middleRows(part.first, part.size);
-    const MatrixXd shrunk = shrink_.segment(part.first, part.size).asDiagonal() * rows;
-    MatrixXd white(shrunk.rows(), shrunk.cols());
-    white.noalias() = *part.inverse * shrunk;
-    rows = white - part.q * (part.c.asDiagonal() * (part.q.transpose() * white));
+    const MatrixXd along = part.q.transpose() * rows;
+    rows.noalias() -= part.qc * along;
   }
   if (nuisance_.cols() > 0) columns -= nuisance_ * (nuisance_.transpose() * columns).eval();
 }
 
 void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
-  const Eigen::VectorXf shrink = shrink_.cast<float>();
+  filter(columns);
   for (const Part& part : parts_) {
     auto rows = columns.middleRows(part.first, part.size);
-    const MatrixXf shrunk = shrink.segment(part.first, part.size).asDiagonal() * rows;
-    MatrixXf white(shrunk.rows(), shrunk.cols());
-    white.noalias() = *part.inverse_f * shrunk;
-    rows = white;
-    rows.noalias() -= part.qc_f * (part.q_f.transpose() * white);
+    const MatrixXf along = part.q_f.transpose() * rows;
+    rows.noalias() -= part.qc_f * along;
   }
   if (nuisance_.cols() > 0) columns -= nuisance_f_ * (nuisance_f_.transpose() * columns).eval();
 }

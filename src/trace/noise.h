@@ -2,7 +2,6 @@
 // every test of the trace stage.
 #pragma once
 
-#include <map>
 #include <span>
 #include <vector>
 
@@ -24,7 +23,9 @@ struct NoiseModel {
   double scale = 1; // MPa, mean predicted tau
 };
 
-// V^-1/2 of all experiments, which are independent; behind it, nuisance columns are projected out.
+// V^-1/2 of all experiments, which are independent: the slow and white noise by their innovations
+// (Kalman filter, a few operations per value), the random effects as two directions; behind it,
+// nuisance columns are projected out.
 class Whitener {
 public:
   // `tau`: predicted, per block; `first`: blocks of each experiment; `nuisance`: directions of
@@ -43,15 +44,16 @@ public:
   const Eigen::VectorXd& variance() const { return variance_; }
 
 private:
+  template <class Matrix> void filter(Matrix& columns) const;
+
   struct Part {
     Eigen::Index first, size;
-    const Eigen::MatrixXd* inverse; // of the Cholesky factor, within an experiment of this size
-    const Eigen::MatrixXf* inverse_f;
-    Eigen::MatrixXd q; // orthonormal directions of the random effects
-    Eigen::VectorXd c; // what is taken off along them
+    Eigen::MatrixXd q;  // orthonormal directions of the random effects
+    Eigen::MatrixXd qc; // and what is taken off along them
     Eigen::MatrixXf q_f, qc_f;
   };
-  std::map<Eigen::Index, std::pair<Eigen::MatrixXd, Eigen::MatrixXf>> inverses_; // by size
+  double rho_ = 0;
+  std::vector<double> gain_, scale_; // of the filter, by place in the experiment
   std::vector<Part> parts_;
   Eigen::VectorXd shrink_; // 1/D
   Eigen::VectorXd log_det_, variance_;

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
 constexpr double per_complexity = 1.5; // and a step away from a recorded column
-constexpr std::size_t short_list = 14;
+constexpr std::size_t short_list = 12;
 
 // Start values of the extended law: the law's own, each effect's, and the limit's.
 std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
@@ -71,18 +71,25 @@ void judge(Rival& rival, const Campaign& campaign) {
 
 } // namespace
 
+Law bounded_law(const Campaign& campaign, const Rival& rival) {
+  const std::size_t own = campaign.law.parameters.size();
+  Law law = extended_law(campaign.law, campaign.conventions, std::span(rival.parameters).first(own),
+                         rival.effects, campaign.law.name);
+  bound_shapes(law, own, rival.effects, campaign.candidates);
+  return law;
+}
+
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Source> sources, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations) {
   const std::size_t own = campaign.law.parameters.size();
-  Law extended = extended_law(campaign.law, campaign.conventions, parameters.first(own), effects,
-                              campaign.law.name);
-  bound_shapes(extended, own, effects);
   Rival rival;
-  rival.parameters = start_of(extended, parameters, own, effects);
+  rival.parameters.assign(parameters.begin(), parameters.end());
   rival.effects = std::move(effects);
   rival.sources = std::move(sources);
   rival.noise = noise;
+  const Law extended = bounded_law(campaign, rival);
+  rival.parameters = start_of(extended, parameters, own, rival.effects);
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
   const auto refit = [&](const LawOnBlocks& with) {
@@ -105,6 +112,30 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
     refit(law);
   }
   take_parameters(rival, own);
+  rival.weights = rival.noise;
+  judge(rival, campaign);
+  return rival;
+}
+
+NoiseModel rows_alike(const NoiseModel& noise) {
+  NoiseModel alike;
+  alike.scale = noise.scale;
+  alike.slow = 0;
+  alike.rho = 0;
+  alike.white = std::hypot(noise.slow, noise.white);
+  return alike;
+}
+
+Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
+  const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
+                        campaign.candidates.by_symbol);
+  const Whitener whitener(weights, rival.predicted, campaign.blocks.first, campaign.nuisance);
+  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters);
+  rival.parameters = std::move(fit.parameters);
+  rival.predicted = std::move(fit.predicted);
+  rival.jacobian = std::move(fit.jacobian);
+  rival.weights = weights;
+  take_parameters(rival, campaign.law.parameters.size());
   judge(rival, campaign);
   return rival;
 }

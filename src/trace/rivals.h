@@ -26,6 +26,7 @@ struct Rival {
   std::vector<Source> sources;       // one per effect
   std::vector<double> parameters;    // of the extended law
   NoiseModel noise;
+  NoiseModel weights; // of the fit: the noise model, or alike for all rows
   Eigen::VectorXd predicted;
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd log_likelihood; // per experiment
@@ -38,6 +39,16 @@ struct Rival {
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Source> sources, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations = 25);
+
+// The same law with its parameters fitted under other weights.
+Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights);
+
+// All rows alike: ordinary least squares. Where the law is right, the noise model's weights predict
+// better; where it is not, they may lean on the few rows that are least correlated with others.
+NoiseModel rows_alike(const NoiseModel& noise);
+
+// Bound to its columns; shapes bounded by what the data can tell.
+Law bounded_law(const Campaign& campaign, const Rival& rival);
 
 // Directions of what is fitted already, for a test of what is not: parameters, and a spline of each
 // chosen quantity, so that a form that does not fit is not sold as another effect.

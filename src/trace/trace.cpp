@@ -32,7 +32,7 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // Covariance of the parameters: sandwich with whole experiments as clusters.
 MatrixXd covariance_of(const Campaign& campaign, const Rival& rival) {
-  const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
+  const Whitener whitener(rival.weights, rival.predicted, campaign.blocks.first, campaign.nuisance);
   MatrixXd jacobian = rival.jacobian;
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(jacobian);
@@ -130,8 +130,11 @@ private:
     ModelFit& fit = trace.extended;
     fit.model = model_of(search_.last);
     fit.std_error = standard_errors(covariance_);
-    fit.std_error_method = "cluster sandwich by experiment, weighted by the noise model";
-    fit.termination = "generalised least squares with the effects that tracing found";
+    fit.std_error_method = "cluster sandwich by experiment";
+    fit.termination = search_.last.weights.multiplicative > 0
+                          ? "generalised least squares under the noise model of the trace"
+                          : "least squares, which predicts left-out experiments better here than "
+                            "the noise model's weights";
     const std::vector<double> trained = predict(fit.model, in_.training);
     const std::vector<double> unseen = predict(fit.model, in_.validation);
     fit.training = errors(in_.training, trained);

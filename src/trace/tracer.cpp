@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -27,8 +28,9 @@ constexpr std::size_t least_experiments = 5; // 2^(1-5): a p-value below 0.07 be
 constexpr std::size_t flips = 999;
 constexpr int order_check_functions = 9;
 constexpr int order_nuisance_functions = 12;
-constexpr double beyond_order = 3;      // statistic that an effect keeps beside the order of tests
-constexpr double least_cv_gain = 0.002; // of the error of cross-validation
+constexpr double order_suspicion = 0.05; // p-value of the order's own test
+constexpr double beyond_order = 3;       // statistic that an effect keeps beside the order of tests
+constexpr double least_cv_gain = 0.004;  // of the error of cross-validation
 constexpr std::size_t cv_folds = 5;
 
 // A trained law (a network) could have absorbed much that its one parameter cannot show: quadratic
@@ -53,6 +55,26 @@ MatrixXd trained_directions(const Law& law, const Conventions& conventions,
   for (std::size_t i = 0; i < all.size(); ++i)
     directions.col(static_cast<Index>(i)) = all[i];
   return directions;
+}
+
+// A trained law is a large formula of which only the scale is fitted here: its piece becomes a
+// column, so that a fit costs what it costs for any other law.
+Law with_piece_as_column(const Law& law, const Conventions& conventions, const Blocks& blocks,
+                         const Dataset& data, BlockColumns& columns) {
+  const Formula formula = law.build(conventions);
+  const std::vector<std::string> names = inputs(law, conventions);
+  const Program piece(formula.value, names, parameter_names(law));
+  std::vector<const double*> rows;
+  for (const std::string& name : names)
+    rows.push_back(data.values(name).data());
+  std::vector<double> value(data.rows());
+  piece.evaluate(data.rows(), rows, std::vector<double>(law.parameters.size(), 1.0), value.data());
+  columns["trained_piece"] = blocks.mean(value);
+  Law surrogate = law;
+  const Formula with{Expr::symbol(law.parameters.front().name) * Expr::symbol("trained_piece"),
+                     formula.combine};
+  surrogate.build = [with](const Conventions&) { return with; };
+  return surrogate;
 }
 
 class Tracer {
@@ -86,8 +108,13 @@ private:
                                           inputs(*in_.fit.model.law, in_.fit.model.conventions),
                                           {in_.options.ignore, in_.options.tool_distance});
     search_->order.column = search_->candidates.order_column;
+    search_->surrogate = *in_.fit.model.law;
+    if (is_trained())
+      search_->surrogate =
+          with_piece_as_column(*in_.fit.model.law, in_.fit.model.conventions, search_->blocks,
+                               in_.training, search_->candidates.by_symbol);
     search_->campaign =
-        std::make_unique<Campaign>(Campaign{*in_.fit.model.law,
+        std::make_unique<Campaign>(Campaign{search_->surrogate,
                                             in_.fit.model.conventions,
                                             search_->blocks,
                                             search_->candidates,
@@ -105,6 +132,8 @@ private:
     });
   }
 
+  bool is_trained() const { return in_.fit.model.law->calibrated == Calibrated::train; }
+
   Campaign& campaign() { return *search_->campaign; }
   std::span<const std::size_t> first() { return search_->blocks.first; }
 
@@ -113,8 +142,8 @@ private:
     const LawOnBlocks law(campaign().law, campaign().conventions, search_->candidates.by_symbol);
     MatrixXd jacobian;
     const VectorXd predicted = law.predict(start, jacobian);
-    if (campaign().law.calibrated == Calibrated::train)
-      trained_ = trained_directions(campaign().law, campaign().conventions,
+    if (is_trained())
+      trained_ = trained_directions(*in_.fit.model.law, campaign().conventions,
                                     search_->candidates.by_symbol, predicted);
     const NoiseFit noise =
         first_noise(campaign().measured - predicted, predicted, first(), jacobian, trained_);
@@ -176,6 +205,7 @@ private:
     if (search_->order.found || search_->candidates.order_column.empty() ||
         !constant_in_experiments(rival.sources.back(), search_->candidates))
       return false;
+    if (order_p_value_now() > order_suspicion) return false;
     const int count = std::min<int>(order_check_functions,
                                     static_cast<int>(search_->candidates.order.size() / 4));
     const MatrixXd waves = on_blocks(order_functions(search_->candidates.order, count),
@@ -245,13 +275,17 @@ private:
     search_->order.share = search_->order.size_MPa / search_->tau_scale_MPa;
   }
 
-  void look_along_the_order() {
+  double order_p_value_now() {
     const MatrixXd known = fitted();
-    if (search_->order.found) return;
     const VectorXd scores =
         experiment_scores(campaign().measured - search_->last.predicted, search_->sensitivities[0],
                           known, whitener(), first());
-    const double p = order_p_value(scores, search_->candidates.order, flips, in_.seed);
+    return order_p_value(scores, search_->candidates.order, flips, in_.seed);
+  }
+
+  void look_along_the_order() {
+    if (search_->order.found) return;
+    const double p = order_p_value_now();
     search_->order.p_value = p;
     if (p > in_.options.alpha) return;
     if (search_->candidates.order_column.empty()) { // the file's order may be that of the design
@@ -291,10 +325,10 @@ private:
   }
 
   // Mean absolute error on experiments left out of the fit.
-  double cross_validated(const Rival& rival) {
-    const Law law = extended(rival);
-    const LawOnBlocks on(law, campaign().conventions, search_->candidates.by_symbol);
-    const Whitener weights(rival.noise, rival.predicted, first());
+  double cross_validated(const Rival& rival, const NoiseModel& weights) {
+    const LawOnBlocks on(bounded_law(campaign(), rival), campaign().conventions,
+                         search_->candidates.by_symbol);
+    const Whitener whitener(weights, rival.predicted, first());
     const std::size_t experiments = search_->blocks.experiments();
     const std::size_t folds = std::min(cv_folds, experiments);
     const auto fold = experiment_folds(experiments, folds, in_.seed, 0);
@@ -306,21 +340,23 @@ private:
           use.segment(static_cast<Index>(first()[e]),
                       static_cast<Index>(first()[e + 1] - first()[e]))
               .setZero();
-      const BlockFit fit = fit_blocks(on, campaign().measured, weights, rival.parameters, use);
+      const BlockFit fit = fit_blocks(on, campaign().measured, whitener, rival.parameters, use);
       errors[f] = ((1 - use.array()) * (campaign().measured - fit.predicted).array().abs()).sum();
     });
-    double sum = 0;
-    for (const double error : errors)
-      sum += error;
-    return sum / static_cast<double>(campaign().measured.size());
+    return std::accumulate(errors.begin(), errors.end(), 0.0) /
+           static_cast<double>(campaign().measured.size());
   }
 
-  Law extended(const Rival& rival) {
-    Law law = extended_law(campaign().law, campaign().conventions,
-                           std::span(rival.parameters).first(campaign().law.parameters.size()),
-                           rival.effects, "cross-validated");
-    bound_shapes(law, campaign().law.parameters.size(), rival.effects);
-    return law;
+  // Under the better of two weightings, which is how the law would be delivered.
+  double cross_validated(const Rival& rival) {
+    return std::min(cross_validated(rival, rival.noise),
+                    cross_validated(rival, rows_alike(rival.noise)));
+  }
+
+  Rival delivered(const Rival& rival) {
+    const NoiseModel alike = rows_alike(rival.noise);
+    const bool plain = cross_validated(rival, alike) < cross_validated(rival, rival.noise);
+    return plain ? with_weights(campaign(), rival, alike) : rival;
   }
 
   void drop_what_does_not_pay() {
@@ -373,8 +409,13 @@ private:
   }
 
   void screen_what_is_left() {
+    // (Before the parameters are delivered: the test belongs to the noise model's weights.)
     search_->last_screen = screen_now(true);
     search_->last_p_value = search_->last_screen.p_value;
+    search_->base = delivered(search_->base);
+    search_->last = search_->last.effects.empty() && !search_->order.found
+                        ? search_->base
+                        : delivered(search_->last);
   }
 
   const TraceInput& in_;

@@ -20,7 +20,8 @@ struct Finding {
 struct Search {
   Candidates candidates;
   Blocks blocks;
-  std::unique_ptr<Campaign> campaign; // refers to the two above
+  Law surrogate;                      // of a trained law: what the training found, as a column
+  std::unique_ptr<Campaign> campaign; // refers to the three above
   Sensitivities sensitivities;        // at the end
   double tau_scale_MPa = 1;
   Rival base;                    // without effects
