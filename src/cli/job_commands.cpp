@@ -9,7 +9,7 @@
 
 namespace frictab {
 
-int run_stages(const std::string& file, const CommonOptions& common, Stages stages) {
+int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
   Job job = read_job(file, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (common.seed) job.calibration.seed = *common.seed;
@@ -43,6 +43,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
 
 void all_stages(Pipeline& p) {
   p.calibrate();
+  p.trace(false);
   p.check_sizes();
   p.tabulate();
   p.generate();
@@ -63,7 +64,7 @@ Command stage(int order, const char* name, const char* title,
 
 const Registered<Command> run{[] {
   return stage(
-      2, "run", "Everything: calibrate, tabulate, export, verify, report",
+      2, "run", "Everything: calibrate, trace, tabulate, export, verify, report",
       [](CLI::App& app, const CommonOptions& common) { return declare(app, common, all_stages); });
 }};
 const Registered<Command> calibrate{[] {
@@ -79,7 +80,7 @@ const Registered<Command> tabulate{[] {
                });
 }};
 const Registered<Command> report{[] {
-  return stage(7, "report", "Write report.html from the results so far",
+  return stage(8, "report", "Write report.html from the results so far",
                [](CLI::App& app, const CommonOptions& common) {
                  return declare(app, common, [](Pipeline& p) { p.report(); });
                });

@@ -6,6 +6,7 @@
 
 #include "calibrate/calibration.h"
 #include "table/table.h"
+#include "trace/trace.h"
 #include "verify/forms.h"
 #include "verify/verification.h"
 
@@ -21,6 +22,7 @@ struct ReportInput {
   const Verification& verification;
   std::vector<std::string> files;         // written, relative to the output directory
   std::vector<FormComparison> forms = {}; // per table, sizes only: times differ from run to run
+  std::vector<Trace> traces = {};         // empty: nothing was traced
 };
 
 // One self-contained page that opens offline: ranking, measured against predicted and residual

@@ -16,6 +16,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input); // with the pl
 void add_comparisons(TemplateValues& page, const ReportInput& input);
 void add_errors(TemplateValues& page, const ReportInput& input); // with the noise floors
 void add_conditional(TemplateValues& page, const ReportInput& input);
+void add_trace(TemplateValues& page, const ReportInput& input);
 void add_published_figures(TemplateValues& page, const ReportInput& input);
 void add_data(TemplateValues& page, const ReportInput& input);
 void add_tables(TemplateValues& page, const ReportInput& input);

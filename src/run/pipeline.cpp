@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/comparison.h"
 #include "calibrate/folds.h"
 #include "codegen/exporter.h"
 #include "codegen/recipe.h"
@@ -23,6 +24,7 @@
 #include "table/direct.h"
 #include "table/stream.h"
 #include "table/table_file.h"
+#include "trace/trace_file.h"
 #include "verify/verify.h"
 
 namespace frictab {
@@ -180,15 +182,76 @@ std::string Pipeline::export_directory(const std::string& target, const Table& t
   return "export/" + target + (tables_.size() > 1 ? "/" + table.model : "");
 }
 
+void Pipeline::write_calibration() {
+  output_.write("calibration.json", calibration_json(*calibration_));
+  output_.write("benchmark.md", benchmark_md(*calibration_));
+  for (const ModelFit& fit : calibration_->fits)
+    output_.write("models/" + fit.model.law->name + ".json", model_json(fit, *calibration_));
+}
+
 void Pipeline::calibrate() {
   need_data();
   calibration_ = frictab::calibrate({*training_, *validation_, job_.models, job_.calibration});
   for (const std::string& name : model_names())
     output_.remove_old("models/" + name + ".json");
-  output_.write("calibration.json", calibration_json(*calibration_));
-  output_.write("benchmark.md", benchmark_md(*calibration_));
-  for (const ModelFit& fit : calibration_->fits)
-    output_.write("models/" + fit.model.law->name + ".json", model_json(fit, *calibration_));
+  output_.remove_old("trace.json"); // of another calibration
+  new_calibration_ = true;
+  write_calibration();
+}
+
+namespace {
+
+bool is_traced(const ModelFit& fit) {
+  return fit.model.law->name.ends_with(traced_suffix);
+}
+
+} // namespace
+
+std::vector<const ModelFit*> Pipeline::fits_to_trace() const {
+  std::vector<const ModelFit*> chosen;
+  for (const std::string& name : job_.trace.models)
+    for (const ModelFit& fit : calibration_->fits) {
+      const bool fixed = fit.model.law->calibrated == Calibrated::fixed ||
+                         fit.model.law->calibrated == Calibrated::mean;
+      if (name == "all" ? fixed : name != "best" && name != fit.model.law->name) continue;
+      if (std::find(chosen.begin(), chosen.end(), &fit) == chosen.end()) chosen.push_back(&fit);
+      if (name == "best") break;
+    }
+  return chosen;
+}
+
+void Pipeline::trace(bool required) {
+  need_data();
+  need_calibration();
+  if (!required && training_->experiments.size() < trace_experiments) {
+    notes_.push_back(fmt::format("not traced: {} experiments are too few to tell an effect from "
+                                 "noise (at least {})",
+                                 training_->experiments.size(), trace_experiments));
+    return;
+  }
+  std::erase_if(calibration_->fits, is_traced); // of an earlier trace
+  for (const std::string& name : model_names())
+    output_.remove_old("models/" + name + ".json");
+  const auto chosen = fits_to_trace();
+  if (chosen.empty())
+    throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
+                     "\"best\", or a name from the ranking");
+  for (const ModelFit* fit : chosen)
+    traces_.push_back(frictab::trace({*training_, *validation_, *fit, job_.trace,
+                                      job_.calibration.bootstrap, job_.calibration.seed}));
+  add_traced_laws();
+  output_.write("trace.json", trace_json(traces_, calibration_->synthetic));
+}
+
+void Pipeline::add_traced_laws() {
+  for (const Trace& trace : traces_)
+    if (trace.extended.model.law) calibration_->fits.push_back(trace.extended);
+  std::stable_sort(calibration_->fits.begin(), calibration_->fits.end(),
+                   [](const ModelFit& a, const ModelFit& b) {
+                     return a.validation.mae_MPa < b.validation.mae_MPa;
+                   });
+  add_comparisons(*calibration_, {*training_, *validation_, job_.models, job_.calibration});
+  write_calibration();
 }
 
 std::vector<Model> Pipeline::chosen_models() {
@@ -389,6 +452,9 @@ void Pipeline::report() {
     verification_ =
         fs::exists(file) ? parse_verification(read_file(file), file.string()) : Verification{};
   }
+  if (const fs::path file = fs::path(job_.directory) / "trace.json";
+      traces_.empty() && !new_calibration_ && fs::exists(file))
+    traces_ = parse_traces(read_file(file), file.string());
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
     predicted.push_back(predict(fit.model, *validation_));
@@ -405,7 +471,8 @@ void Pipeline::report() {
                           tables_,
                           *verification_,
                           std::move(written),
-                          std::move(sizes)};
+                          std::move(sizes),
+                          traces_};
   output_.write("report.html", report_html(input));
 }
 

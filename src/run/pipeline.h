@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "table/table.h"
+#include "trace/trace.h"
 #include "verify/forms.h"
 #include "verify/verification.h"
 
@@ -24,6 +25,9 @@ public:
 
   // Stages; each stages its files in the output directory. Nothing appears there before commit().
   void calibrate();
+  // Searches the residuals of trace.models; laws with effects join the calibration. With too few
+  // experiments: an InputError where `required`, else a note.
+  void trace(bool required);
   // Throws InputError where a table that tabulate() would stream to disk is too large for the
   // sources that are asked for: before hours of sampling.
   void check_sizes();
@@ -40,6 +44,7 @@ public:
   const std::optional<Dataset>& training() const { return training_; }
   const std::optional<Dataset>& validation() const { return validation_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
+  const std::vector<Trace>& traces() const { return traces_; }
   const std::vector<Table>& tables() const { return tables_; }
   const std::optional<Verification>& verification() const { return verification_; }
   // Tables made in this run that drift further than allowed, in words.
@@ -51,6 +56,9 @@ public:
 private:
   void need_data();
   void need_calibration();
+  void write_calibration();
+  std::vector<const ModelFit*> fits_to_trace() const;
+  void add_traced_laws();
   std::vector<std::filesystem::path> table_files() const;
   void need_tables();
   std::vector<Model> chosen_models();
@@ -73,6 +81,8 @@ private:
   std::optional<Dataset> training_;
   std::optional<Dataset> validation_;
   std::optional<Calibration> calibration_;
+  bool new_calibration_ = false; // what lies in the directory belongs to another one
+  std::vector<Trace> traces_;
   std::vector<Table> tables_;
   std::map<std::string, DriftRecord> compared_; // each new table with its law, by name
   std::vector<std::string> missed_;

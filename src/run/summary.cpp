@@ -15,6 +15,7 @@
 #include "report/numbers.h"
 #include "run/pipeline.h"
 #include "table/bound.h"
+#include "trace/trace_file.h"
 #include "verify/beyond.h"
 #include "verify/verify.h"
 
@@ -61,10 +62,26 @@ std::string range_of(const Interval& interval, int decimals) {
   return fmt::format("{:.{}f} .. {:.{}f}", interval.low, decimals, interval.high, decimals);
 }
 
+// Of the column of names: the longest, with a blank behind it.
+std::size_t name_width(const std::vector<std::string>& names) {
+  std::size_t width = 14;
+  for (const std::string& name : names)
+    width = std::max(width, name.size() + 1);
+  return width;
+}
+
+std::size_t name_width(const Calibration& calibration) {
+  std::vector<std::string> names;
+  for (const ModelFit& fit : calibration.fits)
+    names.push_back(fit.model.law->name);
+  return name_width(names);
+}
+
 void add_floor(std::string& out, const Calibration& calibration, int decimals) {
   if (!calibration.noise_floors.empty()) {
     const NoiseFloor& f = calibration.noise_floors.front();
-    out += fmt::format("  {:<14}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor",
+    out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor",
+                       name_width(calibration),
                        (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
                        range_of(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
                        noise_floor_name(f), f.part == "training" ? ", training data" : "");
@@ -99,14 +116,16 @@ void add_conditional(std::string& out, const Conditional& c) {
 void add_ranking(std::string& out, const Calibration& calibration) {
   const int decimals = error_decimals(calibration);
   out += "\nLaws by mean absolute error on experiments not trained on (tau_R, MPa):\n";
-  out += fmt::format("  {:<14}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", "MAE", "95 % interval",
-                     "RMSE", "bias", "train MAE", "parameters");
+  const std::size_t width = name_width(calibration);
+  out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", width, "MAE",
+                     "95 % interval", "RMSE", "bias", "train MAE", "parameters");
   for (const ModelFit& fit : calibration.fits) {
     const Metrics& v = fit.validation;
     const std::string interval = range_of(v.mae_interval, decimals);
-    out += fmt::format("  {:<14}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
-                       fit.model.law->name, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
-                       v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));
+    out +=
+        fmt::format("  {:<{}}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
+                    fit.model.law->name, width, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
+                    v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));
   }
   add_floor(out, calibration, decimals);
   add_comparison(out, calibration.comparisons);
@@ -255,6 +274,8 @@ std::string summary_text(const Pipeline& p) {
     add_ranking(out, *p.calibration());
     add_conditional(out, p.calibration()->conditional);
   }
+  for (const Trace& trace : p.traces())
+    out += trace_text(trace);
   add_tables(out, p);
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
   if (!p.forms().empty()) out += "\n" + forms_text(p.forms());
@@ -297,6 +318,8 @@ std::string summary_json(const Pipeline& p) {
   if (!tables.empty()) j["tables"] = tables;
   if (p.verification())
     j["verification"] = parse_json(verification_json(*p.verification()), "verify.json");
+  if (!p.traces().empty())
+    j["trace"] = parse_json(trace_json(p.traces(), j.value("synthetic_data", false)), "trace.json");
   for (const FormComparison& form : p.forms())
     j["forms"].push_back(form_json(form));
   j["directory"] = p.job().directory;

@@ -89,7 +89,7 @@ public:
     add_effects(trace);
     add_scatter(trace, *search_.campaign, search_.last, in_.training);
     add_verdict(trace);
-    if (in_.power) add_power(trace, search_, in_.seed);
+    add_power(trace, search_, in_.seed);
     return trace;
   }
 
@@ -114,7 +114,7 @@ private:
     model.law =
         made(extended_law(*in_.fit.model.law, model.conventions,
                           std::span(rival.parameters).first(in_.fit.model.law->parameters.size()),
-                          rival.effects, in_.fit.model.law->name + "_traced"));
+                          rival.effects, in_.fit.model.law->name + std::string(traced_suffix)));
     model.parameters = rival.parameters;
     return model;
   }

@@ -24,7 +24,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_effects = 5;
-constexpr std::size_t least_experiments = 5; // 2^(1-5): a p-value below 0.07 becomes possible
 constexpr std::size_t flips = 999;
 constexpr int order_check_functions = 9;
 constexpr int order_nuisance_functions = 12;
@@ -96,12 +95,12 @@ public:
 private:
   void prepare() {
     const std::size_t experiments = in_.training.experiments.size();
-    if (experiments < least_experiments)
+    if (experiments < trace_experiments)
       throw InputError({"[trace]"},
                        fmt::format("{} experiments are too few to trace a residual", experiments),
                        fmt::format("at least {}: an effect has to show in several experiments, "
                                    "whatever the number of rows",
-                                   least_experiments));
+                                   trace_experiments));
     const std::vector<double> rows = predict(in_.fit.model, in_.training);
     search_->blocks = make_blocks(in_.training);
     search_->candidates = find_candidates(in_.training, in_.validation, search_->blocks, rows,

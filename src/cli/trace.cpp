@@ -1,0 +1,47 @@
+// "frictab trace JOB": what the calibrated law lacks.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/job_commands.h"
+#include "trace/trace_file.h"
+
+namespace frictab {
+
+namespace {
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  struct Arguments {
+    std::string file;
+    bool power = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  app.add_option("JOB", arguments->file, "Job file (TOML); calibrated before")->required();
+  app.add_flag("--power", arguments->power,
+               "Say how large an effect these experiments would have shown, column by column");
+  return [arguments, &common] {
+    std::string power;
+    const int code = run_stages(arguments->file, common, [&](Pipeline& p) {
+      p.trace(true);
+      if (arguments->power && !common.json)
+        for (const Trace& trace : p.traces())
+          power += power_text(trace);
+    });
+    fmt::print("{}", power);
+    return code;
+  };
+}
+
+const Registered<Command> trace{[] {
+  Command command;
+  command.name = "trace";
+  command.order = 7;
+  command.title = "Search the residual for effects the law lacks, and add them";
+  command.declare = declare;
+  return command;
+}};
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,234 @@
+// What the best law lacked: verdict, errors before and after, each effect with its residuals.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/input_columns.h"
+#include "core/text.h"
+#include "report/law_plots.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "trace/trace_file.h"
+
+namespace frictab {
+
+namespace {
+
+using Values = std::span<const double>;
+
+constexpr double plot_width = 300, plot_height = 220;
+constexpr std::size_t cells_wide = 75, cells_high = 55;
+
+const char* badge_of(Verdict verdict) {
+  return verdict == Verdict::effect_added      ? "effect added"
+         : verdict == Verdict::nothing_missing ? "nothing is missing"
+                                               : "unexplained structure";
+}
+
+const char* class_of(Verdict verdict) {
+  return verdict == Verdict::unexplained_structure ? "none" : "pass";
+}
+
+// Rows as cells, with the quartiles of neighbours as lines.
+void draw_cloud(svg::Plot& plot, Values x, Values y, const svg::Axis& x_axis,
+                const svg::Axis& y_axis) {
+  const svg::Density cells = svg::bin(x, y, x_axis, y_axis, cells_wide, cells_high);
+  std::uint32_t most = 1;
+  for (const std::uint32_t count : cells.counts)
+    most = std::max(most, count);
+  plot.density(cells, svg::count_classes(most, 6));
+}
+
+struct Cloud {
+  Values x, y;
+};
+
+std::string residual_plot(const Cloud& cloud, const svg::Axis& x_axis, const svg::Axis& y_axis,
+                          const std::string& title) {
+  svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
+  draw_cloud(plot, cloud.x, cloud.y, x_axis, y_axis);
+  const double ends[] = {x_axis.low, x_axis.high}, zero[] = {0, 0};
+  plot.line(ends, zero, {"#222", 1, "", false});
+  const RunningBand band = running_band(cloud.x, cloud.y);
+  plot.line(band.x, band.median, {"#c2410c", 2, "", true});
+  plot.line(band.x, band.low, {"#c2410c", 1, "4 3", true});
+  plot.line(band.x, band.high, {"#c2410c", 1, "4 3", true});
+  return plot.text(title, "density of rows, with running median and 10 and 90 % quantiles");
+}
+
+std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
+  const EffectCurve& c = effect.curve;
+  double low = 1, high = 1;
+  for (const auto* values : {&c.low, &c.high})
+    for (const double v : *values)
+      if (std::isfinite(v)) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+  const double margin = 0.6 * (high - low);
+  const std::string what = effect.placed.acts_on == "m"     ? "factor on the limit"
+                           : effect.placed.acts_on == "tau" ? "1 + change in units"
+                                                            : "factor on mu";
+  const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
+  svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
+  if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
+  plot.line(c.x, c.low, {"#1d4ed8", 1, "4 3", true});
+  plot.line(c.x, c.high, {"#1d4ed8", 1, "4 3", true});
+  plot.line(c.x, c.factor, {"#1d4ed8", 2.5, "", true});
+  return plot.text("the effect", "its factor with a 95 % band, over partial residuals of the "
+                                 "training experiments");
+}
+
+const ModelFit* fit_of(const ReportInput& input, const std::string& model, std::size_t& index) {
+  for (index = 0; index < input.calibration.fits.size(); ++index)
+    if (input.calibration.fits[index].model.law->name == model)
+      return &input.calibration.fits[index];
+  return nullptr;
+}
+
+std::vector<double> residuals(Values measured, Values predicted) {
+  std::vector<double> r(measured.size());
+  for (std::size_t i = 0; i < r.size(); ++i)
+    r[i] = measured[i] - predicted[i];
+  return r;
+}
+
+// Before, the effect, after: three plots over the effect's column.
+std::string effect_plots(const ReportInput& input, const Trace& trace, const TracedEffect& effect) {
+  std::size_t before = 0, after = 0;
+  const ModelFit* extended = fit_of(input, trace.extended_model, after);
+  if (!extended || !fit_of(input, trace.model, before)) return "";
+  const InputColumns columns =
+      input_columns(extended->model, {symbol_of(effect.placed.column)}, input.validation);
+  const Values x = columns[0], measured = input.validation.values("tau_R_MPa");
+  const auto r0 = residuals(measured, input.predicted[before]);
+  const auto r1 = residuals(measured, input.predicted[after]);
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  std::string label = effect.placed.column;
+  if (effect.placed.form->categorical)
+    label += " (0 = " + join(effect.placed.levels, ", ...") + ")";
+  const svg::Axis x_axis = svg::nice_axis(std::min(*low, effect.placed.low),
+                                          std::max(*high, effect.placed.high), 5, label);
+  std::vector<double> sorted = r0;
+  std::sort(sorted.begin(), sorted.end());
+  const svg::Axis y_axis =
+      svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
+  return residual_plot({x, r0}, x_axis, y_axis, "residual before, unseen experiments") +
+         curve_plot(effect, x_axis) +
+         residual_plot({x, r1}, x_axis, y_axis, "residual after, unseen experiments");
+}
+
+TemplateValues error_row(const std::string& what, const TraceErrors& errors, int decimals) {
+  const auto one = [&](const Metrics& m) {
+    return fmt::format("{} <span class=\"interval\">{}</span>", fixed(m.mae_MPa, decimals),
+                       interval_text(m.mae_interval, decimals));
+  };
+  return {{{"what", what},
+           {"validation", one(errors.validation)},
+           {"validation_rmse", fixed(errors.validation.rmse_MPa, decimals)},
+           {"validation_bias", fixed(errors.validation.bias_MPa, decimals)},
+           {"training", one(errors.training)},
+           {"training_rmse", fixed(errors.training.rmse_MPa, decimals)},
+           {"training_bias", fixed(errors.training.bias_MPa, decimals)}},
+          {},
+          {}};
+}
+
+std::string parameters_of(const TracedEffect& effect) {
+  std::string text;
+  for (const TracedParameter& p : effect.parameters) {
+    const ValueText shown = with_error(p.value, p.std_error);
+    text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", svg::escape(p.name), shown.value,
+                        shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
+                        p.unit == "1" ? "" : " " + shown_unit(p.unit));
+  }
+  return text;
+}
+
+std::string alternatives_of(const TracedEffect& effect) {
+  std::string same, others;
+  for (const Alternative& a : effect.alternatives) {
+    std::string& list = a.in_set ? same : others;
+    list += (list.empty() ? "" : ", ") +
+            svg::escape(a.derived.empty() ? join(a.columns, " x ") : a.derived);
+  }
+  std::string text;
+  if (!same.empty()) text += "These experiments cannot tell it from: " + same + ". ";
+  if (!effect.discriminating.empty())
+    text += "Would decide: " + svg::escape(effect.discriminating) + ". ";
+  if (!others.empty()) text += "Explain less: " + others + ".";
+  return text;
+}
+
+TemplateValues effect_values(const ReportInput& input, const Trace& trace,
+                             const TracedEffect& effect, int decimals) {
+  const char* place = effect.placed.acts_on == "mu"  ? "on &#956;"
+                      : effect.placed.acts_on == "m" ? "on the limit"
+                                                     : "added to &#964;<sub>R</sub>";
+  TemplateValues values;
+  values.text = {{"cause", svg::escape(cause_text(effect))},
+                 {"form", effect.placed.form->title},
+                 {"place", place},
+                 {"formula", svg::escape(effect.placed.form->formula)},
+                 {"parameters", parameters_of(effect)},
+                 {"p", p_text(effect.p_value)},
+                 {"gain", fixed(effect.gain_MPa, decimals)},
+                 {"alternatives", alternatives_of(effect)},
+                 {"plots", effect_plots(input, trace, effect)}};
+  return values;
+}
+
+std::string sentence_of(const Trace& t) {
+  std::string text = svg::escape(t.remaining.note) + ". ";
+  for (const std::string& rejected : t.rejected)
+    text += "Not added: " + svg::escape(rejected) + ". ";
+  return text +
+         fmt::format("Tried: {} quantities in {} directions; a false alarm has a probability of "
+                     "{:g} over all of them.",
+                     t.n_columns, thousands(t.n_candidates), t.alpha);
+}
+
+TemplateValues trace_values(const ReportInput& input, const Trace& trace, int decimals) {
+  TemplateValues values;
+  values.text["model"] = svg::escape(trace.model);
+  values.text["badge"] = badge_of(trace.verdict);
+  values.text["badge_class"] = class_of(trace.verdict);
+  values.text["sentence"] = sentence_of(trace);
+  values.text["floor"] = fixed(trace.noise_floor.mae_MPa, decimals);
+  values.flags["has_effects"] = !trace.effects.empty();
+  values.text["improvement"] =
+      fmt::format("{} MPa (95 %: {})", fixed(trace.improvement.value_MPa, decimals),
+                  interval_text(trace.improvement.interval, decimals));
+  auto& errors = values.lists["errors"];
+  errors.push_back(error_row("as calibrated", trace.before, decimals));
+  errors.push_back(
+      error_row("the same law, fitted again as the extended one", trace.recalibrated, decimals));
+  if (!trace.effects.empty())
+    errors.push_back(error_row("with the effects", trace.after, decimals));
+  for (const TracedEffect& effect : trace.effects)
+    values.lists["effects"].push_back(effect_values(input, trace, effect, decimals));
+  auto& detectable = values.lists["detectable"];
+  for (const Detectable& d : trace.detectable)
+    detectable.push_back({{{"column", svg::escape(d.column)},
+                           {"size", d.identifiable ? fixed(d.size_MPa, 2) : "&#8211;"},
+                           {"share", d.identifiable ? fixed(100 * d.share, 1)
+                                                    : "imitated by the law's own parameters"}},
+                          {},
+                          {}});
+  values.flags["has_detectable"] = !detectable.empty();
+  values.lists["effects"];
+  return values;
+}
+
+} // namespace
+
+void add_trace(TemplateValues& page, const ReportInput& input) {
+  const int decimals = error_decimals(input.calibration);
+  page.flags["has_trace"] = !input.traces.empty();
+  page.text["trace_link"] = input.traces.empty() ? "" : "<a href=\"#trace\">What it lacks</a> ";
+  auto& traces = page.lists["traces"];
+  for (const Trace& trace : input.traces)
+    traces.push_back(trace_values(input, trace, decimals));
+}
+
+} // namespace frictab

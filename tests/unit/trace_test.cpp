@@ -1,0 +1,204 @@
+// The trace stage on synthetic campaigns whose truth is known.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibrate/input_columns.h"
+#include "core/parallel.h"
+#include "trace/trace.h"
+#include "trace/trace_file.h"
+#include "twin/twin.h"
+
+namespace frictab {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TwinOptions campaign(const std::string& law, std::uint64_t seed, const std::string& effect = "") {
+  TwinOptions options;
+  options.seed = seed;
+  options.law = law;
+  options.design = parse_design("p=500,1625,2750;points=110", default_design(twin_set("D")));
+  options.profile = "varied";
+  options.more_bystanders = true;
+  options.scatter = parse_scatter("test=0.04,slow=0.04,rho=0.8,white=0.015");
+  if (!effect.empty()) options.effects.push_back(parse_effect(effect));
+  return options;
+}
+
+Trace traced(const TwinOptions& options, TraceOptions how = {}) {
+  const Twin twin = make_twin(options);
+  ModelOptions models;
+  models.use = {options.law};
+  CalibrationOptions calibration;
+  calibration.bootstrap = 100;
+  const Calibration calibrated =
+      calibrate({twin.training.data, twin.validation.data, models, calibration});
+  return trace({twin.training.data, twin.validation.data, calibrated.fits.front(), how, 100, 1});
+}
+
+std::vector<std::string> causes(const Trace& trace) {
+  std::vector<std::string> names;
+  for (const TracedEffect& effect : trace.effects)
+    names.push_back(effect.placed.column);
+  return names;
+}
+
+TEST(Trace, SaysThatNothingIsMissingWhereTheLawIsTheTruth) {
+  for (const char* law : {"coulomb", "orowan", "log_coulomb", "exp_coulomb"}) {
+    const Trace t = traced(campaign(law, 11));
+    EXPECT_EQ(t.verdict, Verdict::nothing_missing) << law << trace_text(t);
+    EXPECT_TRUE(t.effects.empty());
+    EXPECT_EQ(t.extended_model, "");
+    EXPECT_FALSE(t.remaining.structure);
+    EXPECT_GT(t.remaining.p_value, t.alpha);
+    // The floor is known here: what the true law leaves.
+    EXPECT_NEAR(t.noise_floor.mae_MPa / t.before.training.mae_MPa, 1, 0.06) << law;
+    EXPECT_THAT(t.remaining.note, HasSubstr("cannot be told from noise"));
+  }
+}
+
+struct Planted {
+  const char* effect;
+  const char* column;
+  const char* acts_on;
+};
+
+class TracePlanted : public testing::TestWithParam<Planted> {};
+
+TEST_P(TracePlanted, EffectIsFoundPlacedAndRemoved) {
+  const Planted& p = GetParam();
+  const Trace t = traced(campaign("log_coulomb", 4, p.effect));
+  ASSERT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
+  EXPECT_EQ(t.effects.front().placed.column, p.column) << trace_text(t);
+  EXPECT_EQ(t.effects.front().placed.acts_on, p.acts_on);
+  EXPECT_LE(t.effects.front().p_value, t.alpha);
+  EXPECT_EQ(t.extended_model, "log_coulomb_traced");
+  EXPECT_LT(t.after.validation.mae_MPa, t.before.validation.mae_MPa);
+  EXPECT_GT(t.improvement.interval.low, 0);
+  EXPECT_NEAR(t.after.training.mae_MPa / t.noise_floor.mae_MPa, 1, 0.06);
+  EXPECT_GT(t.effects.front().gain_MPa, 0);
+}
+
+std::string name_of(const testing::TestParamInfo<Planted>& test) {
+  std::string name = test.param.column;
+  std::erase(name, '_');
+  return name + std::to_string(test.index);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, TracePlanted,
+    testing::Values(Planted{"form=saturation,column=s_mm,strength=0.3", "s_mm", "mu"},
+                    Planted{"form=power,column=humidity_pct,strength=0.3", "humidity_pct", "mu"},
+                    Planted{"form=category,column=tool,strength=0.3", "tool", "mu"},
+                    Planted{"form=linear,column=film_um,strength=0.3", "film_um", "mu"},
+                    Planted{"form=hinge,column=psi,strength=0.3", "psi", "mu"},
+                    Planted{"form=linear,column=peak_sigma_n,strength=0.3", "peak_sigma_n", "mu"},
+                    Planted{"form=periodic,column=s_mm,strength=0.3", "s_mm", "mu"},
+                    Planted{"form=logarithmic,column=dwell_s,strength=0.3", "dwell_s", "mu"}),
+    name_of);
+
+TEST(Trace, DoesNotBlameARecordedColumnForAnUnrecordedCause) {
+  TwinOptions options = campaign("log_coulomb", 4, "form=linear,column=film_um,strength=0.3");
+  options.hide = {"film_um", "film2_um"};
+  const Trace t = traced(options);
+  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+  EXPECT_GT(t.scatter_between, 0.05) << "the film's scatter is left between experiments";
+}
+
+TEST(Trace, ScatterAboveTheRepeatabilityIsCalledUnrecorded) {
+  TwinOptions options = campaign("log_coulomb", 4, "form=linear,column=film_um,strength=0.3");
+  options.hide = {"film_um", "film2_um"};
+  TraceOptions how;
+  how.repeatability = 0.04;
+  const Trace t = traced(options, how);
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
+  EXPECT_THAT(t.remaining.note, HasSubstr("something that no column recorded differs"));
+  const Trace null = traced(campaign("log_coulomb", 4), how);
+  EXPECT_EQ(null.verdict, Verdict::nothing_missing) << null.remaining.note;
+}
+
+TEST(Trace, DriftAlongTheOrderOfTestsIsReportedNotShipped) {
+  const Trace t =
+      traced(campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.3"));
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure) << trace_text(t);
+  EXPECT_TRUE(t.order.found);
+  EXPECT_EQ(t.order.column, "run_order");
+  EXPECT_GT(t.order.size_MPa, 0);
+  EXPECT_THAT(t.remaining.note, HasSubstr("drift, wear or batch"));
+  EXPECT_EQ(t.extended_model, "");
+}
+
+TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
+  TraceOptions how;
+  how.tool_distance = "run_order";
+  const Trace t =
+      traced(campaign("log_coulomb", 6, "form=linear,column=run_order,strength=0.3"), how);
+  EXPECT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
+}
+
+TEST(Trace, IgnoredColumnsCannotBeACause) {
+  TraceOptions how;
+  how.ignore = {"humidity_pct"};
+  const Trace t =
+      traced(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.3"), how);
+  EXPECT_THAT(causes(t), testing::Not(Contains("humidity_pct")));
+  how.ignore = {"humidity"};
+  try {
+    traced(campaign("log_coulomb", 4), how);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no column 'humidity'"));
+  }
+}
+
+TEST(Trace, IsTheSameForAnyNumberOfThreads) {
+  const TwinOptions options =
+      campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.15");
+  set_threads(1);
+  const std::string one = trace_json({traced(options)}, true);
+  set_threads(2);
+  EXPECT_EQ(trace_json({traced(options)}, true), one);
+  set_threads(0);
+}
+
+TEST(Trace, IsReadBackFromItsFile) {
+  const Trace t = traced(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.3"));
+  const std::string text = trace_json({t, t}, true);
+  const std::vector<Trace> back = parse_traces(text, "trace.json");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(trace_json(back, true).substr(0, 2000), text.substr(0, 2000));
+  EXPECT_EQ(trace_text(back[0]), trace_text(t));
+}
+
+TEST(Trace, SaysWhatItCouldHaveSeen) {
+  const Trace t = traced(campaign("log_coulomb", 11));
+  const auto find = [&](const std::string& column) {
+    return *std::find_if(t.detectable.begin(), t.detectable.end(),
+                         [&](const Detectable& d) { return d.column == column; });
+  };
+  EXPECT_TRUE(find("humidity_pct").identifiable);
+  // A difference between experiments that scatter by 4 % needs about 4.7 standard errors of 81.
+  EXPECT_NEAR(find("film_um").share, 4.7 * 0.045 / 9, 0.008);
+  EXPECT_LT(find("sliding_distance").share, find("film_um").share)
+      << "what changes within every experiment is seen better";
+}
+
+TEST(Trace, FewExperimentsAreRefused) {
+  TwinOptions options = campaign("coulomb", 1);
+  options.law = "coulomb";
+  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
+                                default_design(twin_set("D")));
+  try {
+    traced(options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("4 experiments are too few"));
+  }
+}
+
+} // namespace
+} // namespace frictab
