@@ -75,7 +75,8 @@ InputArgument argument(const Table& table, const std::string& name, std::string_
     input.unit = meaning.unit;
     input.meaning = meaning.text;
   }
-  if (const auto levels = level_text(table, name)) input.meaning = *levels;
+  if (input.meaning == Meaning{}.text) input.meaning = name + " " + input.meaning;
+  if (const auto levels = level_text(table, name)) input.meaning = name + ": " + *levels;
   input.solver = solver_unit(input.unit, units);
   input.argument = argument_name(input);
   return input;
@@ -334,7 +335,11 @@ std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
   std::vector<std::string> lines(1);
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t end = std::min(text.find(' ', i), text.size());
-    const std::string word(text.substr(i, end - i));
+    std::string word(text.substr(i, end - i));
+    for (; word.size() > width; word.erase(0, width)) { // a formula without blanks
+      if (!lines.back().empty()) lines.emplace_back();
+      lines.back() = word.substr(0, width);
+    }
     if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width)
       lines.emplace_back();
     lines.back() += (lines.back().empty() ? "" : " ") + word;
