@@ -54,14 +54,20 @@ MatrixXd orthonormal(const MatrixXd& columns) {
   return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
+double NoiseModel::between() const {
+  return std::hypot(multiplicative, (additive + coupling) / scale);
+}
+
 Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const std::size_t> first,
                    const MatrixXd& nuisance)
     : rho_(noise.rho) {
   const Eigen::ArrayXd d = (tau.array() / noise.scale).max(least_share).pow(noise.growth);
   shrink_ = d.inverse().matrix();
   const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
-  const Eigen::ArrayXd shared = noise.additive * noise.additive +
-                                noise.multiplicative * noise.multiplicative * tau.array().square();
+  MatrixXd effects(tau.size(), 2);
+  effects.col(0) = (noise.additive + noise.coupling / noise.scale * tau.array()).matrix();
+  effects.col(1) = noise.multiplicative * tau;
+  const Eigen::ArrayXd shared = effects.rowwise().squaredNorm();
   variance_ = (shared + d.square() * (slow + white)).matrix();
   std::size_t longest = 0;
   for (std::size_t e = 0; e + 1 < first.size(); ++e)
@@ -75,9 +81,6 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const
     log_det[i + 1] = log_det[i] + std::log(innovation);
     predicted = rho_ * rho_ * predicted * (1 - gain_.back()) + slow * (1 - rho_ * rho_);
   }
-  MatrixXd effects(tau.size(), 2);
-  effects.col(0).setConstant(noise.additive);
-  effects.col(1) = noise.multiplicative * tau;
   for (std::size_t e = 0; e + 1 < first.size(); ++e)
     parts_.push_back({static_cast<Index>(first[e]),
                       static_cast<Index>(first[e + 1] - first[e]),
@@ -158,7 +161,7 @@ void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
 
 namespace {
 
-constexpr std::size_t size = 5; // additive, multiplicative, slow, rho, white
+constexpr std::size_t size = 6; // additive, multiplicative, slow, rho, white, coupling
 
 double log_likelihood(const NoiseModel& noise, const VectorXd& residual, const VectorXd& tau,
                       std::span<const std::size_t> first, const MatrixXd& jacobian,
@@ -189,17 +192,19 @@ struct Scaling {
     noise.slow = residual * std::exp(x[2]);
     noise.rho = 1 - std::exp(x[3]);
     noise.white = residual * std::exp(x[4]);
+    noise.coupling = residual * x[5];
     return noise;
   }
   std::vector<double> of(const NoiseModel& n) const {
     const auto ln = [](double v) { return std::log(std::max(v, 1e-300)); };
-    return {ln(n.additive / residual), ln(n.multiplicative * tau / residual), ln(n.slow / residual),
-            ln(1 - n.rho), ln(n.white / residual)};
+    return {ln(n.additive / residual), ln(n.multiplicative * tau / residual),
+            ln(n.slow / residual),     ln(1 - n.rho),
+            ln(n.white / residual),    n.coupling / residual};
   }
 };
 
-const std::vector<double> lower = {-6, -6, -6, -6, -6};
-const std::vector<double> upper = {1.5, 1.5, 1.5, -0.01, 1.5};
+const std::vector<double> lower = {-6, -6, -6, -6, -6, -3};
+const std::vector<double> upper = {1.5, 1.5, 1.5, -0.01, 1.5, 3};
 
 } // namespace
 
@@ -250,13 +255,13 @@ NoiseFit first_noise(const VectorXd& residual, const VectorXd& tau,
   start.scale = tau.mean();
   const double scatter = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
   start.additive = 0.2 * scatter;
-  start.multiplicative = 0.5 * scatter / start.scale;
+  start.multiplicative = 0.6 * scatter / start.scale;
   start.slow = start.white = 0.5 * scatter;
   start.rho = 0.6;
   NoiseFit best;
   for (const double growth : {0.0, 1.0}) {
     start.growth = growth;
-    const NoiseFit fit = fit_noise(residual, tau, first, jacobian, start, 200, nuisance);
+    const NoiseFit fit = fit_noise(residual, tau, first, jacobian, start, 300, nuisance);
     if (growth == 0.0 || fit.log_likelihood > best.log_likelihood) best = fit;
   }
   return best;

@@ -10,17 +10,22 @@
 namespace frictab {
 
 // Covariance of the block means of one experiment, tau = predicted shear stress there:
-//   additive^2 1 1' + multiplicative^2 tau tau' + D (slow^2 rho^|i-j| + white^2 I) D,
-//   D = diag (tau / scale)^growth
-// (random effects of the experiment; slow and white noise within it, which grow with tau).
+//   u u' + multiplicative^2 tau tau' + D (slow^2 rho^|i-j| + white^2 I) D,
+//   u = additive + coupling tau / scale, D = diag (tau / scale)^growth
+// (level and slope of the experiment as two random effects that may go together; slow and white
+// noise within it, which grow with tau).
 struct NoiseModel {
   double additive = 0;       // MPa
+  double coupling = 0;       // MPa
   double multiplicative = 0; // 1
   double slow = 1;           // MPa
   double rho = 0.5;          // from block to block
   double white = 1;          // MPa
   double growth = 0;
   double scale = 1; // MPa, mean predicted tau
+
+  // Relative standard deviation between experiments, where tau is `scale`.
+  double between() const;
 };
 
 // V^-1/2 of all experiments, which are independent: the slow and white noise by their innovations

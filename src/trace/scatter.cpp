@@ -45,7 +45,7 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
                  const Dataset& training) {
   const VectorXd residual = campaign.measured - last.predicted;
   const NoiseFit fit = fit_noise(residual, last.predicted, campaign.blocks.first, last.jacobian,
-                                 last.noise, 120, campaign.nuisance);
+                                 last.noise, 200, campaign.nuisance);
   const NoiseModel& noise = fit.noise;
   const Whitener whitener(noise, last.predicted, campaign.blocks.first);
   const double modelled = whitener.variance().mean() + within_blocks(training, campaign.blocks);
@@ -59,7 +59,7 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
   trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
   trace.noise_floor.n_rows = training.rows();
   trace.noise_floor.n_experiments = training.experiments.size();
-  const double share = std::hypot(noise.multiplicative, noise.additive / noise.scale);
+  const double share = noise.between();
   trace.scatter_between = share;
   const double degrees = std::max(1.0, static_cast<double>(training.experiments.size()) -
                                            static_cast<double>(last.parameters.size()));

@@ -30,6 +30,7 @@ constexpr int order_nuisance_functions = 12;
 constexpr double order_suspicion = 0.05; // p-value of the order's own test
 constexpr double beyond_order = 3;       // statistic that an effect keeps beside the order of tests
 constexpr double least_cv_gain = 0.004;  // of the error of cross-validation
+constexpr double clearly_better = 0.015; // that plain least squares must be, to be used instead
 constexpr std::size_t cv_folds = 5;
 
 // A trained law (a network) could have absorbed much that its one parameter cannot show: quadratic
@@ -354,7 +355,8 @@ private:
 
   Rival delivered(const Rival& rival) {
     const NoiseModel alike = rows_alike(rival.noise);
-    const bool plain = cross_validated(rival, alike) < cross_validated(rival, rival.noise);
+    const bool plain = cross_validated(rival, alike) <
+                       (1 - clearly_better) * cross_validated(rival, rival.noise);
     return plain ? with_weights(campaign(), rival, alike) : rival;
   }
 

@@ -27,6 +27,7 @@ VectorXd some_tau() {
 NoiseModel some_noise(double growth) {
   NoiseModel noise;
   noise.additive = 2;
+  noise.coupling = -1;
   noise.multiplicative = 0.07;
   noise.slow = 3;
   noise.rho = 0.8;
@@ -45,8 +46,9 @@ MatrixXd dense(const NoiseModel& n, const VectorXd& tau) {
       const double within =
           n.slow * n.slow * std::pow(n.rho, std::abs(i - j)) + (i == j ? n.white * n.white : 0.0);
       const double d = std::pow(tau(i) / n.scale, n.growth) * std::pow(tau(j) / n.scale, n.growth);
-      v(i, j) = n.additive * n.additive + n.multiplicative * n.multiplicative * tau(i) * tau(j) +
-                d * within;
+      v(i, j) = (n.additive + n.coupling * tau(i) / n.scale) *
+                    (n.additive + n.coupling * tau(j) / n.scale) +
+                n.multiplicative * n.multiplicative * tau(i) * tau(j) + d * within;
     }
   return v;
 }
@@ -122,13 +124,12 @@ Drawn draw(const NoiseModel& noise, std::size_t count, std::uint64_t seed) {
 TEST(NoiseModel, IsFoundAgainFromItsOwnResiduals) {
   for (const double growth : {0.0, 1.0}) {
     NoiseModel truth = some_noise(growth);
-    truth.additive = 1e-3; // cannot be told from the multiplicative part where tau varies little
     const Drawn drawn = draw(truth, 200, 5);
     truth.scale = drawn.tau.mean();
     const NoiseModel found = first_noise(drawn.residual, drawn.tau, drawn.first, {}).noise;
     // Standard errors: 5 % between 200 experiments, 1 to 2 % within 11,000 blocks.
     EXPECT_EQ(found.growth, growth);
-    EXPECT_NEAR(std::hypot(found.multiplicative, found.additive / found.scale), 0.07, 0.012);
+    EXPECT_NEAR(found.between(), truth.between(), 0.15 * truth.between());
     EXPECT_NEAR(found.slow, 3, 0.2);
     EXPECT_NEAR(found.rho, 0.8, 0.03);
     EXPECT_NEAR(found.white, 1.5, 0.1);
@@ -150,12 +151,12 @@ TEST(NoiseModel, RestrictedLikelihoodIsNotFooledByFittedParameters) {
     drawn.residual -= fitted * normal.ldlt().solve(fitted.transpose() * drawn.residual);
     const auto between = [&](const MatrixXd& jacobian) {
       const NoiseModel n = first_noise(drawn.residual, drawn.tau, drawn.first, jacobian).noise;
-      return std::pow(n.multiplicative, 2) + std::pow(n.additive / n.scale, 2);
+      return std::pow(n.between(), 2);
     };
     plain += between({}) / 10;
     restricted += between(fitted) / 10;
   }
-  const double true_variance = 0.07 * 0.07 + std::pow(2 / 95.0, 2);
+  const double true_variance = std::pow(truth.between(), 2);
   EXPECT_LT(plain, 0.85 * true_variance) << "6 of 20 degrees of freedom are gone";
   EXPECT_NEAR(restricted, true_variance, 0.25 * true_variance);
 }
