@@ -119,6 +119,10 @@ const DerivedQuantity* find_derived(std::string_view name) {
   return nullptr;
 }
 
+bool is_followed(std::string_view derived) {
+  return derived == "sliding_distance" || derived == "friction_work" || derived == "peak_sigma_n";
+}
+
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
                            std::span<const double> tau) {
   std::vector<Rows> inputs;

@@ -22,6 +22,10 @@ struct DerivedQuantity {
 std::span<const DerivedQuantity> derived_quantities();
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none
 
+// Histories that generated routines keep as state variables of a contact point; others are
+// constants there.
+bool is_followed(std::string_view derived);
+
 // One value per row; integrals by the trapezoidal rule, starting at 0 in every experiment. `tau` is
 // the model's shear stress per row (unused by most). The data must have what `needs` lists.
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,

@@ -52,14 +52,19 @@ bool same_values(const VectorXd& a, const VectorXd& b) {
   return xx > 0 && yy > 0 && xy * xy > (1 - 1e-9) * xx * yy;
 }
 
-double widest_gap(Rows values) {
+std::vector<double> quantiles_of(Rows values) {
   constexpr std::size_t parts = 30;
-  std::vector<double> sorted(values.begin(), values.end());
+  std::vector<double> sorted(values.begin(), values.end()), at;
   std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i <= parts; ++i)
+    at.push_back(sorted[i * (sorted.size() - 1) / parts]);
+  return at;
+}
+
+double widest_gap(const std::vector<double>& tested) {
   double widest = 0;
-  for (std::size_t i = 0; i < parts; ++i)
-    widest = std::max(widest, sorted[(i + 1) * (sorted.size() - 1) / parts] -
-                                  sorted[i * (sorted.size() - 1) / parts]);
+  for (std::size_t i = 1; i < tested.size(); ++i)
+    widest = std::max(widest, tested[i] - tested[i - 1]);
   return widest;
 }
 
@@ -155,7 +160,8 @@ private:
     column.values = blocks_.mean(values);
     column.spread = spread_of(values);
     column.within = varies_within(values, training_);
-    column.gap = widest_gap(values);
+    column.tested = quantiles_of(values);
+    column.gap = widest_gap(column.tested);
     column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
     found_.by_symbol[symbol_of(name)] = column.values;
     if (const auto twin = std::find_if(
@@ -402,7 +408,9 @@ std::string source_name(const Source& source, const Candidates& candidates) {
 
 int complexity(const Source& source, const Candidates& candidates) {
   if (source.pair()) return 4;
-  return candidates.columns[source.column].derived ? 1 : 0;
+  const CandidateColumn& column = candidates.columns[source.column];
+  if (!column.derived) return 0;
+  return is_followed(column.name) ? 1 : 2;
 }
 
 bool constant_in_experiments(const Source& source, const Candidates& candidates) {

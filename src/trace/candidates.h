@@ -19,7 +19,8 @@ struct CandidateColumn {
   Eigen::VectorXd values;          // per block
   Spread spread;                   // over rows
   bool within = false;             // varies within experiments
-  double gap = 0;                  // the widest part of the range that hardly any row is in
+  std::vector<double> tested;      // where its rows are: quantiles, ascending
+  double gap = 0;                  // between the two of them that are furthest apart
   bool in_law = false;             // the law uses it: its form may be wrong
 };
 
@@ -75,7 +76,7 @@ void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const Pla
                   const Candidates& candidates);
 
 std::string source_name(const Source& source, const Candidates& candidates);
-// 0 a recorded column, 1 derived, 4 a pair.
+// 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 4 a pair.
 int complexity(const Source& source, const Candidates& candidates);
 bool constant_in_experiments(const Source& source, const Candidates& candidates);
 

@@ -57,6 +57,59 @@ bool on_limit(const std::vector<PlacedEffect>& effects) {
                      [](const PlacedEffect& e) { return e.acts_on == "m"; });
 }
 
+// How an effect's factor looks: over its whole range, and where it was tested.
+struct Look {
+  double largest = 0; // change of friction
+  double low = 1, high = 1, tested_low = 1, tested_high = 1;
+
+  void take(double factor) {
+    largest = std::max(largest, std::abs(factor - 1));
+    low = std::min(low, factor);
+    high = std::max(high, factor);
+  }
+};
+
+Look look_of(const PlacedEffect& effect, const CandidateColumn& column) {
+  Look look;
+  if (effect.form->categorical) {
+    for (const double a : fitted_values(effect))
+      look.largest = std::max(look.largest, std::abs(a));
+    return look;
+  }
+  std::vector<std::string> names, symbols{symbol_of(effect.column)};
+  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
+  for (const Parameter& p : fitted_parameters(effect))
+    names.push_back("e_" + p.name);
+  const Program program(factor_of(effect, "e_"), symbols, names);
+  const std::vector<double> at = fitted_values(effect);
+  const auto factor = [&](double x, double x2) {
+    const double row[] = {x, x2};
+    return program({row, symbols.size()}, at);
+  };
+  look.low = look.high = look.tested_low = look.tested_high =
+      factor(column.tested.front(), effect.low2);
+  constexpr int steps = 32;
+  for (int i = 0; i <= steps; ++i)
+    for (const double x2 : {effect.low2, effect.high2})
+      look.take(factor(effect.low + (effect.high - effect.low) * i / steps, x2));
+  for (const double x : column.tested)
+    for (const double x2 : {effect.low2, effect.high2}) {
+      look.tested_low = std::min(look.tested_low, factor(x, x2));
+      look.tested_high = std::max(look.tested_high, factor(x, x2));
+    }
+  return look;
+}
+
+// Two things fit as well as the truth at the tested values, and nowhere else: large changes that
+// cancel there (an effect that halves or doubles friction has to earn it, as if changes were normal
+// with a standard deviation of 50 %), and humps between them.
+double cost_of_look(const Look& look) {
+  if (!std::isfinite(look.largest)) return 1e6;
+  const double tested = look.tested_high - look.tested_low;
+  const double beyond = (look.high - look.low - tested) / std::max(tested, 1e-6);
+  return 2 * look.largest * look.largest + 8 * std::clamp(beyond - 0.3, 0.0, 10.0);
+}
+
 void judge(Rival& rival, const Campaign& campaign) {
   const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
@@ -66,6 +119,9 @@ void judge(Rival& rival, const Campaign& campaign) {
   double cost = per_parameter * static_cast<double>(rival.parameters.size());
   for (const Source& source : rival.sources)
     cost += per_complexity * complexity(source, campaign.candidates);
+  for (std::size_t i = 0; i < rival.effects.size(); ++i)
+    cost += cost_of_look(
+        look_of(rival.effects[i], campaign.candidates.columns[rival.sources[i].column]));
   rival.penalised = rival.total - cost;
 }
 

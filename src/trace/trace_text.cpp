@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/derived.h"
 #include "trace/trace_file.h"
 
 namespace frictab {
@@ -45,6 +46,10 @@ void add_effect(std::string& out, const TracedEffect& e) {
     if (a.in_set) same.push_back(a.derived.empty() ? join(a.columns, " x ") : a.derived);
   if (!same.empty())
     out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
+  if (!e.derived.empty() && !is_followed(e.placed.column))
+    out += fmt::format("      routines do not follow {}: it is a property or constant there; "
+                       "[trace] ignore leaves it out\n",
+                       e.derived);
   if (!e.discriminating.empty()) out += fmt::format("      would decide: {}\n", e.discriminating);
 }
 
