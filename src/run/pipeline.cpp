@@ -224,9 +224,9 @@ void Pipeline::trace(bool required) {
   need_data();
   need_calibration();
   if (!required && training_->experiments.size() < trace_experiments) {
-    notes_.push_back(fmt::format("not traced: {} experiments are too few to tell an effect from "
-                                 "noise (at least {})",
-                                 training_->experiments.size(), trace_experiments));
+    not_traced_ =
+        fmt::format("{} experiments are too few to tell an effect from noise (at least {})",
+                    training_->experiments.size(), trace_experiments);
     return;
   }
   std::erase_if(calibration_->fits, is_traced); // of an earlier trace

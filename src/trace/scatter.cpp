@@ -24,7 +24,7 @@ double within_blocks(const Dataset& training, const Blocks& blocks) {
   for (std::size_t b = 0; b < blocks.count(); ++b) {
     const std::size_t begin = blocks.first_row[b], end = blocks.first_row[b + 1];
     const auto n = static_cast<double>(end - begin);
-    if (end - begin < 3) continue;
+    if (end - begin < 2) continue;
     double my = 0, mx = (n - 1) / 2, xy = 0, xx = 0, yy = 0;
     for (std::size_t i = begin; i < end; ++i)
       my += tau[i] / n;
@@ -34,7 +34,8 @@ double within_blocks(const Dataset& training, const Blocks& blocks) {
       xx += dx * dx;
       yy += dy * dy;
     }
-    sum += std::max(yy - xy * xy / xx, 0.0) * n / (n - 2) * (n - 1) / n;
+    // (Two rows tell nothing of a trend; from block to block it is small.)
+    sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
   }
   return sum / static_cast<double>(training.rows());
 }
@@ -50,7 +51,12 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
   const Whitener whitener(noise, last.predicted, campaign.blocks.first);
   const double modelled = whitener.variance().mean() + within_blocks(training, campaign.blocks);
   const Metrics& after = last.effects.empty() ? trace.recalibrated.training : trace.after.training;
-  const double rmse = std::sqrt(modelled);
+  // (Of few experiments the likelihood may take any scatter for possible; what is left, with the
+  // fitted parameters' share, is more than the noise.)
+  const double experiments = static_cast<double>(training.experiments.size());
+  const double share_left =
+      std::max(0.5, 1 - static_cast<double>(last.parameters.size()) / experiments);
+  const double rmse = std::min(std::sqrt(modelled), after.rmse_MPa / std::sqrt(share_left));
   trace.noise_floor.method =
       "noise model: scatter between experiments, slow and white noise within, "
       "by restricted maximum likelihood";

@@ -202,7 +202,10 @@ ScreenResult screen(const ScreenInput& input) {
   const auto beyond =
       result.flipped_maxima.end() -
       std::lower_bound(result.flipped_maxima.begin(), result.flipped_maxima.end(), most);
-  result.p_value = static_cast<double>(beyond + 1) / static_cast<double>(input.flips + 1);
+  // (All patterns of signs may have been drawn: the true one and its mirror image are two of them.)
+  const double least = std::pow(2.0, 2.0 - static_cast<double>(input.first.size()));
+  result.p_value =
+      std::max(least, static_cast<double>(beyond + 1) / static_cast<double>(input.flips + 1));
   return result;
 }
 

@@ -72,6 +72,7 @@ public:
     Trace trace;
     trace.model = in_.fit.model.name();
     trace.alpha = in_.options.alpha;
+    trace.least_p_value = std::pow(2.0, 1 - static_cast<double>(experiments()));
     trace.repeatability = in_.options.repeatability;
     trace.order = search_.order;
     trace.rejected = search_.rejected;
@@ -260,6 +261,26 @@ private:
 
   // --- verdict ------------------------------------------------------------------------------
 
+  std::size_t experiments() const { return in_.training.experiments.size(); }
+
+  // The strongest direction, whatever chance may say of it.
+  std::string lead() const {
+    if (search_.last_screen.directions.empty()) return "no quantity varies";
+    const Direction& best = search_.last_screen.directions[search_.last_screen.best];
+    const GridShape& shape = search_.shapes[best.source][best.shape];
+    std::string text =
+        fmt::format("the strongest lead is {} ({}, on {}; p = {:.2g})",
+                    source_name(search_.sources[best.source], search_.candidates),
+                    shape.effect.form->title, places[best.place], search_.last_p_value);
+    if (const double least = std::pow(2.0, 1 - static_cast<double>(experiments()));
+        least > in_.options.alpha)
+      text += fmt::format(", and {} experiments can give no p below {:.2g}: it takes {} to add an "
+                          "effect at {:g}",
+                          experiments(), least, std::ceil(1 - std::log2(in_.options.alpha)),
+                          in_.options.alpha);
+    return text;
+  }
+
   void add_verdict(Trace& trace) const {
     const double p = std::min(search_.last_p_value, search_.order.p_value);
     trace.remaining.p_value = search_.last_p_value;
@@ -289,6 +310,7 @@ private:
           p, 100 * trace.scatter_between, 100 * trace.scatter_interval.low,
           100 * trace.scatter_interval.high,
           trace.repeatability ? "" : "; give trace.repeatability to have that judged"));
+    if (trace.effects.empty()) notes.push_back(lead());
     trace.remaining.note = join(notes, "; ");
     trace.verdict = !trace.effects.empty()      ? Verdict::effect_added
                     : trace.remaining.structure ? Verdict::unexplained_structure

@@ -104,7 +104,8 @@ struct Trace {
   std::vector<std::string> rejected;         // looked significant, and why it was not added
   std::vector<std::string> notes;
   double alpha = 0.02;
-  ModelFit extended; // judged like any other; model.law is null where none was added
+  double least_p_value = 0; // that so many experiments can give
+  ModelFit extended;        // judged like any other; model.law is null where none was added
 };
 
 struct TraceInput {
@@ -116,8 +117,9 @@ struct TraceInput {
   std::uint64_t seed = 1;
 };
 
-// Fewer experiments tell nothing: an effect that shows in all of 5 has a p-value of 0.06 at best.
-inline constexpr std::size_t trace_experiments = 6;
+// With fewer experiments there is nothing to weigh against each other. An effect that shows in all
+// of E experiments has a p-value of 2^(1-E) at best, so that it takes 7 to add one at 0.02.
+inline constexpr std::size_t trace_experiments = 3;
 
 // Deterministic by seed for any number of threads. Throws InputError where the data have too few
 // experiments to tell anything, or options name columns they do not have.

@@ -200,7 +200,10 @@ Json one_json(const Trace& t) {
             {"note", t.remaining.note}}},
           {"detectable", detectable_json(t.detectable)},
           {"tried",
-           {{"columns", t.n_columns}, {"directions", t.n_candidates}, {"sign_flips", t.n_flips}}},
+           {{"columns", t.n_columns},
+            {"directions", t.n_candidates},
+            {"sign_flips", t.n_flips},
+            {"least_p_value", t.least_p_value}}},
           {"not_identifiable", t.not_identifiable},
           {"rejected", t.rejected},
           {"notes", t.notes}};
@@ -243,6 +246,7 @@ Trace parse_one(const Json& j) {
   t.n_columns = j.at("tried").at("columns");
   t.n_candidates = j.at("tried").at("directions");
   t.n_flips = j.at("tried").at("sign_flips");
+  t.least_p_value = j.at("tried").at("least_p_value");
   t.not_identifiable = j.at("not_identifiable").get<std::vector<std::string>>();
   t.rejected = j.at("rejected").get<std::vector<std::string>>();
   t.notes = j.at("notes").get<std::vector<std::string>>();

@@ -64,7 +64,9 @@ std::string cause_text(const TracedEffect& effect) {
 
 std::string trace_text(const Trace& t) {
   std::string out = fmt::format("\nWhat {} lacks, by its residual: {}\n", t.model,
-                                t.verdict == Verdict::effect_added      ? "effect added"
+                                t.verdict == Verdict::effect_added ? "effect added"
+                                : t.verdict == Verdict::nothing_missing && t.least_p_value > t.alpha
+                                    ? "nothing that so few experiments can show"
                                 : t.verdict == Verdict::nothing_missing ? "nothing is missing"
                                                                         : "unexplained structure");
   for (const TracedEffect& effect : t.effects)

@@ -29,6 +29,7 @@ constexpr int order_check_functions = 9;
 constexpr int order_nuisance_functions = 12;
 constexpr double order_suspicion = 0.05; // p-value of the order's own test
 constexpr double beyond_order = 3;       // statistic that an effect keeps beside the order of tests
+constexpr double declared_lead = 10;     // of log likelihood, that a declared wear may lack
 constexpr double least_cv_gain = 0.004;  // of the error of cross-validation
 constexpr double clearly_better = 0.04;  // that plain least squares must be, to be used instead
 constexpr std::size_t cv_folds = 5;
@@ -89,6 +90,8 @@ public:
       progress_.tick();
     look_along_the_order();
     drop_what_does_not_pay();
+    reconsider_order();
+    forget_overruled();
     screen_what_is_left();
     return std::move(search_);
   }
@@ -178,6 +181,7 @@ private:
     if (screened.directions.empty() || screened.p_value > in_.options.alpha) return false;
     std::vector<Rival> rivals = find_rivals(campaign(), search_->last, search_->sources,
                                             search_->shapes, screened, search_->tau_scale_MPa);
+    prefer_declared(rivals);
     if (follows_order(rivals.front())) {
       blame_order(rivals.front(), screened.p_value);
       return true;
@@ -190,7 +194,19 @@ private:
 
   bool declared(const Rival& rival) const {
     const std::string& name = rival.effects.back().column;
-    return !in_.options.tool_distance.empty() && name == in_.options.tool_distance;
+    const std::string& distance = in_.options.tool_distance;
+    return !distance.empty() &&
+           (name == distance ||
+            (name == "test_order" && distance == search_->candidates.order_column));
+  }
+
+  // Of two that follow the order of tests alike, the one that the user has declared.
+  void prefer_declared(std::vector<Rival>& rivals) const {
+    if (!constant_in_experiments(rivals.front().sources.back(), search_->candidates)) return;
+    const auto found =
+        std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) { return declared(r); });
+    if (found != rivals.end() && found->penalised > rivals.front().penalised - declared_lead)
+      std::rotate(rivals.begin(), found, found + 1);
   }
 
   bool is_order(const Rival& rival) {
@@ -299,6 +315,34 @@ private:
     }
     take_order_out(p);
     while (add_one()) {
+    }
+  }
+
+  // Whether the order still has structure once the effects are in the law.
+  void reconsider_order() {
+    if (campaign().nuisance.cols() == 0 || search_->findings.empty()) return;
+    MatrixXd nuisance = std::move(campaign().nuisance);
+    campaign().nuisance.resize(0, 0);
+    Rival with_order = search_->last;
+    search_->last = fit_rival(campaign(), with_order.effects, with_order.sources,
+                              with_order.parameters, with_order.noise, 60);
+    const double p = order_p_value_now();
+    if (p > 0.5 * in_.options.alpha) {
+      search_->order = {};
+      search_->order.column = search_->candidates.order_column;
+      search_->order.p_value = p;
+      return;
+    }
+    campaign().nuisance = std::move(nuisance);
+    search_->last = std::move(with_order);
+  }
+
+  // What was turned down first and added later.
+  void forget_overruled() {
+    for (const Source& source : search_->last.sources) {
+      const std::string name = source_name(source, search_->candidates) + ":";
+      std::erase_if(search_->rejected,
+                    [&](const std::string& text) { return text.starts_with(name); });
     }
   }
 

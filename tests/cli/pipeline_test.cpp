@@ -84,7 +84,7 @@ TEST_F(MainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST_F(MainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   ASSERT_EQ(run_frictab({"run", job, "-o", directory.path("run")}).exit_code, 0);
-  for (const char* stage : {"calibrate", "tabulate", "export", "verify", "report"}) {
+  for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"}) {
     const auto result = run_frictab({stage, job, "-o", directory.path("stages")});
     ASSERT_EQ(result.exit_code, 0) << stage << result.err;
   }

@@ -183,20 +183,31 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
   EXPECT_TRUE(find("humidity_pct").identifiable);
   // A difference between experiments that scatter by 4 % needs about 4.7 standard errors of 81.
   EXPECT_NEAR(find("film_um").share, 4.7 * 0.045 / 9, 0.008);
-  EXPECT_LT(find("sliding_distance").share, find("film_um").share)
+  EXPECT_LT(find("s_mm").share, find("film_um").share)
       << "what changes within every experiment is seen better";
 }
 
-TEST(Trace, FewExperimentsAreRefused) {
+TEST(Trace, FewExperimentsGiveALeadAndNoEffect) {
+  TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
+  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=110;validation=3",
+                                default_design(twin_set("D")));
+  const Trace t = traced(options);
+  EXPECT_TRUE(t.effects.empty());
+  EXPECT_THAT(t.remaining.note, HasSubstr("the strongest lead is "));
+  EXPECT_THAT(t.remaining.note,
+              HasSubstr("4 experiments can give no p below 0.12: it takes 7 to add an effect"));
+}
+
+TEST(Trace, TwoExperimentsAreRefused) {
   TwinOptions options = campaign("coulomb", 1);
   options.law = "coulomb";
-  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
+  options.design = parse_design("p=500,2750;psi=1;v=5;T=20;points=60;validation=3",
                                 default_design(twin_set("D")));
   try {
     traced(options);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("4 experiments are too few"));
+    EXPECT_THAT(error.what(), HasSubstr("2 experiments are too few"));
   }
 }
 

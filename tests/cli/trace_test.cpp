@@ -1,0 +1,131 @@
+// "frictab trace" and the loop of "run": an undeclared effect goes in, a routine with it comes out.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+
+namespace frictab {
+namespace {
+
+using test::run_frictab;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::vector<std::string> campaign = {
+    "--law",     "log_coulomb", "--design",  "p=500,1625,2750;points=110",
+    "--profile", "varied",      "--scatter", "test=0.04,slow=0.04,rho=0.8,white=0.015"};
+
+class TraceCommand : public testing::Test {
+protected:
+  void make(std::vector<std::string> effects, const std::string& more = "") {
+    std::vector<std::string> call = {"twin", directory.path("data"), "-q"};
+    call.insert(call.end(), campaign.begin(), campaign.end());
+    for (const std::string& effect : effects) {
+      call.push_back("--effect");
+      call.push_back(effect);
+    }
+    ASSERT_EQ(run_frictab(call).exit_code, 0);
+    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
+                                "validation = \"data/validation.csv\"\n"
+                                "[models]\nuse = [\"coulomb\", \"log_coulomb\"]\n"
+                                "[calibration]\nbootstrap = 100\n" +
+                                    more);
+    job = directory.path("job.toml");
+  }
+  Json trace() { return Json::parse(directory.read("out/trace.json")); }
+
+  test::TemporaryDirectory directory;
+  std::string job;
+};
+
+const std::string humidity = "form=power,column=humidity_pct,strength=0.5";
+const std::string run_in = "form=saturation,column=s_mm,strength=0.3,x0=3";
+
+TEST_F(TraceCommand, RunShipsTheEffectThatNobodyDeclared) {
+  make({humidity, run_in}, "[export]\ntargets = [\"c\", \"abaqus_vfric\"]\n"
+                           "[export.inputs]\nhumidity_pct = \"field:1\"\n");
+  const auto result = run_frictab({"run", job});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("What log_coulomb lacks, by its residual: effect added"));
+  EXPECT_THAT(result.out, HasSubstr("SYNTHETIC data"));
+  const Json t = trace();
+  EXPECT_EQ(t.at("schema"), "frictab/trace/1");
+  EXPECT_EQ(t.at("verdict"), "effect_added");
+  EXPECT_EQ(t.at("synthetic_data"), true);
+  std::set<std::string> causes;
+  for (const Json& effect : t.at("effects"))
+    causes.insert(effect.at("columns").at(0).get<std::string>());
+  EXPECT_THAT(causes, testing::IsSupersetOf({"humidity_pct", "s_mm"}));
+  const double before = t.at("before").at("validation").at("mae_MPa");
+  const double after = t.at("after").at("validation").at("mae_MPa");
+  EXPECT_LT(after, 0.85 * before);
+  // The law with the effects is the best one, so it is what was tabulated, exported and verified.
+  EXPECT_TRUE(std::filesystem::exists(directory.path("out/tables/log_coulomb_traced.h5")));
+  EXPECT_TRUE(std::filesystem::exists(directory.path("out/models/log_coulomb_traced.json")));
+  const Json recipe = Json::parse(directory.read("out/export/c/recipe.json"));
+  EXPECT_THAT(recipe.dump(), HasSubstr("in_humidity_pct"));
+  const Json drift = Json::parse(directory.read("out/verify.json"));
+  ASSERT_FALSE(drift.at("records").empty());
+  for (const Json& record : drift.at("records"))
+    EXPECT_LE(double(record.at("worst_case_MPa")), 0.5) << record.at("subject");
+  const std::string report = directory.read("out/report.html");
+  EXPECT_THAT(report, HasSubstr("What the law lacks"));
+  EXPECT_THAT(report, HasSubstr("residual before, unseen experiments"));
+  EXPECT_THAT(report, HasSubstr("residual after, unseen experiments"));
+}
+
+TEST_F(TraceCommand, SaysThatNothingIsMissingAndWhatItCouldHaveSeen) {
+  make({});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  const auto result = run_frictab({"trace", job, "--power"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("log_coulomb lacks, by its residual: nothing is missing"));
+  EXPECT_THAT(result.out, HasSubstr("Smallest effect on mu that this campaign would have shown"));
+  EXPECT_THAT(result.out, HasSubstr("humidity_pct"));
+  EXPECT_EQ(trace().at("verdict"), "nothing_missing");
+  EXPECT_TRUE(trace().at("effects").empty());
+  EXPECT_FALSE(std::filesystem::exists(directory.path("out/models/log_coulomb_traced.json")));
+}
+
+TEST_F(TraceCommand, ForgetsTheLawOfAnEarlierTrace) {
+  make({humidity});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  ASSERT_EQ(run_frictab({"trace", job}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory.path("out/models/log_coulomb_traced.json")));
+  const auto without = run_frictab({"trace", job, "--set", "trace.ignore=\"humidity_pct\""});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_EQ(directory.read("out/calibration.json").find("humidity_pct"), std::string::npos);
+}
+
+TEST_F(TraceCommand, TracesEveryLawAskedFor) {
+  make({humidity});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  ASSERT_EQ(run_frictab({"trace", job, "--set", "trace.models=\"all\""}).exit_code, 0);
+  const Json t = trace();
+  EXPECT_EQ(t.at("model"), "log_coulomb");
+  ASSERT_EQ(t.at("others").size(), 1u);
+  EXPECT_EQ(t.at("others").at(0).at("model"), "coulomb");
+}
+
+TEST_F(TraceCommand, NamesAColumnThatIsNotThere) {
+  make({});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  const auto result = run_frictab({"trace", job, "--set", "trace.ignore=[\"humidity_pt\"]"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("the data have no column 'humidity_pt'"));
+  EXPECT_THAT(result.err, HasSubstr("did you mean 'humidity_pct'?"));
+}
+
+TEST_F(TraceCommand, NeedsACalibration) {
+  make({});
+  const auto result = run_frictab({"trace", job});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("there is no calibration yet"));
+}
+
+} // namespace
+} // namespace frictab
