@@ -140,7 +140,7 @@ std::string parameters_of(const TracedEffect& effect) {
     const ValueText shown = with_error(p.value, p.std_error);
     text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", svg::escape(p.name), shown.value,
                         shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
-                        p.unit == "1" ? "" : " " + shown_unit(p.unit));
+                        p.unit == "1" || p.unit.empty() ? "" : " " + shown_unit(p.unit));
   }
   return text;
 }

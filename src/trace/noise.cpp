@@ -54,8 +54,11 @@ MatrixXd orthonormal(const MatrixXd& columns) {
   return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
-double NoiseModel::between() const {
-  return std::hypot(multiplicative, (additive + coupling) / scale);
+double NoiseModel::between(const VectorXd& tau) const {
+  const Eigen::ArrayXd t = tau.array();
+  const double variance = (additive + coupling / scale * t).square().mean() +
+                          multiplicative * multiplicative * t.square().mean();
+  return std::sqrt(variance / t.square().mean());
 }
 
 Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const std::size_t> first,

@@ -24,8 +24,8 @@ struct NoiseModel {
   double growth = 0;
   double scale = 1; // MPa, mean predicted tau
 
-  // Relative standard deviation between experiments, where tau is `scale`.
-  double between() const;
+  // Standard deviation between experiments relative to tau, root mean square over blocks.
+  double between(const Eigen::VectorXd& tau) const;
 };
 
 // V^-1/2 of all experiments, which are independent: the slow and white noise by their innovations

@@ -65,7 +65,7 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
   trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
   trace.noise_floor.n_rows = training.rows();
   trace.noise_floor.n_experiments = training.experiments.size();
-  const double share = noise.between();
+  const double share = noise.between(last.predicted);
   trace.scatter_between = share;
   const double degrees = std::max(1.0, static_cast<double>(training.experiments.size()) -
                                            static_cast<double>(last.parameters.size()));

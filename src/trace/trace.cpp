@@ -204,7 +204,7 @@ private:
   static std::string unit_of(const std::string& column) {
     if (const Quantity* quantity = find_quantity(column)) return quantity->unit;
     if (const DerivedQuantity* quantity = find_derived(column)) return quantity->unit;
-    return column;
+    return ""; // a bystander's own, which nobody has said
   }
 
   void add_parameters(TracedEffect& effect, const ModelFit& fit, std::size_t first) const {

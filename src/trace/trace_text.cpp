@@ -32,7 +32,7 @@ std::string parameter_text(const TracedEffect& effect) {
   for (const TracedParameter& p : effect.parameters)
     if (std::isfinite(p.std_error))
       text += fmt::format("{}{} = {:.4g} +- {:.2g}{}", text.empty() ? "" : ", ", p.name, p.value,
-                          p.std_error, p.unit == "1" ? "" : " " + p.unit);
+                          p.std_error, p.unit == "1" || p.unit.empty() ? "" : " " + p.unit);
   return text;
 }
 
