@@ -29,13 +29,6 @@ std::vector<double> finite_sorted(std::span<const double> values) {
   return kept;
 }
 
-std::vector<double> residuals(std::span<const double> measured, std::span<const double> predicted) {
-  std::vector<double> r(std::min(measured.size(), predicted.size()));
-  for (std::size_t i = 0; i < r.size(); ++i)
-    r[i] = measured[i] - predicted[i];
-  return r;
-}
-
 std::span<const double> measured_of(const ReportInput& input) {
   return input.validation.has("tau_R_MPa") ? input.validation.values("tau_R_MPa")
                                            : std::span<const double>{};
@@ -77,6 +70,13 @@ std::string beyond(std::size_t outside, std::size_t rows, const char* plot) {
 }
 
 } // namespace
+
+std::vector<double> residuals(std::span<const double> measured, std::span<const double> predicted) {
+  std::vector<double> r(std::min(measured.size(), predicted.size()));
+  for (std::size_t i = 0; i < r.size(); ++i)
+    r[i] = measured[i] - predicted[i];
+  return r;
+}
 
 double quantile(std::span<const double> sorted, double share) {
   const double x = share * static_cast<double>(sorted.size() - 1);

@@ -42,6 +42,9 @@ struct RunningBand {
 };
 RunningBand running_band(std::span<const double> x, std::span<const double> y);
 
+// Measured minus predicted, as far as both go.
+std::vector<double> residuals(std::span<const double> measured, std::span<const double> predicted);
+
 // Linear between order statistics; `sorted` is ascending and not empty.
 double quantile(std::span<const double> sorted, double share);
 

@@ -79,7 +79,7 @@ std::string parameter_text(const Parameter& parameter, double value, double std_
   return text + "</span>";
 }
 
-std::string parameters(const ModelFit& fit) {
+std::string parameter_list(const ModelFit& fit) {
   const Law& law = *fit.model.law;
   if (fit.network) return network_size(*fit.network);
   const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
@@ -128,7 +128,7 @@ TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
               {"rmse", fixed(v.rmse_MPa, decimals)},
               {"bias", fixed(v.bias_MPa, decimals)},
               {"training_mae", fixed(fit.training.mae_MPa, decimals)},
-              {"parameters", parameters(fit)}};
+              {"parameters", parameter_list(fit)}};
   std::vector<TemplateValues>& remarks = row.lists["remarks"];
   for (const std::string& remark : fit.remarks)
     remarks.push_back({{{"text", svg::escape(remark)}}, {}, {}});

@@ -86,13 +86,6 @@ const ModelFit* fit_of(const ReportInput& input, const std::string& model, std::
   return nullptr;
 }
 
-std::vector<double> residuals(Values measured, Values predicted) {
-  std::vector<double> r(measured.size());
-  for (std::size_t i = 0; i < r.size(); ++i)
-    r[i] = measured[i] - predicted[i];
-  return r;
-}
-
 // Before, the effect, after: three plots over the effect's column.
 std::string effect_plots(const ReportInput& input, const Trace& trace, const TracedEffect& effect) {
   std::size_t before = 0, after = 0;
@@ -195,7 +188,7 @@ TemplateValues trace_values(const ReportInput& input, const Trace& trace, int de
   values.text["badge_class"] = class_of(trace.verdict);
   values.text["sentence"] = sentence_of(trace);
   values.text["floor"] = fixed(trace.noise_floor.mae_MPa, decimals);
-  values.flags["has_effects"] = !trace.effects.empty();
+  values.flags["has_effects"] = !trace.extended_model.empty();
   values.text["improvement"] =
       fmt::format("{} MPa (95 %: {})", fixed(trace.improvement.value_MPa, decimals),
                   interval_text(trace.improvement.interval, decimals));
@@ -203,8 +196,10 @@ TemplateValues trace_values(const ReportInput& input, const Trace& trace, int de
   errors.push_back(error_row("as calibrated", trace.before, decimals));
   errors.push_back(
       error_row("the same law, fitted again as the extended one", trace.recalibrated, decimals));
-  if (!trace.effects.empty())
-    errors.push_back(error_row("with the effects", trace.after, decimals));
+  if (!trace.extended_model.empty())
+    errors.push_back(error_row(trace.effects.empty() ? "without what follows the order of tests"
+                                                     : "with the effects",
+                               trace.after, decimals));
   for (const TracedEffect& effect : trace.effects)
     values.lists["effects"].push_back(effect_values(input, trace, effect, decimals));
   auto& detectable = values.lists["detectable"];

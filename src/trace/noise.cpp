@@ -164,7 +164,7 @@ void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
 
 namespace {
 
-constexpr std::size_t size = 6; // additive, multiplicative, slow, rho, white, coupling
+constexpr std::size_t searched = 6; // additive, multiplicative, slow, rho, white, coupling
 
 double log_likelihood(const NoiseModel& noise, const VectorXd& residual, const VectorXd& tau,
                       std::span<const std::size_t> first, const MatrixXd& jacobian,
@@ -225,9 +225,9 @@ NoiseFit fit_noise(const VectorXd& residual, const VectorXd& tau,
       std::max(std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size())), 1e-12);
   Context context{residual, tau, first, jacobian, nuisance, start, {scatter, start.scale}};
   std::vector<double> x = context.scaling.of(start);
-  for (std::size_t i = 0; i < size; ++i)
+  for (std::size_t i = 0; i < searched; ++i)
     x[i] = std::clamp(x[i], lower[i] + 0.01, upper[i] - 0.01);
-  nlopt::opt search(nlopt::LN_BOBYQA, size);
+  nlopt::opt search(nlopt::LN_BOBYQA, searched);
   search.set_lower_bounds(lower);
   search.set_upper_bounds(upper);
   search.set_initial_step(0.4);

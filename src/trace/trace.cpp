@@ -122,7 +122,8 @@ private:
 
   void judge(Trace& trace) {
     trace.before = {in_.fit.training, in_.fit.validation};
-    const Model again = model_of(search_.base);
+    Model again = in_.fit.model;
+    again.parameters = search_.base.parameters;
     trace.recalibrated = {errors(in_.training, predict(again, in_.training)),
                           errors(in_.validation, predict(again, in_.validation))};
     trace.after = trace.before;
@@ -144,11 +145,6 @@ private:
         experiment_gains(in_.training.values("tau_R_MPa"), trained, in_.training.first_row),
         fit.model.parameters.size());
     fit.band = check_band(fit.model, unseen, in_.validation);
-    if (search_.last.effects.empty()) { // the order was taken out, and nothing else found
-      trace.recalibrated = {fit.training, fit.validation};
-      fit = {};
-      return;
-    }
     trace.extended_model = fit.model.name();
     trace.after = {fit.training, fit.validation};
     const auto tau = in_.validation.values("tau_R_MPa");

@@ -71,7 +71,10 @@ std::string trace_text(const Trace& t) {
                                                                         : "unexplained structure");
   for (const TracedEffect& effect : t.effects)
     add_effect(out, effect);
-  if (!t.effects.empty()) {
+  if (!t.extended_model.empty()) {
+    if (t.effects.empty())
+      out +=
+          "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
     out += fmt::format("  {:<14}{:>8}{:>18}{:>9}{:>9}{:>10}\n", "tau_R, MPa", "MAE",
                        "95 % interval", "RMSE", "bias", "train MAE");
     out += mae_line("before", t.before) + mae_line("after", t.after);

@@ -12,10 +12,10 @@ namespace frictab {
 
 namespace {
 
-void check_choice(const std::string& option, const std::string& value,
+void check_choice(const std::string& key, const std::string& value,
                   const std::vector<std::string>& known, FaultList& faults) {
   if (std::find(known.begin(), known.end(), value) == known.end())
-    faults.add({option}, "unknown " + option.substr(2) + " '" + value + "'", suggest(value, known));
+    faults.add({key}, "unknown " + key.substr(2) + " '" + value + "'", suggest(value, known));
 }
 
 void check_scatter(const char* key, std::optional<double> value, double most, FaultList& faults) {

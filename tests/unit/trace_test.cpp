@@ -129,7 +129,10 @@ TEST(Trace, DriftAlongTheOrderOfTestsIsReportedNotShipped) {
   EXPECT_EQ(t.order.column, "run_order");
   EXPECT_GT(t.order.size_MPa, 0);
   EXPECT_THAT(t.remaining.note, HasSubstr("drift, wear or batch"));
-  EXPECT_EQ(t.extended_model, "");
+  // The law keeps its form; its parameters are those of a campaign without the drift.
+  EXPECT_EQ(t.extended_model, "log_coulomb_traced");
+  EXPECT_EQ(parameter_names(*t.extended.model.law), parameter_names(*find_law("log_coulomb")));
+  EXPECT_LT(t.after.validation.mae_MPa, 1.02 * t.before.validation.mae_MPa);
 }
 
 TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
