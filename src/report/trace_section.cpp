@@ -91,9 +91,11 @@ std::string effect_plots(const ReportInput& input, const Trace& trace, const Tra
   std::size_t before = 0, after = 0;
   const ModelFit* extended = fit_of(input, trace.extended_model, after);
   if (!extended || !fit_of(input, trace.model, before)) return "";
-  const InputColumns columns =
-      input_columns(extended->model, {symbol_of(effect.placed.column)}, input.validation);
-  const Values x = columns[0], measured = input.validation.values("tau_R_MPa");
+  const auto names = inputs(*extended->model.law, extended->model.conventions);
+  const InputColumns columns = input_columns(extended->model, names, input.validation);
+  const auto column = static_cast<std::size_t>(
+      std::find(names.begin(), names.end(), symbol_of(effect.placed.column)) - names.begin());
+  const Values x = columns[column], measured = input.validation.values("tau_R_MPa");
   const auto r0 = residuals(measured, input.predicted[before]);
   const auto r1 = residuals(measured, input.predicted[after]);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());

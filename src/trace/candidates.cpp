@@ -61,6 +61,21 @@ std::vector<double> quantiles_of(Rows values) {
   return at;
 }
 
+// Median over experiments of their own range, relative to that of all.
+double usual_reach(Rows values, const Dataset& data) {
+  const auto range = [](Rows part) {
+    const auto [low, high] = std::minmax_element(part.begin(), part.end());
+    return *high - *low;
+  };
+  std::vector<double> own;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    own.push_back(
+        range(values.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+  std::sort(own.begin(), own.end());
+  const double all = range(values);
+  return all > 0 ? own[own.size() / 2] / all : 0;
+}
+
 double widest_gap(const std::vector<double>& tested) {
   double widest = 0;
   for (std::size_t i = 1; i < tested.size(); ++i)
@@ -161,6 +176,7 @@ private:
     column.spread = spread_of(values);
     column.within = varies_within(values, training_);
     column.tested = quantiles_of(values);
+    column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
     column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
     found_.by_symbol[symbol_of(name)] = column.values;
@@ -285,7 +301,8 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
     return x.spread.median > 0 && x.spread.minimum >= 0;
   if (form.name == "saturation" || form.name == "stribeck")
     return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
-  if (form.name == "periodic") return x.within;
+  // A wave is seen along an experiment; from test to test it imitates whatever lies between.
+  if (form.name == "periodic") return x.reach > 0.5;
   return true;
 }
 

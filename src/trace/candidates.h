@@ -21,6 +21,7 @@ struct CandidateColumn {
   bool within = false;             // varies within experiments
   std::vector<double> tested;      // where its rows are: quantiles, ascending
   double gap = 0;                  // between the two of them that are furthest apart
+  double reach = 0;                // part of its range that a usual experiment runs through
   bool in_law = false;             // the law uses it: its form may be wrong
 };
 

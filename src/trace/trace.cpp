@@ -107,11 +107,6 @@ private:
   Model model_of(const Rival& rival) const {
     Model model;
     model.conventions = in_.fit.model.conventions;
-    if (rival.effects.empty()) {
-      model.law = in_.fit.model.law;
-      model.parameters = rival.parameters;
-      return model;
-    }
     model.law =
         made(extended_law(*in_.fit.model.law, model.conventions,
                           std::span(rival.parameters).first(in_.fit.model.law->parameters.size()),

@@ -27,11 +27,12 @@ constexpr std::size_t most_effects = 5;
 constexpr std::size_t flips = 999;
 constexpr int order_check_functions = 9;
 constexpr int order_nuisance_functions = 12;
-constexpr double order_suspicion = 0.05; // p-value of the order's own test
-constexpr double beyond_order = 3;       // statistic that an effect keeps beside the order of tests
-constexpr double declared_lead = 10;     // of log likelihood, that a declared wear may lack
-constexpr double least_cv_gain = 0.004;  // of the error of cross-validation
-constexpr double clearly_better = 0.04;  // that plain least squares must be, to be used instead
+constexpr double negligible_share = 1e-4; // of tau_R: the residual of a law that is exact
+constexpr double order_suspicion = 0.05;  // p-value of the order's own test
+constexpr double beyond_order = 3;      // statistic that an effect keeps beside the order of tests
+constexpr double declared_lead = 10;    // of log likelihood, that a declared wear may lack
+constexpr double least_cv_gain = 0.004; // of the error of cross-validation
+constexpr double clearly_better = 0.04; // that plain least squares must be, to be used instead
 constexpr std::size_t cv_folds = 5;
 
 // A trained law (a network) could have absorbed much that its one parameter cannot show: quadratic
@@ -175,8 +176,15 @@ private:
                    flips, in_.seed, keep_scores});
   }
 
+  // A law that passes through the data, but for digits that nobody recorded.
+  bool negligible() {
+    const VectorXd residual = campaign().measured - search_->last.predicted;
+    return residual.norm() / std::sqrt(static_cast<double>(residual.size())) <
+           negligible_share * search_->tau_scale_MPa;
+  }
+
   bool add_one() {
-    if (search_->findings.size() >= most_effects) return false;
+    if (search_->findings.size() >= most_effects || negligible()) return false;
     const ScreenResult screened = screen_now();
     if (screened.directions.empty() || screened.p_value > in_.options.alpha) return false;
     std::vector<Rival> rivals = find_rivals(campaign(), search_->last, search_->sources,
@@ -300,7 +308,7 @@ private:
   }
 
   void look_along_the_order() {
-    if (search_->order.found) return;
+    if (search_->order.found || negligible()) return;
     const double p = order_p_value_now();
     search_->order.p_value = p;
     if (p > 0.5 * in_.options.alpha) return;        // a second test, beside that of all candidates
@@ -468,7 +476,7 @@ private:
   void screen_what_is_left() {
     // (Before the parameters are delivered: the test belongs to the noise model's weights.)
     search_->last_screen = screen_now(true);
-    search_->last_p_value = search_->last_screen.p_value;
+    search_->last_p_value = negligible() ? 1 : search_->last_screen.p_value;
     search_->base = delivered(search_->base);
     search_->last = search_->last.effects.empty() && !search_->order.found
                         ? search_->base

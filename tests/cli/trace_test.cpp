@@ -111,6 +111,27 @@ TEST_F(TraceCommand, TracesEveryLawAskedFor) {
   EXPECT_EQ(t.at("others").at(0).at("model"), "coulomb");
 }
 
+TEST_F(TraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
+  make({"form=saturation,column=friction_work,strength=0.5"},
+  const auto result = run_frictab({"run", job});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("+ friction_work"));
+  EXPECT_THAT(directory.read("out/report.html"), HasSubstr("friction_work"));
+}
+
+TEST_F(TraceCommand, ALawThatIsExactLacksNothing) {
+  ASSERT_EQ(run_frictab({"twin", directory.path("data"), "-q", "--law", "coulomb", "--noise-scale",
+                         "0", "--design", "points=40;p=500,2000;psi=1,20;v=5;T=20,200"})
+                .exit_code,
+            0);
+  job = directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
+                                    "validation = \"data/validation.csv\"\n"
+                                    "[models]\nuse = \"coulomb\"\n");
+  const auto result = run_frictab({"run", job});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("coulomb lacks, by its residual: nothing"));
+}
+
 TEST_F(TraceCommand, NamesAColumnThatIsNotThere) {
   make({});
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
