@@ -112,7 +112,7 @@ TEST_F(TraceCommand, TracesEveryLawAskedFor) {
 }
 
 TEST_F(TraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
-  make({"form=saturation,column=friction_work,strength=0.5"},
+  make({"form=saturation,column=friction_work,strength=0.5"});
   const auto result = run_frictab({"run", job});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("+ friction_work"));
