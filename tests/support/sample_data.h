@@ -26,7 +26,8 @@ Model plausible_model(const Law& law);
 // An ensemble that bends in all five states, as trained ones do, with random weights.
 Model network_model(std::size_t members = 3, std::size_t hidden = 4);
 
-// Random states in the order of `names`, in Table 1 (and s 0..20 mm, sigma_f 300..900 MPa; others 0..1).
+// Random states in the order of `names`, in Table 1 (and s 0..20 mm, sigma_f 300..900 MPa; others
+// 0..1).
 std::vector<std::vector<double>> random_states(const std::vector<std::string>& names,
                                                std::size_t count, std::uint64_t seed);
 
