@@ -172,7 +172,7 @@ double log_likelihood(const NoiseModel& noise, const VectorXd& residual, const V
   const Whitener whitener(noise, tau, first, nuisance);
   MatrixXd all(residual.size(), jacobian.cols() + 1);
   all.col(0) = residual;
-  all.rightCols(jacobian.cols()) = jacobian;
+  if (jacobian.cols() > 0) all.rightCols(jacobian.cols()) = jacobian;
   whitener.apply(all);
   double value =
       -0.5 * (all.col(0).squaredNorm() + whitener.log_det().sum() + whitener.nuisance_log_det());

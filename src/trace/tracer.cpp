@@ -158,6 +158,7 @@ private:
   MatrixXd fitted() {
     search_->sensitivities = sensitivities_of(campaign(), search_->last, search_->tau_scale_MPa);
     MatrixXd all = fitted_directions(campaign(), search_->last, search_->sensitivities);
+    if (trained_.cols() == 0) return all;
     const Index before = all.cols();
     all.conservativeResize(Eigen::NoChange, before + trained_.cols());
     all.rightCols(trained_.cols()) = trained_;
