@@ -253,8 +253,8 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
   return found;
 }
 
-std::vector<Source> sources(const Candidates& candidates) {
-  std::vector<Source> all;
+std::vector<Cause> sources(const Candidates& candidates) {
+  std::vector<Cause> all;
   const auto& columns = candidates.columns;
   for (std::size_t c = 0; c < columns.size(); ++c)
     all.push_back({c});
@@ -264,9 +264,8 @@ std::vector<Source> sources(const Candidates& candidates) {
   return all;
 }
 
-PlacedEffect start_effect(const EffectForm& form, const Source& source,
-                          const Candidates& candidates, const std::string& acts_on,
-                          double tau_scale_MPa) {
+PlacedEffect start_effect(const EffectForm& form, const Cause& source, const Candidates& candidates,
+                          const std::string& acts_on, double tau_scale_MPa) {
   const CandidateColumn& x = candidates.columns[source.column];
   PlacedEffect effect;
   effect.form = &form;
@@ -338,7 +337,7 @@ Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColum
 }
 
 // One direction per level against the others.
-std::vector<GridShape> level_shapes(const Source& source, const Candidates& candidates) {
+std::vector<GridShape> level_shapes(const Cause& source, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[source.column];
   std::vector<GridShape> shapes;
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
@@ -370,13 +369,13 @@ void keep_different(std::vector<GridShape>& shapes) {
 
 } // namespace
 
-bool form_fits(const EffectForm& form, const Source& source, const Candidates& candidates) {
+bool form_fits(const EffectForm& form, const Cause& source, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[source.column];
   return form.categorical == !x.levels.empty() && form.two_columns == source.pair() &&
          has_meaning(form, x);
 }
 
-std::vector<GridShape> shapes_of(const Source& source, const Candidates& candidates) {
+std::vector<GridShape> shapes_of(const Cause& source, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[source.column];
   if (!x.levels.empty()) return level_shapes(source, candidates);
   std::vector<GridShape> shapes;
@@ -418,19 +417,19 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
   }
 }
 
-std::string source_name(const Source& source, const Candidates& candidates) {
+std::string source_name(const Cause& source, const Candidates& candidates) {
   const std::string& name = candidates.columns[source.column].name;
   return source.pair() ? name + " x " + candidates.columns[source.second].name : name;
 }
 
-int complexity(const Source& source, const Candidates& candidates) {
+int complexity(const Cause& source, const Candidates& candidates) {
   if (source.pair()) return 4;
   const CandidateColumn& column = candidates.columns[source.column];
   if (!column.derived) return 0;
   return is_followed(column.name) ? 1 : 2;
 }
 
-bool constant_in_experiments(const Source& source, const Candidates& candidates) {
+bool constant_in_experiments(const Cause& source, const Candidates& candidates) {
   return !candidates.columns[source.column].within &&
          (!source.pair() || !candidates.columns[source.second].within);
 }

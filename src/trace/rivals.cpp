@@ -117,7 +117,7 @@ void judge(Rival& rival, const Campaign& campaign) {
   rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
   rival.total = rival.log_likelihood.sum();
   double cost = per_parameter * static_cast<double>(rival.parameters.size());
-  for (const Source& source : rival.sources)
+  for (const Cause& source : rival.sources)
     cost += per_complexity * complexity(source, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
     cost += cost_of_look(
@@ -136,7 +136,7 @@ Law bounded_law(const Campaign& campaign, const Rival& rival) {
 }
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
-                std::vector<Source> sources, std::span<const double> parameters,
+                std::vector<Cause> sources, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
@@ -261,7 +261,7 @@ MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
   return columns;
 }
 
-MatrixXd any_form(const Source& source, const Candidates& candidates) {
+MatrixXd any_form(const Cause& source, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[source.column];
   if (!x.levels.empty()) return level_functions(x.values, x.levels.size());
   if (!source.pair()) return hat_functions(x.values);
@@ -294,11 +294,11 @@ namespace {
 
 struct Trial {
   PlacedEffect effect;
-  Source source;
+  Cause source;
 };
 
 // A shape of the grid, with the amplitude that the screening suggests.
-Trial trial_of(const Direction& direction, const std::vector<Source>& sources,
+Trial trial_of(const Direction& direction, const std::vector<Cause>& sources,
                const std::vector<std::vector<GridShape>>& shapes, double tau_scale_MPa) {
   Trial trial{shapes[direction.source][direction.shape].effect, sources[direction.source]};
   trial.effect.acts_on = places[direction.place];
@@ -314,7 +314,7 @@ std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current,
   std::vector<Rival> rivals(trials.size());
   parallel_for(trials.size(), [&](std::size_t i) {
     std::vector<PlacedEffect> effects = current.effects;
-    std::vector<Source> sources = current.sources;
+    std::vector<Cause> sources = current.sources;
     effects.push_back(trials[i].effect);
     sources.push_back(trials[i].source);
     std::vector<double> own(current.parameters.begin(),
@@ -364,7 +364,7 @@ std::vector<Direction> best_shapes(const std::vector<Direction>& list,
 } // namespace
 
 std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Source>& sources,
+                               const std::vector<Cause>& sources,
                                const std::vector<std::vector<GridShape>>& shapes,
                                const ScreenResult& screened, double tau_scale_MPa) {
   auto lists = by_source(screened, sources.size());
@@ -380,10 +380,10 @@ std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
 }
 
 std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Source>& sources,
+                              const std::vector<Cause>& sources,
                               const std::vector<std::vector<GridShape>>& shapes,
                               const ScreenResult& screened) {
-  const Source source = winner.sources.back();
+  const Cause source = winner.sources.back();
   const PlacedEffect& won = winner.effects.back();
   if (won.form->categorical || source.pair()) return {winner};
   const auto index =

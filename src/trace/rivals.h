@@ -23,7 +23,7 @@ struct Campaign {
 // The law with some effects, fitted together with the noise.
 struct Rival {
   std::vector<PlacedEffect> effects; // parameters fitted
-  std::vector<Source> sources;       // one per effect
+  std::vector<Cause> sources;        // one per effect
   std::vector<double> parameters;    // of the extended law
   NoiseModel noise;
   NoiseModel weights; // of the fit: the noise model, or alike for all rows
@@ -37,7 +37,7 @@ struct Rival {
 // All parameters by generalised least squares, the noise by maximum likelihood, twice in turn.
 // `parameters`: start of the law's own (and m_limit, if any, behind them).
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
-                std::vector<Source> sources, std::span<const double> parameters,
+                std::vector<Cause> sources, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations = 25);
 
 // The same law with its parameters fitted under other weights.
@@ -61,14 +61,14 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
 
 // Best first; never empty. Every short-listed source with its best shapes in every place.
 std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Source>& sources,
+                               const std::vector<Cause>& sources,
                                const std::vector<std::vector<GridShape>>& shapes,
                                const ScreenResult& screened, double tau_scale_MPa);
 
 // The winner in every form that its column allows; a spline only where no form comes within
 // `margin` of it. Best first.
 std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Source>& sources,
+                              const std::vector<Cause>& sources,
                               const std::vector<std::vector<GridShape>>& shapes,
                               const ScreenResult& screened);
 

@@ -95,7 +95,7 @@ public:
   }
 
 private:
-  bool chosen(const Source& source) const {
+  bool chosen(const Cause& source) const {
     return std::find(search_.last.sources.begin(), search_.last.sources.end(), source) !=
            search_.last.sources.end();
   }
@@ -153,7 +153,7 @@ private:
 
   // --- effects ------------------------------------------------------------------------------
 
-  std::vector<std::string> recorded(const Source& source) const {
+  std::vector<std::string> recorded(const Cause& source) const {
     std::vector<std::string> names = search_.candidates.columns[source.column].recorded;
     if (source.pair())
       for (const std::string& name : search_.candidates.columns[source.second].recorded)
@@ -161,7 +161,7 @@ private:
     return names;
   }
 
-  std::string derived(const Source& source) const {
+  std::string derived(const Cause& source) const {
     const auto& columns = search_.candidates.columns;
     std::string name = columns[source.column].derived ? columns[source.column].name : "";
     if (source.pair() && columns[source.second].derived)
@@ -172,7 +172,7 @@ private:
   void add_effects(Trace& trace) {
     std::size_t parameter = in_.fit.model.law->parameters.size();
     for (std::size_t i = 0; i < search_.last.effects.size(); ++i) {
-      const Source& source = search_.last.sources[i];
+      const Cause& source = search_.last.sources[i];
       TracedEffect effect;
       effect.placed = search_.last.effects[i];
       effect.columns = recorded(source);
@@ -239,7 +239,7 @@ private:
 
   double gain_of(std::size_t i, const Trace& trace) const {
     std::vector<PlacedEffect> effects = search_.last.effects;
-    std::vector<Source> sources = search_.last.sources;
+    std::vector<Cause> sources = search_.last.sources;
     effects.erase(effects.begin() + static_cast<long>(i));
     sources.erase(sources.begin() + static_cast<long>(i));
     const Rival without =

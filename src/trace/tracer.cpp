@@ -348,7 +348,7 @@ private:
 
   // What was turned down first and added later.
   void forget_overruled() {
-    for (const Source& source : search_->last.sources) {
+    for (const Cause& source : search_->last.sources) {
       const std::string name = source_name(source, search_->candidates) + ":";
       std::erase_if(search_->rejected,
                     [&](const std::string& text) { return text.starts_with(name); });
@@ -362,7 +362,7 @@ private:
     finding.p_value = screened.p_value;
     finding.statistic = std::abs(screened.directions[screened.best].statistic);
     finding.threshold = screened.threshold(in_.options.alpha);
-    std::set<Source> seen;
+    std::set<Cause> seen;
     std::vector<Rival> best; // of each source
     for (Rival& rival : rivals)
       if (seen.insert(rival.sources.back()).second) best.push_back(std::move(rival));
@@ -466,7 +466,7 @@ private:
 
   Rival without_effect(const Rival& rival, std::size_t i) {
     std::vector<PlacedEffect> effects = rival.effects;
-    std::vector<Source> sources = rival.sources;
+    std::vector<Cause> sources = rival.sources;
     effects.erase(effects.begin() + static_cast<long>(i));
     sources.erase(sources.begin() + static_cast<long>(i));
     return fit_rival(campaign(), effects, sources,

@@ -30,7 +30,7 @@ struct Search {
   OrderStructure order;
   double last_p_value = 1; // of what is left
   ScreenResult last_screen;
-  std::vector<Source> sources;
+  std::vector<Cause> sources;
   std::vector<std::vector<GridShape>> shapes;
   std::vector<std::string> rejected;
 };
