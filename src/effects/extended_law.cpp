@@ -171,6 +171,15 @@ Expr factor_of(const PlacedEffect& effect, const std::string& prefix) {
   return substitute(effect.form->factor(), replacements);
 }
 
+Program factor_program(const PlacedEffect& effect) {
+  const std::string prefix = "e_";
+  std::vector<std::string> symbols{symbol_of(effect.column)}, names;
+  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
+  for (const Parameter& p : fitted_parameters(effect))
+    names.push_back(prefix + p.name);
+  return Program(factor_of(effect, prefix), symbols, names);
+}
+
 std::string effect_text(const PlacedEffect& effect) {
   std::string text = effect.form->formula + " with x = " + effect.column;
   if (!effect.column2.empty()) text += ", x2 = " + effect.column2;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "effects/effect.h"
+#include "expr/program.h"
 #include "models/law.h"
 
 namespace frictab {
@@ -37,6 +38,9 @@ void set_fitted(PlacedEffect& effect, std::span<const double> values);
 // The factor as a formula of the columns' symbols and of the fitted parameters, each named
 // prefix + its name.
 Expr factor_of(const PlacedEffect& effect, const std::string& prefix);
+
+// The same as a program: of its one or two columns, and of the fitted parameters.
+Program factor_program(const PlacedEffect& effect);
 
 // For people: "(x/x0)^a with x = humidity_pct held in [30, 60], a = ..., acting on mu".
 std::string effect_text(const PlacedEffect& effect);

@@ -253,7 +253,7 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
   return found;
 }
 
-std::vector<Cause> sources(const Candidates& candidates) {
+std::vector<Cause> all_causes(const Candidates& candidates) {
   std::vector<Cause> all;
   const auto& columns = candidates.columns;
   for (std::size_t c = 0; c < columns.size(); ++c)
@@ -264,9 +264,9 @@ std::vector<Cause> sources(const Candidates& candidates) {
   return all;
 }
 
-PlacedEffect start_effect(const EffectForm& form, const Cause& source, const Candidates& candidates,
+PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
                           const std::string& acts_on, double tau_scale_MPa) {
-  const CandidateColumn& x = candidates.columns[source.column];
+  const CandidateColumn& x = candidates.columns[cause.column];
   PlacedEffect effect;
   effect.form = &form;
   effect.column = x.name;
@@ -276,8 +276,8 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& source, const Can
   effect.low = x.spread.minimum;
   effect.high = x.spread.maximum;
   Spread second;
-  if (source.pair()) {
-    const CandidateColumn& x2 = candidates.columns[source.second];
+  if (cause.pair()) {
+    const CandidateColumn& x2 = candidates.columns[cause.second];
     effect.column2 = x2.name;
     second = x2.spread;
     effect.low2 = second.minimum;
@@ -315,17 +315,12 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 
 // d factor/d amplitude at amplitude 0, per block.
 Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
-  const auto& form = *effect.form;
-  std::vector<std::string> names, symbols{symbol_of(effect.column)};
-  if (form.two_columns) symbols.push_back(symbol_of(effect.column2));
-  std::vector<double> neutral = fitted_values(effect);
-  for (const Parameter& p : fitted_parameters(effect))
-    names.push_back("e_" + p.name);
-  const Program program(factor_of(effect, "e_"), symbols, names);
-  std::vector<const double*> data;
-  for (const std::string& symbol : symbols)
-    data.push_back(columns.at(symbol).data());
-  const Index count = columns.at(symbols[0]).size();
+  const Program program = factor_program(effect);
+  const std::vector<double> neutral = fitted_values(effect);
+  const auto& x = columns.at(symbol_of(effect.column));
+  std::vector<const double*> data{x.data()};
+  if (effect.form->two_columns) data.push_back(columns.at(symbol_of(effect.column2)).data());
+  const Index count = x.size();
   Eigen::VectorXf direction(count);
   BoundProgram(program, static_cast<std::size_t>(count), data)
       .sweep(neutral, true, [&](const BoundProgram::Block& block) {
@@ -337,14 +332,14 @@ Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColum
 }
 
 // One direction per level against the others.
-std::vector<GridShape> level_shapes(const Cause& source, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[source.column];
+std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.column];
   std::vector<GridShape> shapes;
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
     Eigen::VectorXf is = (x.values.array() == static_cast<double>(level)).cast<float>();
     shapes.push_back(
-        {start_effect(*find_effect("category"), source, candidates, "mu", 1), std::move(is)});
+        {start_effect(*find_effect("category"), cause, candidates, "mu", 1), std::move(is)});
   }
   return shapes;
 }
@@ -369,19 +364,19 @@ void keep_different(std::vector<GridShape>& shapes) {
 
 } // namespace
 
-bool form_fits(const EffectForm& form, const Cause& source, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[source.column];
-  return form.categorical == !x.levels.empty() && form.two_columns == source.pair() &&
+bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.column];
+  return form.categorical == !x.levels.empty() && form.two_columns == cause.pair() &&
          has_meaning(form, x);
 }
 
-std::vector<GridShape> shapes_of(const Cause& source, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[source.column];
-  if (!x.levels.empty()) return level_shapes(source, candidates);
+std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.column];
+  if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const EffectForm& form : all_effects()) {
-    if (form.amplitudes > 1 || !form_fits(form, source, candidates)) continue;
-    PlacedEffect effect = start_effect(form, source, candidates, "mu", 1);
+    if (form.amplitudes > 1 || !form_fits(form, cause, candidates)) continue;
+    PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
     std::vector<std::vector<double>> grid;
     if (form.grid)
       grid = form.grid(x.spread);
@@ -417,21 +412,21 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
   }
 }
 
-std::string source_name(const Cause& source, const Candidates& candidates) {
-  const std::string& name = candidates.columns[source.column].name;
-  return source.pair() ? name + " x " + candidates.columns[source.second].name : name;
+std::string cause_name(const Cause& cause, const Candidates& candidates) {
+  const std::string& name = candidates.columns[cause.column].name;
+  return cause.pair() ? name + " x " + candidates.columns[cause.second].name : name;
 }
 
-int complexity(const Cause& source, const Candidates& candidates) {
-  if (source.pair()) return 4;
-  const CandidateColumn& column = candidates.columns[source.column];
+int complexity(const Cause& cause, const Candidates& candidates) {
+  if (cause.pair()) return 4;
+  const CandidateColumn& column = candidates.columns[cause.column];
   if (!column.derived) return 0;
   return is_followed(column.name) ? 1 : 2;
 }
 
-bool constant_in_experiments(const Cause& source, const Candidates& candidates) {
-  return !candidates.columns[source.column].within &&
-         (!source.pair() || !candidates.columns[source.second].within);
+bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
+  return !candidates.columns[cause.column].within &&
+         (!cause.pair() || !candidates.columns[cause.second].within);
 }
 
 } // namespace frictab

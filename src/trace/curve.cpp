@@ -17,14 +17,6 @@ using Eigen::VectorXd;
 constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
 
-Program factor_program(const PlacedEffect& effect) {
-  std::vector<std::string> symbols{symbol_of(effect.column)}, names;
-  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
-  for (const Parameter& p : fitted_parameters(effect))
-    names.push_back("e_" + p.name);
-  return Program(factor_of(effect, "e_"), symbols, names);
-}
-
 double factor_at(const Program& program, const PlacedEffect& effect, double x, double x2) {
   const double row[] = {x, x2};
   return program({row, effect.form->two_columns ? 2u : 1u}, fitted_values(effect));
@@ -82,8 +74,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
     curve.low.push_back(f - d);
     curve.high.push_back(f + d);
   }
-  const std::size_t place = effect.acts_on == "mu" ? 0 : effect.acts_on == "m" ? 1 : 2;
-  const VectorXd& sensitivity = sensitivities[place];
+  const VectorXd& sensitivity = sensitivities[place_of(effect)];
   if (effect.form->two_columns || sensitivity.size() == 0) return curve;
   const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.column));
   const VectorXd residual = campaign.measured - rival.predicted;
@@ -111,8 +102,8 @@ std::string deciding_experiment(const Rival& one, const Rival& other,
   const PlacedEffect &a = one.effects.back(), &b = other.effects.back();
   if (a.form->categorical || b.form->categorical || a.form->two_columns || b.form->two_columns)
     return fmt::format("experiments in which {} varies while {} stays as it is",
-                       source_name(one.sources.back(), candidates),
-                       source_name(other.sources.back(), candidates));
+                       cause_name(one.causes.back(), candidates),
+                       cause_name(other.causes.back(), candidates));
   const Program fa = factor_program(a), fb = factor_program(b);
   double most = -1;
   std::string text;

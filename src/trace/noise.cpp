@@ -54,6 +54,13 @@ MatrixXd orthonormal(const MatrixXd& columns) {
   return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
+void append_columns(MatrixXd& to, const MatrixXd& more) {
+  const Index before = to.cols();
+  if (more.cols() == 0) return;
+  to.conservativeResize(more.rows(), before + more.cols());
+  to.rightCols(more.cols()) = more;
+}
+
 double NoiseModel::between(const VectorXd& tau) const {
   const Eigen::ArrayXd t = tau.array();
   const double variance = (additive + coupling / scale * t).square().mean() +
@@ -85,21 +92,16 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const
     predicted = rho_ * rho_ * predicted * (1 - gain_.back()) + slow * (1 - rho_ * rho_);
   }
   for (std::size_t e = 0; e + 1 < first.size(); ++e)
-    parts_.push_back({static_cast<Index>(first[e]),
-                      static_cast<Index>(first[e + 1] - first[e]),
-                      {},
-                      {},
-                      {},
-                      {}});
-  filter(effects);
+    parts_.push_back({static_cast<Index>(first[e]), static_cast<Index>(first[e + 1] - first[e])});
+  filter<double>(effects);
   log_det_.resize(static_cast<Index>(parts_.size()));
   for (std::size_t e = 0; e < parts_.size(); ++e) {
-    Part& part = parts_[e];
+    const Part& part = parts_[e];
     const Shared both = shared_effects(effects.middleRows(part.first, part.size));
-    part.q = both.q;
-    part.qc = both.q * both.c.asDiagonal();
-    part.q_f = part.q.cast<float>();
-    part.qc_f = part.qc.cast<float>();
+    directions_.q.push_back(both.q);
+    directions_.qc.push_back(both.q * both.c.asDiagonal());
+    directions_f_.q.push_back(both.q.cast<float>());
+    directions_f_.qc.push_back(directions_.qc.back().cast<float>());
     log_det_(static_cast<Index>(e)) =
         log_det[static_cast<std::size_t>(part.size)] + both.log_det -
         2 * shrink_.segment(part.first, part.size).array().log().sum();
@@ -111,14 +113,13 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, std::span<const
                                          1e-10 * (whitened.transpose() * whitened).trace() *
                                              MatrixXd::Identity(whitened.cols(), whitened.cols()));
   nuisance_log_det_ = 2 * MatrixXd(information.matrixL()).diagonal().array().log().sum();
-  nuisance_ = orthonormal(whitened);
-  nuisance_f_ = nuisance_.cast<float>();
+  directions_.nuisance = orthonormal(whitened);
+  directions_f_.nuisance = directions_.nuisance.cast<float>();
 }
 
 // Innovations over their standard deviation, along each experiment; several columns at a time, so
 // that a processor does not wait for the one before.
-template <class Matrix> void Whitener::filter(Matrix& columns) const {
-  using Number = typename Matrix::Scalar;
+template <class Number> void Whitener::filter(Eigen::Ref<Matrix<Number>> columns) const {
   constexpr Index lanes = 8;
   const auto rho = static_cast<Number>(rho_);
   for (Index c = 0; c < columns.cols(); c += lanes) {
@@ -142,24 +143,25 @@ template <class Matrix> void Whitener::filter(Matrix& columns) const {
   }
 }
 
-void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
-  filter(columns);
-  for (const Part& part : parts_) {
-    auto rows = columns.middleRows(part.first, part.size);
-    const MatrixXd along = part.q.transpose() * rows;
-    rows.noalias() -= part.qc * along;
+template <class Number>
+void Whitener::apply(Eigen::Ref<Matrix<Number>> columns,
+                     const Directions<Number>& directions) const {
+  filter<Number>(columns);
+  for (std::size_t e = 0; e < parts_.size(); ++e) {
+    auto rows = columns.middleRows(parts_[e].first, parts_[e].size);
+    const Matrix<Number> along = directions.q[e].transpose() * rows;
+    rows.noalias() -= directions.qc[e] * along;
   }
-  if (nuisance_.cols() > 0) columns -= nuisance_ * (nuisance_.transpose() * columns).eval();
+  if (const auto& nuisance = directions.nuisance; nuisance.cols() > 0)
+    columns -= nuisance * (nuisance.transpose() * columns).eval();
+}
+
+void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
+  apply<double>(columns, directions_);
 }
 
 void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
-  filter(columns);
-  for (const Part& part : parts_) {
-    auto rows = columns.middleRows(part.first, part.size);
-    const MatrixXf along = part.q_f.transpose() * rows;
-    rows.noalias() -= part.qc_f * along;
-  }
-  if (nuisance_.cols() > 0) columns -= nuisance_f_ * (nuisance_f_.transpose() * columns).eval();
+  apply<float>(columns, directions_f_);
 }
 
 namespace {

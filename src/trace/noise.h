@@ -49,21 +49,26 @@ public:
   const Eigen::VectorXd& variance() const { return variance_; }
 
 private:
-  template <class Matrix> void filter(Matrix& columns) const;
+  template <class Number> using Matrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+  template <class Number> void filter(Eigen::Ref<Matrix<Number>> columns) const;
+  template <class Number> struct Directions {
+    std::vector<Matrix<Number>> q;  // per experiment, orthonormal: of the random effects
+    std::vector<Matrix<Number>> qc; // and what is taken off along them
+    Matrix<Number> nuisance;        // orthonormal, whitened
+  };
+  template <class Number>
+  void apply(Eigen::Ref<Matrix<Number>> columns, const Directions<Number>& directions) const;
 
   struct Part {
     Eigen::Index first, size;
-    Eigen::MatrixXd q;  // orthonormal directions of the random effects
-    Eigen::MatrixXd qc; // and what is taken off along them
-    Eigen::MatrixXf q_f, qc_f;
   };
   double rho_ = 0;
   std::vector<double> gain_, scale_; // of the filter, by place in the experiment
   std::vector<Part> parts_;
   Eigen::VectorXd shrink_; // 1/D
   Eigen::VectorXd log_det_, variance_;
-  Eigen::MatrixXd nuisance_; // orthonormal, whitened
-  Eigen::MatrixXf nuisance_f_;
+  Directions<double> directions_;
+  Directions<float> directions_f_;
   double nuisance_log_det_ = 0;
 };
 
@@ -85,5 +90,8 @@ NoiseFit first_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau
 
 // An orthonormal basis of what the columns span; columns that others explain are left out.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+// `more` behind the columns that are there.
+void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
 } // namespace frictab

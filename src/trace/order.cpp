@@ -35,10 +35,9 @@ double wave(std::size_t rank, int number, std::size_t count) {
                   static_cast<double>(count));
 }
 
-using Statistics = std::array<double, 3>;
-
-Statistics structure(const VectorXd& z, const MatrixXd& waves) {
-  Statistics s{};
+// Of one column of scores, taken in some order.
+std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
+  std::array<double, 3> s{};
   double sum = 0, most = 0;
   for (Index i = 0; i < z.size(); ++i) {
     if (i > 0) s[0] += z(i) * z(i - 1);
@@ -48,6 +47,19 @@ Statistics structure(const VectorXd& z, const MatrixXd& waves) {
   s[1] = most;
   s[2] = (waves.transpose() * z).squaredNorm();
   return s;
+}
+
+// Of all columns.
+VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const MatrixXd& waves) {
+  VectorXd all(3 * z.cols());
+  VectorXd ordered(z.rows());
+  for (Index c = 0; c < z.cols(); ++c) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+      ordered(static_cast<Index>(i)) = z(static_cast<Index>(order[i]), c);
+    const auto s = structure(ordered, waves);
+    all.segment<3>(3 * c) << s[0], s[1], s[2];
+  }
+  return all;
 }
 
 } // namespace
@@ -72,41 +84,48 @@ VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity
   return scores;
 }
 
-double order_p_value(const VectorXd& scores, std::span<const double> order,
+OrderTest test_order(const MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed) {
   const auto rank = ranks(order);
   const std::size_t count = rank.size();
-  if (count < 10) return 1; // too few for any structure to show
-  VectorXd z(scores.size());
-  for (std::size_t e = 0; e < count; ++e)
-    z(static_cast<Index>(rank[e])) = scores(static_cast<Index>(e));
-  z.array() -= z.mean();
-  MatrixXd waves(z.size(), slow_waves);
-  for (Index i = 0; i < z.size(); ++i)
+  if (count < 10) return {}; // too few for any structure to show
+  MatrixXd z = scores.rowwise() - scores.colwise().mean();
+  MatrixXd waves(z.rows(), slow_waves);
+  for (Index i = 0; i < z.rows(); ++i)
     for (int w = 0; w < slow_waves; ++w)
       waves(i, w) = wave(static_cast<std::size_t>(i), w + 1, count);
-  std::vector<Statistics> all{structure(z, waves)}; // the first is the true order
+  std::vector<std::size_t> at(count); // experiment at each rank
+  for (std::size_t e = 0; e < count; ++e)
+    at[rank[e]] = e;
+  const auto all_count = static_cast<Index>(permutations + 1);
+  MatrixXd all(all_count, 3 * z.cols());
+  all.row(0) = structures(z, at, waves); // the true order
   Random random(seed, order_stream);
-  for (std::size_t b = 0; b < permutations; ++b) {
-    random.shuffle(std::span(z.data(), count));
-    all.push_back(structure(z, waves));
+  for (Index b = 1; b < all_count; ++b) {
+    random.shuffle(std::span(at));
+    all.row(b) = structures(z, at, waves);
   }
   // Rank of each among all, per statistic; then the rank of the smallest.
-  std::vector<double> smallest(all.size(), 1.0);
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<double> sorted;
-    for (const Statistics& s : all)
-      sorted.push_back(s[k]);
+  VectorXd smallest = VectorXd::Ones(all_count);
+  for (Index k = 0; k < all.cols(); ++k) {
+    std::vector<double> sorted(all.col(k).data(), all.col(k).data() + all_count);
     std::sort(sorted.begin(), sorted.end());
-    for (std::size_t b = 0; b < all.size(); ++b) {
-      const auto beyond = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), all[b][k]);
-      smallest[b] =
-          std::min(smallest[b], static_cast<double>(beyond) / static_cast<double>(all.size()));
+    for (Index b = 0; b < all_count; ++b) {
+      const auto beyond = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), all(b, k));
+      smallest(b) =
+          std::min(smallest(b), static_cast<double>(beyond) / static_cast<double>(all_count));
     }
   }
-  const auto at_least = std::count_if(smallest.begin(), smallest.end(),
-                                      [&](double p) { return p <= smallest.front(); });
-  return static_cast<double>(at_least) / static_cast<double>(all.size());
+  OrderTest test;
+  test.p_value = static_cast<double>((smallest.array() <= smallest(0)).count()) /
+                 static_cast<double>(all_count);
+  double most = -1;
+  for (Index c = 0; c < z.cols(); ++c)
+    if (const double part = all(0, 3 * c + 2) / z.col(c).squaredNorm(); part > most) {
+      most = part;
+      test.column = c;
+    }
+  return test;
 }
 
 MatrixXd order_functions(std::span<const double> order, int count) {

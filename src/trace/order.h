@@ -16,9 +16,14 @@ Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
                                   const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
                                   const Whitener& whitener, std::span<const std::size_t> first);
 
-// p-value of "the scores have no structure along the order": neighbours alike, a cumulated sum that
-// strays, or slow waves; the smallest of the three, its distribution by permutation.
-double order_p_value(const Eigen::VectorXd& scores, std::span<const double> order,
+// "The scores have no structure along the order": neighbours alike, a cumulated sum that strays, or
+// slow waves; the smallest of the three and of all columns of scores (experiments x ways in which
+// friction may differ), its distribution by permutation.
+struct OrderTest {
+  double p_value = 1;
+  Eigen::Index column = 0; // of the scores, in which slow waves are the largest
+};
+OrderTest test_order(const Eigen::MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed);
 
 // Slow functions of the order (cosines of the rank), per experiment; each has mean 0.

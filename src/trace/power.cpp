@@ -38,20 +38,20 @@ double amplitude_to_detect(const VectorXf& scores, double threshold, std::uint64
 void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
   const ScreenResult& screened = search.last_screen;
   const double threshold = screened.threshold(trace.alpha);
-  for (std::size_t s = 0; s < search.sources.size(); ++s) {
-    if (search.sources[s].pair() || search.shapes[s].empty()) continue;
-    const CandidateColumn& column = search.candidates.columns[search.sources[s].column];
+  for (std::size_t s = 0; s < search.causes.size(); ++s) {
+    if (search.causes[s].pair() || search.shapes[s].empty()) continue;
+    const CandidateColumn& column = search.candidates.columns[search.causes[s].column];
     Detectable entry{column.name, column.derived ? column.name : "", "mu", 0, 0, false};
     for (std::size_t d = 0; d < screened.directions.size(); ++d) {
       const Direction& direction = screened.directions[d];
-      if (direction.source != s || direction.place != 0) continue;
+      if (direction.cause != s || direction.place != 0) continue;
       const GridShape& shape = search.shapes[s][direction.shape];
       if (fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical) continue;
       const double statistic =
           amplitude_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);
       VectorXd change = shape.direction.cast<double>();
       change.array() -= change.mean();
-      change = change.cwiseProduct(search.sensitivities[0]);
+      change = change.cwiseProduct(search.sensitivities()[0]);
       const double size = statistic / direction.size * change.norm() /
                           std::sqrt(static_cast<double>(change.size()));
       if (entry.identifiable && size >= entry.size_MPa) continue;

@@ -1,7 +1,7 @@
 // How large an effect this campaign could have shown, column by column.
 #pragma once
 
-#include "trace/tracer.h"
+#include "trace/search.h"
 
 namespace frictab {
 

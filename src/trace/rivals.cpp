@@ -7,6 +7,7 @@
 
 #include "calibrate/resampling.h"
 #include "core/parallel.h"
+#include "trace/plausibility.h"
 
 namespace frictab {
 
@@ -19,18 +20,6 @@ using Eigen::VectorXd;
 constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
 constexpr double per_complexity = 1.5; // and a step away from a recorded column
 constexpr std::size_t short_list = 12;
-
-// Start values of the extended law: the law's own, each effect's, and the limit's.
-std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
-                             std::span<const PlacedEffect> effects) {
-  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
-  for (const PlacedEffect& effect : effects)
-    for (const double value : fitted_values(effect))
-      start.push_back(value);
-  while (start.size() < extended.parameters.size()) // m_limit
-    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
-  return start;
-}
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -57,59 +46,6 @@ bool on_limit(const std::vector<PlacedEffect>& effects) {
                      [](const PlacedEffect& e) { return e.acts_on == "m"; });
 }
 
-// How an effect's factor looks: over its whole range, and where it was tested.
-struct Look {
-  double largest = 0; // change of friction
-  double low = 1, high = 1, tested_low = 1, tested_high = 1;
-
-  void take(double factor) {
-    largest = std::max(largest, std::abs(factor - 1));
-    low = std::min(low, factor);
-    high = std::max(high, factor);
-  }
-};
-
-Look look_of(const PlacedEffect& effect, const CandidateColumn& column) {
-  Look look;
-  if (effect.form->categorical) {
-    for (const double a : fitted_values(effect))
-      look.largest = std::max(look.largest, std::abs(a));
-    return look;
-  }
-  std::vector<std::string> names, symbols{symbol_of(effect.column)};
-  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
-  for (const Parameter& p : fitted_parameters(effect))
-    names.push_back("e_" + p.name);
-  const Program program(factor_of(effect, "e_"), symbols, names);
-  const std::vector<double> at = fitted_values(effect);
-  const auto factor = [&](double x, double x2) {
-    const double row[] = {x, x2};
-    return program({row, symbols.size()}, at);
-  };
-  look.low = look.high = look.tested_low = look.tested_high =
-      factor(column.tested.front(), effect.low2);
-  constexpr int steps = 32;
-  for (int i = 0; i <= steps; ++i)
-    for (const double x2 : {effect.low2, effect.high2})
-      look.take(factor(effect.low + (effect.high - effect.low) * i / steps, x2));
-  for (const double x : column.tested)
-    for (const double x2 : {effect.low2, effect.high2}) {
-      look.tested_low = std::min(look.tested_low, factor(x, x2));
-      look.tested_high = std::max(look.tested_high, factor(x, x2));
-    }
-  return look;
-}
-
-// Two things fit as well as the truth at the tested values, and nowhere else: large changes that
-// cancel there (an effect that halves or doubles friction has to earn it, as if changes were normal
-// with a standard deviation of 50 %), and humps between them.
-double cost_of_look(const Look& look) {
-  if (!std::isfinite(look.largest)) return 1e6;
-  const double tested = look.tested_high - look.tested_low;
-  const double beyond = (look.high - look.low - tested) / std::max(tested, 1e-6);
-  return 2 * look.largest * look.largest + 8 * std::clamp(beyond - 0.3, 0.0, 10.0);
-}
-
 void judge(Rival& rival, const Campaign& campaign) {
   const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
@@ -117,15 +53,25 @@ void judge(Rival& rival, const Campaign& campaign) {
   rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
   rival.total = rival.log_likelihood.sum();
   double cost = per_parameter * static_cast<double>(rival.parameters.size());
-  for (const Cause& source : rival.sources)
-    cost += per_complexity * complexity(source, campaign.candidates);
+  for (const Cause& cause : rival.causes)
+    cost += per_complexity * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
-    cost += cost_of_look(
-        look_of(rival.effects[i], campaign.candidates.columns[rival.sources[i].column]));
+    cost += implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].column]);
   rival.penalised = rival.total - cost;
 }
 
 } // namespace
+
+std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
+                             std::span<const PlacedEffect> effects) {
+  std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
+  for (const PlacedEffect& effect : effects)
+    for (const double value : fitted_values(effect))
+      start.push_back(value);
+  while (start.size() < extended.parameters.size()) // m_limit
+    start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
+  return start;
+}
 
 Law bounded_law(const Campaign& campaign, const Rival& rival) {
   const std::size_t own = campaign.law.parameters.size();
@@ -136,13 +82,13 @@ Law bounded_law(const Campaign& campaign, const Rival& rival) {
 }
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
-                std::vector<Cause> sources, std::span<const double> parameters,
+                std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
   rival.parameters.assign(parameters.begin(), parameters.end());
   rival.effects = std::move(effects);
-  rival.sources = std::move(sources);
+  rival.causes = std::move(causes);
   rival.noise = noise;
   const Law extended = bounded_law(campaign, rival);
   rival.parameters = start_of(extended, parameters, own, rival.effects);
@@ -196,111 +142,31 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
   return rival;
 }
 
-Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
-  constexpr double step = 0.06;
-  const std::size_t own = campaign.law.parameters.size();
-  BlockColumns columns = campaign.candidates.by_symbol;
-  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
-  const auto change = [&](const char* place) {
-    PlacedEffect everywhere;
-    everywhere.form = find_effect("linear");
-    everywhere.column = "everywhere";
-    everywhere.acts_on = place;
-    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
-    everywhere.low = 0;
-    std::vector<PlacedEffect> effects = rival.effects;
-    effects.push_back(everywhere);
-    const Law law = extended_law(campaign.law, campaign.conventions,
-                                 std::span(rival.parameters).first(own), effects, "sensitivity");
-    const LawOnBlocks on(law, campaign.conventions, columns);
-    std::vector<double> at = start_of(law, rival.parameters, own, effects);
-    const auto amplitude = static_cast<std::size_t>(
-        std::find_if(law.parameters.begin(), law.parameters.end(),
-                     [&](const Parameter& p) {
-                       return p.name == "e" + std::to_string(effects.size()) + "_a";
-                     }) -
-        law.parameters.begin());
-    at[amplitude] = step;
-    const VectorXd up = on.predict(at);
-    at[amplitude] = -step;
-    return VectorXd((up - on.predict(at)) / (2 * step));
-  };
-  Sensitivities all;
-  all[0] = change("mu");
-  if (has_limit(campaign.law, campaign.conventions)) {
-    all[1] = change("m");
-    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
-  }
-  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
-  return all;
-}
-
-namespace {
-
-// Straight lines between seven places of a quantity: what any form of it could be.
-MatrixXd hat_functions(const VectorXd& x) {
-  constexpr int places = 7;
-  std::vector<double> sorted(x.data(), x.data() + x.size());
-  std::sort(sorted.begin(), sorted.end());
-  std::set<double> knots;
-  for (int i = 0; i < places; ++i)
-    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (places - 1)]);
-  MatrixXd columns(x.size(), static_cast<Index>(knots.size()));
-  Index next = 0;
-  for (const double knot : knots)
-    columns.col(next++) = (x.array() - knot).max(0.0).matrix();
-  columns.col(next - 1) = x; // the last hinge is zero everywhere
-  return columns;
-}
-
-MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
-  MatrixXd columns(x.size(), static_cast<Index>(levels));
-  for (std::size_t level = 0; level < levels; ++level)
-    columns.col(static_cast<Index>(level)) =
-        (x.array() == static_cast<double>(level)).cast<double>().matrix();
-  return columns;
-}
-
-MatrixXd any_form(const Cause& source, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[source.column];
-  if (!x.levels.empty()) return level_functions(x.values, x.levels.size());
-  if (!source.pair()) return hat_functions(x.values);
-  const VectorXd& y = candidates.columns[source.second].values;
-  return hat_functions((x.values.array() - x.values.mean()) * (y.array() - y.mean()));
-}
-
 std::size_t place_of(const PlacedEffect& effect) {
   return static_cast<std::size_t>(std::find(places.begin(), places.end(), effect.acts_on) -
                                   places.begin());
 }
 
-} // namespace
-
-MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
-                           const Sensitivities& sensitivities) {
-  MatrixXd all = rival.jacobian;
-  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const VectorXd& sensitivity = sensitivities[place_of(rival.effects[i])];
-    if (sensitivity.size() == 0) continue;
-    const MatrixXd forms = any_form(rival.sources[i], campaign.candidates);
-    const Index before = all.cols();
-    all.conservativeResize(Eigen::NoChange, before + forms.cols());
-    all.rightCols(forms.cols()) = sensitivity.asDiagonal() * forms;
-  }
-  return all;
+Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index) {
+  std::vector<PlacedEffect> effects = rival.effects;
+  std::vector<Cause> causes = rival.causes;
+  effects.erase(effects.begin() + static_cast<long>(index));
+  causes.erase(causes.begin() + static_cast<long>(index));
+  return fit_rival(campaign, std::move(effects), std::move(causes),
+                   std::span(rival.parameters).first(campaign.law.parameters.size()), rival.noise);
 }
 
 namespace {
 
 struct Trial {
   PlacedEffect effect;
-  Cause source;
+  Cause cause;
 };
 
 // A shape of the grid, with the amplitude that the screening suggests.
-Trial trial_of(const Direction& direction, const std::vector<Cause>& sources,
+Trial trial_of(const Direction& direction, const std::vector<Cause>& causes,
                const std::vector<std::vector<GridShape>>& shapes, double tau_scale_MPa) {
-  Trial trial{shapes[direction.source][direction.shape].effect, sources[direction.source]};
+  Trial trial{shapes[direction.cause][direction.shape].effect, causes[direction.cause]};
   trial.effect.acts_on = places[direction.place];
   trial.effect.tau_scale_MPa = tau_scale_MPa;
   if (!trial.effect.form->categorical)
@@ -314,25 +180,25 @@ std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current,
   std::vector<Rival> rivals(trials.size());
   parallel_for(trials.size(), [&](std::size_t i) {
     std::vector<PlacedEffect> effects = current.effects;
-    std::vector<Cause> sources = current.sources;
+    std::vector<Cause> causes = current.causes;
     effects.push_back(trials[i].effect);
-    sources.push_back(trials[i].source);
+    causes.push_back(trials[i].cause);
     std::vector<double> own(current.parameters.begin(),
                             current.parameters.begin() +
                                 static_cast<long>(campaign.law.parameters.size()));
     if (on_limit(current.effects)) own.push_back(current.parameters.back());
-    rivals[i] = fit_rival(campaign, effects, sources, own, current.noise);
+    rivals[i] = fit_rival(campaign, effects, causes, own, current.noise);
   });
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
   return rivals;
 }
 
-// Per source its directions, largest statistic first; sources by their best.
-std::vector<std::vector<Direction>> by_source(const ScreenResult& screened, std::size_t count) {
+// Per cause its directions, largest statistic first; causes by their best.
+std::vector<std::vector<Direction>> by_cause(const ScreenResult& screened, std::size_t count) {
   std::vector<std::vector<Direction>> lists(count);
   for (const Direction& direction : screened.directions)
-    lists[direction.source].push_back(direction);
+    lists[direction.cause].push_back(direction);
   const auto larger = [](const Direction& a, const Direction& b) {
     return std::abs(a.statistic) > std::abs(b.statistic);
   };
@@ -344,14 +210,14 @@ std::vector<std::vector<Direction>> by_source(const ScreenResult& screened, std:
   return lists;
 }
 
-// The best shapes of a source: two whatever their place, and the best of every other place.
+// The best shapes of a cause: two whatever their place, and the best of every other place.
 std::vector<Direction> best_shapes(const std::vector<Direction>& list,
                                    const std::vector<std::vector<GridShape>>& shapes) {
   std::vector<Direction> best;
   std::set<std::pair<std::string, std::size_t>> kinds;
   std::set<std::size_t> seen;
   for (const Direction& direction : list) {
-    const std::string& form = shapes[direction.source][direction.shape].effect.form->name;
+    const std::string& form = shapes[direction.cause][direction.shape].effect.form->name;
     const bool new_place = !seen.count(direction.place);
     if ((kinds.size() >= 2 && !new_place) || !kinds.insert({form, direction.place}).second)
       continue;
@@ -364,42 +230,42 @@ std::vector<Direction> best_shapes(const std::vector<Direction>& list,
 } // namespace
 
 std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Cause>& sources,
+                               const std::vector<Cause>& causes,
                                const std::vector<std::vector<GridShape>>& shapes,
                                const ScreenResult& screened, double tau_scale_MPa) {
-  auto lists = by_source(screened, sources.size());
+  auto lists = by_cause(screened, causes.size());
   const float least = 0.6f * std::abs(lists.front().front().statistic);
   std::vector<Trial> trials;
   std::size_t taken = 0;
   for (const auto& list : lists) {
     if (taken++ >= short_list || std::abs(list.front().statistic) < least) break;
     for (const Direction& direction : best_shapes(list, shapes))
-      trials.push_back(trial_of(direction, sources, shapes, tau_scale_MPa));
+      trials.push_back(trial_of(direction, causes, shapes, tau_scale_MPa));
   }
   return fit_all(campaign, current, trials);
 }
 
 std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Cause>& sources,
+                              const std::vector<Cause>& causes,
                               const std::vector<std::vector<GridShape>>& shapes,
                               const ScreenResult& screened) {
-  const Cause source = winner.sources.back();
+  const Cause cause = winner.causes.back();
   const PlacedEffect& won = winner.effects.back();
-  if (won.form->categorical || source.pair()) return {winner};
+  if (won.form->categorical || cause.pair()) return {winner};
   const auto index =
-      static_cast<std::size_t>(std::find(sources.begin(), sources.end(), source) - sources.begin());
+      static_cast<std::size_t>(std::find(causes.begin(), causes.end(), cause) - causes.begin());
   std::vector<Trial> trials;
   for (const EffectForm& form : all_effects()) {
-    if (!form_fits(form, source, campaign.candidates)) continue;
-    Trial trial{start_effect(form, source, campaign.candidates, won.acts_on, won.tau_scale_MPa),
-                source};
+    if (!form_fits(form, cause, campaign.candidates)) continue;
+    Trial trial{start_effect(form, cause, campaign.candidates, won.acts_on, won.tau_scale_MPa),
+                cause};
     const Direction* best = nullptr;
     for (const Direction& d : screened.directions)
-      if (d.source == index && places[d.place] == won.acts_on &&
+      if (d.cause == index && places[d.place] == won.acts_on &&
           shapes[index][d.shape].effect.form == &form &&
           (!best || std::abs(d.statistic) > std::abs(best->statistic)))
         best = &d;
-    if (best) trial = trial_of(*best, sources, shapes, won.tau_scale_MPa);
+    if (best) trial = trial_of(*best, causes, shapes, won.tau_scale_MPa);
     trials.push_back(std::move(trial));
   }
   std::vector<Rival> rivals = fit_all(campaign, current, trials);

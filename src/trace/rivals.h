@@ -23,7 +23,7 @@ struct Campaign {
 // The law with some effects, fitted together with the noise.
 struct Rival {
   std::vector<PlacedEffect> effects; // parameters fitted
-  std::vector<Cause> sources;        // one per effect
+  std::vector<Cause> causes;         // one per effect
   std::vector<double> parameters;    // of the extended law
   NoiseModel noise;
   NoiseModel weights; // of the fit: the noise model, or alike for all rows
@@ -37,8 +37,11 @@ struct Rival {
 // All parameters by generalised least squares, the noise by maximum likelihood, twice in turn.
 // `parameters`: start of the law's own (and m_limit, if any, behind them).
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
-                std::vector<Cause> sources, std::span<const double> parameters,
+                std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, int noise_evaluations = 25);
+
+// Without its effect `index`, all refitted.
+Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);
 
 // The same law with its parameters fitted under other weights.
 Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights);
@@ -47,28 +50,27 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
 // better; where it is not, they may lean on the few rows that are least correlated with others.
 NoiseModel rows_alike(const NoiseModel& noise);
 
+// Index in `places` (screen.h) of where the effect acts.
+std::size_t place_of(const PlacedEffect& effect);
+
+// Values to start from of the law with effects: the law's `count` own, each effect's, and behind
+// them m_limit, which is the last of `own` where that has more than `count`.
+std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
+                             std::span<const PlacedEffect> effects);
+
 // Bound to its columns; shapes bounded by what the data can tell.
 Law bounded_law(const Campaign& campaign, const Rival& rival);
 
-// Directions of what is fitted already, for a test of what is not: parameters, and a spline of each
-// chosen quantity, so that a form that does not fit is not sold as another effect.
-Eigen::MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
-                                  const Sensitivities& sensitivities);
-
-// How tau_R changes with a factor on mu, with one on the limit, and with an addition of tau_scale.
-// Over +-6 %, so that rows near the limit feel both.
-Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa);
-
-// Best first; never empty. Every short-listed source with its best shapes in every place.
+// Best first; never empty. Every short-listed cause with its best shapes in every place.
 std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Cause>& sources,
+                               const std::vector<Cause>& causes,
                                const std::vector<std::vector<GridShape>>& shapes,
                                const ScreenResult& screened, double tau_scale_MPa);
 
 // The winner in every form that its column allows; a spline only where no form comes within
 // `margin` of it. Best first.
 std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Cause>& sources,
+                              const std::vector<Cause>& causes,
                               const std::vector<std::vector<GridShape>>& shapes,
                               const ScreenResult& screened);
 

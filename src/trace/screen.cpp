@@ -1,4 +1,4 @@
-// Whitens, projects, scores and flips; single precision, a source at a time.
+// Whitens, projects, scores and flips; single precision, a cause at a time.
 #include "trace/screen.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ MatrixXf signs(std::size_t flips, std::size_t experiments, std::uint64_t seed) {
   return s;
 }
 
-struct SourceScores {
+struct CauseScores {
   std::vector<Direction> directions;
   MatrixXf scores; // experiments x directions
   VectorXf maxima; // per flip
@@ -74,9 +74,9 @@ public:
       sensitivity_[p] = in_.sensitivities[p].cast<float>();
   }
 
-  SourceScores run(std::size_t source) const {
-    SourceScores found;
-    MatrixXf x = columns(source, found.directions);
+  CauseScores run(std::size_t cause) const {
+    CauseScores found;
+    MatrixXf x = columns(cause, found.directions);
     found.absorbed = x.cols() == 0;
     if (x.cols() == 0) return found;
     in_.whitener.apply(x);
@@ -95,15 +95,15 @@ public:
   }
 
 private:
-  MatrixXf columns(std::size_t source, std::vector<Direction>& directions) const {
-    const auto& shapes = in_.shapes[source];
+  MatrixXf columns(std::size_t cause, std::vector<Direction>& directions) const {
+    const auto& shapes = in_.shapes[cause];
     MatrixXf x(in_.residual.size(), static_cast<Index>(shapes.size() * places.size()));
     Index next = 0;
     for (std::size_t s = 0; s < shapes.size(); ++s)
       for (std::size_t p = 0; p < places.size(); ++p) {
         if (sensitivity_[p].size() == 0) continue;
         x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
-        directions.push_back({source, s, p});
+        directions.push_back({cause, s, p});
       }
     x.conservativeResize(Eigen::NoChange, next);
     return x;
@@ -123,7 +123,7 @@ private:
   // Scores are divided by the direction's size (statistics in units of their standard deviation
   // under the noise model) and kept where enough is left of the direction.
   void keep_identifiable(const VectorXf& before, const VectorXf& size, const MatrixXf& scores,
-                         SourceScores& found) const {
+                         CauseScores& found) const {
     std::vector<Direction> kept;
     found.scores.resize(scores.rows(), scores.cols());
     for (Index c = 0; c < scores.cols(); ++c) {
@@ -164,7 +164,7 @@ double ScreenResult::threshold(double alpha) const {
 
 ScreenResult screen(const ScreenInput& input) {
   const Screening screening(input);
-  std::vector<SourceScores> parts(input.shapes.size());
+  std::vector<CauseScores> parts(input.shapes.size());
   parallel_for(parts.size(), [&](std::size_t s) {
     parts[s] = screening.run(s);
     if (!input.keep_scores) parts[s].scores.resize(0, 0);
@@ -185,7 +185,7 @@ ScreenResult screen(const ScreenInput& input) {
   if (input.keep_scores) {
     result.scores.resize(static_cast<Index>(input.first.size() - 1), columns);
     Index next = 0;
-    for (const SourceScores& part : parts) {
+    for (const CauseScores& part : parts) {
       if (part.absorbed) continue;
       result.scores.middleCols(next, part.scores.cols()) = part.scores;
       next += part.scores.cols();

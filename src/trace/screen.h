@@ -19,8 +19,8 @@ inline constexpr std::array<const char*, 3> places = {"mu", "m", "tau"};
 using Sensitivities = std::array<Eigen::VectorXd, 3>; // of size 0 where there is no such place
 
 struct Direction {
-  std::size_t source = 0; // in the list of sources
-  std::size_t shape = 0;  // of that source
+  std::size_t cause = 0; // in the list of causes
+  std::size_t shape = 0; // of that cause
   std::size_t place = 0;
   float statistic = 0;
   float size = 0; // norm, whitened and projected: statistic per amplitude
@@ -34,14 +34,14 @@ struct ScreenResult {
   std::vector<Direction> directions; // identifiable ones
   std::vector<float> flipped_maxima; // ascending
   Eigen::MatrixXf scores;            // experiments x directions; only where asked for
-  std::vector<std::size_t> absorbed; // sources that fitted parameters can imitate completely
+  std::vector<std::size_t> absorbed; // causes that fitted parameters can imitate completely
   std::size_t best = 0;              // index of the largest statistic
   double p_value = 1;
   double threshold(double alpha) const;
 };
 
 struct ScreenInput {
-  const std::vector<std::vector<GridShape>>& shapes; // per source
+  const std::vector<std::vector<GridShape>>& shapes; // per cause
   const Sensitivities& sensitivities;
   const Whitener& whitener;
   std::span<const std::size_t> first; // blocks of each experiment

@@ -18,7 +18,7 @@
 #include "trace/curve.h"
 #include "trace/power.h"
 #include "trace/scatter.h"
-#include "trace/tracer.h"
+#include "trace/search.h"
 
 namespace frictab {
 
@@ -84,20 +84,20 @@ public:
     trace.n_candidates = search_.last_screen.directions.size();
     trace.n_flips = search_.last_screen.flipped_maxima.size();
     for (const std::size_t s : search_.last_screen.absorbed)
-      if (!search_.sources[s].pair() && !search_.shapes[s].empty() && !chosen(search_.sources[s]))
-        trace.not_identifiable.push_back(source_name(search_.sources[s], search_.candidates));
+      if (!search_.causes[s].pair() && !search_.shapes[s].empty() && !chosen(search_.causes[s]))
+        trace.not_identifiable.push_back(cause_name(search_.causes[s], search_.candidates));
     judge(trace);
     add_effects(trace);
-    add_scatter(trace, *search_.campaign, search_.last, in_.training);
+    add_scatter(trace, search_.campaign(), search_.last(), in_.training);
     add_verdict(trace);
     add_power(trace, search_, in_.seed);
     return trace;
   }
 
 private:
-  bool chosen(const Cause& source) const {
-    return std::find(search_.last.sources.begin(), search_.last.sources.end(), source) !=
-           search_.last.sources.end();
+  bool chosen(const Cause& cause) const {
+    return std::find(search_.last().causes.begin(), search_.last().causes.end(), cause) !=
+           search_.last().causes.end();
   }
 
   Metrics errors(const Dataset& data, const std::vector<double>& predicted) const {
@@ -122,13 +122,13 @@ private:
     trace.recalibrated = {errors(in_.training, predict(again, in_.training)),
                           errors(in_.validation, predict(again, in_.validation))};
     trace.after = trace.before;
-    if (search_.last.effects.empty() && !search_.order.found) return;
-    covariance_ = covariance_of(*search_.campaign, search_.last);
+    if (search_.last().effects.empty() && !search_.order.found) return;
+    covariance_ = covariance_of(search_.campaign(), search_.last());
     ModelFit& fit = trace.extended;
-    fit.model = model_of(search_.last);
+    fit.model = model_of(search_.last());
     fit.std_error = standard_errors(covariance_);
     fit.std_error_method = "cluster sandwich by experiment";
-    fit.termination = search_.last.weights.multiplicative > 0
+    fit.termination = search_.last().weights.multiplicative > 0
                           ? "generalised least squares under the noise model of the trace"
                           : "least squares, which predicts left-out experiments better here than "
                             "the noise model's weights";
@@ -153,30 +153,30 @@ private:
 
   // --- effects ------------------------------------------------------------------------------
 
-  std::vector<std::string> recorded(const Cause& source) const {
-    std::vector<std::string> names = search_.candidates.columns[source.column].recorded;
-    if (source.pair())
-      for (const std::string& name : search_.candidates.columns[source.second].recorded)
+  std::vector<std::string> recorded(const Cause& cause) const {
+    std::vector<std::string> names = search_.candidates.columns[cause.column].recorded;
+    if (cause.pair())
+      for (const std::string& name : search_.candidates.columns[cause.second].recorded)
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     return names;
   }
 
-  std::string derived(const Cause& source) const {
+  std::string derived(const Cause& cause) const {
     const auto& columns = search_.candidates.columns;
-    std::string name = columns[source.column].derived ? columns[source.column].name : "";
-    if (source.pair() && columns[source.second].derived)
-      name += (name.empty() ? "" : ", ") + columns[source.second].name;
+    std::string name = columns[cause.column].derived ? columns[cause.column].name : "";
+    if (cause.pair() && columns[cause.second].derived)
+      name += (name.empty() ? "" : ", ") + columns[cause.second].name;
     return name;
   }
 
   void add_effects(Trace& trace) {
     std::size_t parameter = in_.fit.model.law->parameters.size();
-    for (std::size_t i = 0; i < search_.last.effects.size(); ++i) {
-      const Cause& source = search_.last.sources[i];
+    for (std::size_t i = 0; i < search_.last().effects.size(); ++i) {
+      const Cause& cause = search_.last().causes[i];
       TracedEffect effect;
-      effect.placed = search_.last.effects[i];
-      effect.columns = recorded(source);
-      effect.derived = derived(source);
+      effect.placed = search_.last().effects[i];
+      effect.columns = recorded(cause);
+      effect.derived = derived(cause);
       const Finding& finding = search_.findings[i];
       effect.p_value = finding.p_value;
       effect.statistic = finding.statistic;
@@ -185,7 +185,7 @@ private:
       add_parameters(effect, trace.extended, parameter);
       add_alternatives(effect, finding);
       effect.gain_MPa = gain_of(i, trace);
-      effect.curve = effect_curve(*search_.campaign, search_.last, search_.sensitivities, i,
+      effect.curve = effect_curve(search_.campaign(), search_.last(), search_.sensitivities(), i,
                                   parameter, covariance_);
       parameter += count;
       trace.effects.push_back(std::move(effect));
@@ -219,12 +219,12 @@ private:
   }
 
   void add_alternatives(TracedEffect& effect, const Finding& finding) const {
-    const std::string name = source_name(finding.rival.sources.back(), search_.candidates);
+    const std::string name = cause_name(finding.rival.causes.back(), search_.candidates);
     for (std::size_t i = 0; i < finding.others.size() && i < 8; ++i) {
       const Rival& other = finding.others[i];
       const double behind = finding.rival.penalised - other.penalised;
       effect.alternatives.push_back(
-          {recorded(other.sources.back()), derived(other.sources.back()),
+          {recorded(other.causes.back()), derived(other.causes.back()),
            other.effects.back().form->name, other.effects.back().acts_on, finding.in_set[i],
            finding.in_set[i]
                ? fmt::format("cannot be told from {} by these experiments", name)
@@ -234,18 +234,11 @@ private:
     }
     effect.order_confounded =
         search_.order.found &&
-        constant_in_experiments(finding.rival.sources.back(), search_.candidates);
+        constant_in_experiments(finding.rival.causes.back(), search_.candidates);
   }
 
   double gain_of(std::size_t i, const Trace& trace) const {
-    std::vector<PlacedEffect> effects = search_.last.effects;
-    std::vector<Cause> sources = search_.last.sources;
-    effects.erase(effects.begin() + static_cast<long>(i));
-    sources.erase(sources.begin() + static_cast<long>(i));
-    const Rival without =
-        fit_rival(*search_.campaign, effects, sources,
-                  std::span(search_.last.parameters).first(in_.fit.model.law->parameters.size()),
-                  search_.last.noise);
+    const Rival without = without_effect(search_.campaign(), search_.last(), i);
     const auto predicted = predict(model_of(without), in_.validation);
     return errors(in_.validation, predicted).mae_MPa - trace.after.validation.mae_MPa;
   }
@@ -258,10 +251,10 @@ private:
   std::string lead() const {
     if (search_.last_screen.directions.empty()) return "no quantity varies";
     const Direction& best = search_.last_screen.directions[search_.last_screen.best];
-    const GridShape& shape = search_.shapes[best.source][best.shape];
+    const GridShape& shape = search_.shapes[best.cause][best.shape];
     std::string text =
         fmt::format("the strongest lead is {} ({}, on {}; p = {:.2g})",
-                    source_name(search_.sources[best.source], search_.candidates),
+                    cause_name(search_.causes[best.cause], search_.candidates),
                     shape.effect.form->title, places[best.place], search_.last_p_value);
     if (const double least = std::pow(2.0, 1 - static_cast<double>(experiments()));
         least > in_.options.alpha)

@@ -279,7 +279,9 @@ struct Score {
   double floor_ratio = 0;                   // estimated noise floor over the true one
   double scatter = 0;
   double seconds = 0;
-  std::string found; // "saturation of s_mm on mu"
+  double p_value = 1;   // of the first effect
+  std::string found;    // "saturation of s_mm on mu"
+  std::string rejected; // what was turned down, and why
 };
 
 // Forms that a few levels cannot tell apart.
@@ -306,6 +308,8 @@ public:
       if (recorded(spec)) judge_planted(spec);
     for (const TracedEffect& effect : trace_.effects)
       judge_added(effect);
+    if (!trace_.effects.empty()) score_.p_value = trace_.effects.front().p_value;
+    score_.rejected = join(trace_.rejected, "; ");
     errors();
     return std::move(score_);
   }
@@ -578,8 +582,9 @@ std::string order_cell(const Results& results) {
 // Laws and kinds of noise of the nulls, each alone and all together.
 void print_null_row(const Results& some, const std::string& name) {
   if (some.empty()) return;
-  fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} % | {:.1f} | {:.1f} |\n", name,
+  fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} % | {:.1f} | {:.1f} |\n", name,
              some.size(), mean(some, [](const Score& s) { return s.detected ? 1.0 : 0.0; }),
+             mean(some, [](const Score& s) { return s.p_value <= 0.02 ? 1.0 : 0.0; }),
              mean(some, [](const Score& s) { return s.order ? 1.0 : 0.0; }),
              average(some, &Score::floor_ratio), 100 * average(some, &Score::scatter),
              average(some, &Score::seconds), slowest(some));
@@ -593,8 +598,9 @@ void print_nulls(const Results& all) {
     });
   };
   if (nulls("", "").empty()) return;
-  fmt::print("\n## Nothing missing\n\n| nulls | n | false alarms | order flagged | floor | scatter "
-             "| s mean | s max |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
+  fmt::print(
+      "\n## Nothing missing\n\n| nulls | n | false alarms | with p <= 0.02 | order flagged | "
+      "floor | scatter | s mean | s max |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const char* noise : noises)
     print_null_row(nulls("", noise), noise);
   for (const char* law : null_laws)
@@ -647,9 +653,11 @@ Results run_all(const std::vector<Case>& cases, double alpha) {
   Results results(cases.size());
   parallel_for(cases.size(), [&](std::size_t i) {
     results[i] = {&cases[i], run_case(cases[i], alpha)};
-    fmt::print(stderr, "{} {} {:g} seed {}: {}\n", cases[i].group, cases[i].name, cases[i].strength,
-               cases[i].options.seed,
-               results[i].score.error.empty() ? results[i].score.found : results[i].score.error);
+    const Score& score = results[i].score;
+    fmt::print(stderr, "{} {} {:g} seed {}: {} p {:.3f}{} | {}\n", cases[i].group, cases[i].name,
+               cases[i].strength, cases[i].options.seed,
+               score.error.empty() ? score.found : score.error, score.p_value,
+               score.order ? " along the order" : "", score.rejected);
   });
   return results;
 }

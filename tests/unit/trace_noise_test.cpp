@@ -172,7 +172,7 @@ TEST(OrderOfTests, WhiteScoresHaveNoStructure) {
       scores(e) = random.normal();
       order.push_back(static_cast<double>(e));
     }
-    if (order_p_value(scores, order, 199, seed) <= 0.05) ++small;
+    if (test_order(scores, order, 199, seed).p_value <= 0.05) ++small;
   }
   // Binomial, 200 trials at 0.05: 99.9 % lie below 21.
   EXPECT_LE(small, 20);
@@ -190,7 +190,7 @@ TEST(OrderOfTests, DriftAndBatchesAreSeenInAnyFileOrder) {
       scores(e) = random.normal() +
                   (batch ? (static_cast<int>(place) / 20 % 2 ? 1.2 : -1.2) : 0.04 * (place - 40));
     }
-    EXPECT_LT(order_p_value(scores, order, 999, 1), 0.01) << batch;
+    EXPECT_LT(test_order(scores, order, 999, 1).p_value, 0.01) << batch;
   }
 }
 

@@ -1,0 +1,103 @@
+// Sensitivities by differences, splines of what was chosen.
+#include "trace/directions.h"
+
+#include <algorithm>
+#include <set>
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+} // namespace
+
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
+  constexpr double step = 0.06;
+  const std::size_t own = campaign.law.parameters.size();
+  BlockColumns columns = campaign.candidates.by_symbol;
+  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
+  const auto change = [&](const char* place) {
+    PlacedEffect everywhere;
+    everywhere.form = find_effect("linear");
+    everywhere.column = "everywhere";
+    everywhere.acts_on = place;
+    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
+    everywhere.low = 0;
+    std::vector<PlacedEffect> effects = rival.effects;
+    effects.push_back(everywhere);
+    const Law law = extended_law(campaign.law, campaign.conventions,
+                                 std::span(rival.parameters).first(own), effects, "sensitivity");
+    const LawOnBlocks on(law, campaign.conventions, columns);
+    std::vector<double> at = start_of(law, rival.parameters, own, effects);
+    const auto amplitude = static_cast<std::size_t>(
+        std::find_if(law.parameters.begin(), law.parameters.end(),
+                     [&](const Parameter& p) {
+                       return p.name == "e" + std::to_string(effects.size()) + "_a";
+                     }) -
+        law.parameters.begin());
+    at[amplitude] = step;
+    const VectorXd up = on.predict(at);
+    at[amplitude] = -step;
+    return VectorXd((up - on.predict(at)) / (2 * step));
+  };
+  Sensitivities all;
+  all[0] = change("mu");
+  if (has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change("m");
+    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
+  }
+  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
+  return all;
+}
+
+namespace {
+
+// Straight lines between seven places of a quantity: what any form of it could be.
+MatrixXd hat_functions(const VectorXd& x) {
+  constexpr int places = 7;
+  std::vector<double> sorted(x.data(), x.data() + x.size());
+  std::sort(sorted.begin(), sorted.end());
+  std::set<double> knots;
+  for (int i = 0; i < places; ++i)
+    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (places - 1)]);
+  MatrixXd columns(x.size(), static_cast<Index>(knots.size()));
+  Index next = 0;
+  for (const double knot : knots)
+    columns.col(next++) = (x.array() - knot).max(0.0).matrix();
+  columns.col(next - 1) = x; // the last hinge is zero everywhere
+  return columns;
+}
+
+MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
+  MatrixXd columns(x.size(), static_cast<Index>(levels));
+  for (std::size_t level = 0; level < levels; ++level)
+    columns.col(static_cast<Index>(level)) =
+        (x.array() == static_cast<double>(level)).cast<double>().matrix();
+  return columns;
+}
+
+MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
+  const CandidateColumn& x = candidates.columns[cause.column];
+  if (!x.levels.empty()) return level_functions(x.values, x.levels.size());
+  if (!cause.pair()) return hat_functions(x.values);
+  const VectorXd& y = candidates.columns[cause.second].values;
+  return hat_functions((x.values.array() - x.values.mean()) * (y.array() - y.mean()));
+}
+
+} // namespace
+
+MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
+                           const Sensitivities& sensitivities) {
+  MatrixXd all = rival.jacobian;
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const VectorXd& sensitivity = sensitivities[place_of(rival.effects[i])];
+    if (sensitivity.size() == 0) continue;
+    append_columns(all, sensitivity.asDiagonal() * any_form(rival.causes[i], campaign.candidates));
+  }
+  return all;
+}
+
+} // namespace frictab

@@ -1,0 +1,173 @@
+// Tests, nuisance functions and size of structure along the order of tests.
+#include "trace/order_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int check_functions = 9;
+constexpr int nuisance_functions = 12;
+constexpr double suspicion = 0.05;     // p-value of the order's own test, in the rival's place
+constexpr double beyond_order = 3;     // statistic that an effect keeps beside the order of tests
+constexpr double share_of_alpha = 0.5; // that the order's test may spend
+constexpr const char* reference = "the mean of the campaign's tests";
+
+// At most one per so many experiments.
+MatrixXd slow_functions(const Search& search, int most, std::size_t experiments_each,
+                        std::size_t place) {
+  const std::vector<double>& order = search.candidates.order;
+  const int count = std::min(most, static_cast<int>(order.size() / experiments_each));
+  return on_blocks(order_functions(order, count), search.sensitivities()[place], search.first());
+}
+
+VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t place) {
+  return experiment_scores(search.residual(), search.sensitivities()[place], search.known(),
+                           whitener, search.first());
+}
+
+void project_out(const MatrixXd& directions, MatrixXd& columns) {
+  const MatrixXd q = orthonormal(directions);
+  columns -= q * (q.transpose() * columns).eval();
+}
+
+// Root mean square of what the functions explain, by weighted least squares.
+void measure(Search& search, MatrixXd columns) {
+  const MatrixXd raw = columns;
+  MatrixXd residual = search.residual();
+  const Whitener weights = search.whitener();
+  weights.apply(columns);
+  weights.apply(residual);
+  MatrixXd normal = columns.transpose() * columns;
+  normal.diagonal().array() += 1.0; // a coefficient of 100 % is far out of reach
+  const VectorXd explained = raw * normal.ldlt().solve(columns.transpose() * residual.col(0));
+  const double count = static_cast<double>(explained.size());
+  search.order.size_MPa = explained.norm() / std::sqrt(count);
+  search.order.share = search.order.size_MPa / search.tau_scale_MPa;
+}
+
+bool is_order(const Search& search, const Cause& cause) {
+  const Candidates& candidates = search.candidates;
+  const auto numbers_tests = [&](std::size_t column) {
+    const std::string& name = candidates.columns[column].name;
+    return name == "test_order" || name == candidates.order_column;
+  };
+  return numbers_tests(cause.column) || (cause.pair() && numbers_tests(cause.second));
+}
+
+void forbid_order(Search& search) {
+  for (std::size_t c = 0; c < search.causes.size(); ++c)
+    if (is_order(search, search.causes[c])) search.shapes[c].clear();
+}
+
+} // namespace
+
+bool is_order(const Search& search, const Rival& rival) {
+  return is_order(search, rival.causes.back());
+}
+
+bool is_declared(const Search& search, const Rival& rival) {
+  const std::string& name = rival.effects.back().column;
+  const std::string& distance = search.input.options.tool_distance;
+  return !distance.empty() &&
+         (name == distance || (name == "test_order" && distance == search.candidates.order_column));
+}
+
+bool follows_order(const Search& search, const Rival& rival) {
+  if (is_declared(search, rival)) return false;
+  if (is_order(search, rival)) return true;
+  if (search.order.found || search.candidates.order_column.empty() ||
+      !constant_in_experiments(rival.causes.back(), search.candidates))
+    return false;
+  const std::size_t place = place_of(rival.effects.back());
+  const Whitener weights = search.whitener();
+  if (test_order(scores_of(search, weights, place), search.candidates.order, trace_flips,
+                 search.input.seed)
+          .p_value > suspicion)
+    return false;
+  MatrixXd known = search.known();
+  MatrixXd waves = slow_functions(search, check_functions, 4, place);
+  MatrixXd both(known.rows(), 2);
+  both.col(0) = search.residual();
+  both.col(1) = rival.predicted - search.last().predicted;
+  for (MatrixXd* columns : {&known, &waves, &both})
+    weights.apply(*columns);
+  project_out(known, waves);
+  project_out(known, both);
+  const auto statistic = [&] {
+    return std::abs(both.col(0).dot(both.col(1))) / both.col(1).norm();
+  };
+  const double alone = statistic();
+  const double of_order = (orthonormal(waves).transpose() * both.col(0)).norm();
+  if (alone > of_order) return false; // one column explains more than all slow functions
+  project_out(waves, both);
+  return statistic() < beyond_order;
+}
+
+void take_order_out(Search& search, double p_value, std::size_t place) {
+  forbid_order(search);
+  if (search.order.found) return; // what is left behind the slow functions stays unexplained
+  search.order.found = true;
+  search.order.p_value = p_value;
+  search.order.reference = reference;
+  MatrixXd functions = slow_functions(search, nuisance_functions, 5, place);
+  measure(search, functions);
+  search.campaign().nuisance = std::move(functions);
+  search.fit_again(40);
+}
+
+OrderFound look_along_order(const Search& search) {
+  const Whitener weights = search.whitener();
+  std::vector<std::size_t> tried;
+  MatrixXd scores(static_cast<Index>(search.blocks.experiments()), 0);
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    if (search.sensitivities()[place].size() == 0) continue;
+    append_columns(scores, scores_of(search, weights, place));
+    tried.push_back(place);
+  }
+  const OrderTest test =
+      test_order(scores, search.candidates.order, trace_flips, search.input.seed);
+  return {test.p_value, tried[static_cast<std::size_t>(test.column)]};
+}
+
+bool find_order(Search& search) {
+  if (search.order.found || search.negligible()) return false;
+  const OrderFound found = look_along_order(search);
+  search.order.p_value = found.p_value;
+  if (found.p_value > share_of_alpha * search.input.options.alpha) return false;
+  if (!search.candidates.order_column.empty()) {
+    take_order_out(search, found.p_value, found.place);
+    return true;
+  }
+  search.order.found = true;
+  search.order.reference = reference;
+  measure(search, slow_functions(search, check_functions, 5, found.place));
+  return true;
+}
+
+void reconsider_order(Search& search) {
+  if (search.campaign().nuisance.cols() == 0 || search.findings.empty()) return;
+  MatrixXd nuisance = std::move(search.campaign().nuisance);
+  search.campaign().nuisance.resize(0, 0);
+  Rival with_order = search.last();
+  search.fit_again(60);
+  const double p = look_along_order(search).p_value;
+  if (p > share_of_alpha * search.input.options.alpha) {
+    search.order = {};
+    search.order.column = search.candidates.order_column;
+    search.order.p_value = p;
+    return;
+  }
+  search.campaign().nuisance = std::move(nuisance);
+  search.move_to(std::move(with_order));
+}
+
+} // namespace frictab

@@ -1,0 +1,37 @@
+// What follows the order of tests: told apart from effects, taken out of the calibration, and left
+// out of the law.
+#pragma once
+
+#include "trace/order.h"
+#include "trace/search.h"
+
+namespace frictab {
+
+// Whether the rival acts by the column that numbers the tests.
+bool is_order(const Search& search, const Rival& rival);
+
+// The column that the user has declared as the tool's wear: it may follow the order.
+bool is_declared(const Search& search, const Rival& rival);
+
+// Whether a drift over the order of tests explains at least as much as the rival's last effect, and
+// little is left of that beside it.
+bool follows_order(const Search& search, const Rival& rival);
+
+// From here on nothing is explained that slow functions of the order can explain, in the place
+// (mu, limit, added) where it shows most.
+void take_order_out(Search& search, double p_value, std::size_t place);
+
+struct OrderFound {
+  double p_value = 1;
+  std::size_t place = 0;
+};
+OrderFound look_along_order(const Search& search);
+
+// A second test, beside that of all candidates: true where something was found. It is taken out
+// where a column gives the order; the file's own may be that of the design, and is only measured.
+bool find_order(Search& search);
+
+// Whether the order still has structure once the effects are in the law; forgotten if not.
+void reconsider_order(Search& search);
+
+} // namespace frictab
