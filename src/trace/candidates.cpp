@@ -1,4 +1,4 @@
-// Lists candidate columns and the shapes an effect of each may have.
+// Lists candidate columns and pairs of them.
 #include "trace/candidates.h"
 
 #include <algorithm>
@@ -81,24 +81,6 @@ double widest_gap(const std::vector<double>& tested) {
   for (std::size_t i = 1; i < tested.size(); ++i)
     widest = std::max(widest, tested[i] - tested[i - 1]);
   return widest;
-}
-
-// A form with a place and a width has structure of that width there.
-bool is_local(const PlacedEffect& effect) {
-  const auto& all = effect.form->parameters;
-  const auto fitted = fitted_parameters(effect);
-  const auto has = [&](bool width) {
-    return std::any_of(fitted.begin() + static_cast<long>(effect.form->amplitudes), fitted.end(),
-                       [&](const Parameter& p) { return (p.lower > 0) == width; });
-  };
-  return !effect.form->categorical && all.size() > 2 &&
-         fitted.size() > effect.form->amplitudes + 1 && has(true) && has(false);
-}
-
-double gap_of(const std::string& column, const Candidates& candidates) {
-  for (const CandidateColumn& c : candidates.columns)
-    if (c.name == column) return c.gap;
-  return 0;
 }
 
 class Finder {
@@ -262,154 +244,6 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
     for (std::size_t b = a + 1; b < columns.size(); ++b)
       if (may_pair(columns[a]) && may_pair(columns[b])) all.push_back({a, b});
   return all;
-}
-
-PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
-                          const std::string& acts_on, double tau_scale_MPa) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  PlacedEffect effect;
-  effect.form = &form;
-  effect.column = x.name;
-  effect.levels = x.levels;
-  effect.acts_on = acts_on;
-  effect.tau_scale_MPa = tau_scale_MPa;
-  effect.low = x.spread.minimum;
-  effect.high = x.spread.maximum;
-  Spread second;
-  if (cause.pair()) {
-    const CandidateColumn& x2 = candidates.columns[cause.second];
-    effect.column2 = x2.name;
-    second = x2.spread;
-    effect.low2 = second.minimum;
-    effect.high2 = second.maximum;
-  }
-  if (form.categorical)
-    effect.parameters.assign(x.levels.size() - 1, 0.0);
-  else
-    effect.parameters = start_values(form, x.spread, second);
-  return effect;
-}
-
-namespace {
-
-// A form that needs positive values, or degrees, is tried where it has a meaning.
-bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
-  if (form.name == "arrhenius")
-    return x.name.find("_C") != std::string::npos || x.name.find("T_") != std::string::npos;
-  if (form.name == "power" || form.name == "logarithmic")
-    return x.spread.median > 0 && x.spread.minimum >= 0;
-  if (form.name == "saturation" || form.name == "stribeck")
-    return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
-  // A wave is seen along an experiment; from test to test it imitates whatever lies between.
-  if (form.name == "periodic") return x.reach > 0.5;
-  return true;
-}
-
-// Structure between values that were never tested.
-bool too_narrow(const PlacedEffect& effect, double gap) {
-  if (!is_local(effect)) return false;
-  for (std::size_t p = effect.form->amplitudes; p < effect.parameters.size(); ++p)
-    if (effect.form->parameters[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
-  return false;
-}
-
-// d factor/d amplitude at amplitude 0, per block.
-Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
-  const Program program = factor_program(effect);
-  const std::vector<double> neutral = fitted_values(effect);
-  const auto& x = columns.at(symbol_of(effect.column));
-  std::vector<const double*> data{x.data()};
-  if (effect.form->two_columns) data.push_back(columns.at(symbol_of(effect.column2)).data());
-  const Index count = x.size();
-  Eigen::VectorXf direction(count);
-  BoundProgram(program, static_cast<std::size_t>(count), data)
-      .sweep(neutral, true, [&](const BoundProgram::Block& block) {
-        for (std::size_t i = 0; i < block.count; ++i)
-          direction(static_cast<Index>(block.first + i)) =
-              static_cast<float>(block.derivative[0][i]);
-      });
-  return direction;
-}
-
-// One direction per level against the others.
-std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  std::vector<GridShape> shapes;
-  for (std::size_t level = 0; level < x.levels.size(); ++level) {
-    if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
-    Eigen::VectorXf is = (x.values.array() == static_cast<double>(level)).cast<float>();
-    shapes.push_back(
-        {start_effect(*find_effect("category"), cause, candidates, "mu", 1), std::move(is)});
-  }
-  return shapes;
-}
-
-// Shapes that say almost the same are tried once.
-void keep_different(std::vector<GridShape>& shapes) {
-  std::vector<GridShape> kept;
-  std::vector<Eigen::VectorXf> centred;
-  for (GridShape& shape : shapes) {
-    Eigen::VectorXf d = shape.direction.array() - shape.direction.mean();
-    const float norm = d.norm();
-    if (!(norm > 1e-6f) || !std::isfinite(norm)) continue;
-    d /= norm;
-    if (std::any_of(centred.begin(), centred.end(),
-                    [&](const Eigen::VectorXf& other) { return std::abs(other.dot(d)) > 0.999f; }))
-      continue;
-    centred.push_back(std::move(d));
-    kept.push_back(std::move(shape));
-  }
-  shapes = std::move(kept);
-}
-
-} // namespace
-
-bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  return form.categorical == !x.levels.empty() && form.two_columns == cause.pair() &&
-         has_meaning(form, x);
-}
-
-std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  if (!x.levels.empty()) return level_shapes(cause, candidates);
-  std::vector<GridShape> shapes;
-  for (const EffectForm& form : all_effects()) {
-    if (form.amplitudes > 1 || !form_fits(form, cause, candidates)) continue;
-    PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
-    std::vector<std::vector<double>> grid;
-    if (form.grid)
-      grid = form.grid(x.spread);
-    else
-      grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
-    for (const auto& values : grid) {
-      std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
-      if (too_narrow(effect, x.gap)) continue;
-      shapes.push_back({effect, amplitude_direction(effect, candidates.by_symbol)});
-    }
-  }
-  keep_different(shapes);
-  return shapes;
-}
-
-void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
-                  const Candidates& candidates) {
-  std::size_t next = own;
-  for (const PlacedEffect& effect : effects) {
-    const std::size_t count = fitted_parameters(effect).size();
-    const std::size_t first = next + (effect.form->categorical ? count : effect.form->amplitudes);
-    const double span = effect.high - effect.low;
-    const double least =
-        is_local(effect) ? std::max(span / 60, 0.5 * gap_of(effect.column, candidates)) : span / 60;
-    for (std::size_t p = first; p < next + count; ++p) {
-      Parameter& parameter = extended.parameters[p];
-      const bool width = parameter.lower > 0;
-      parameter.lower = width ? least : effect.low;
-      parameter.upper = width ? 6 * span : effect.high;
-      parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
-    }
-    next += count;
-  }
 }
 
 std::string cause_name(const Cause& cause, const Candidates& candidates) {

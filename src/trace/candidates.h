@@ -57,24 +57,6 @@ struct Cause {
 // All columns, then pairs of those that differ.
 std::vector<Cause> all_causes(const Candidates& candidates);
 
-// One shape of an effect before it is fitted: amplitude 0, and what its factor changes per
-// amplitude.
-struct GridShape {
-  PlacedEffect effect;
-  Eigen::VectorXf direction; // per block, d factor/d amplitude at 0
-};
-std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates);
-
-// An effect of that form with the form's own start values; category: all levels.
-PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
-                          const std::string& acts_on, double tau_scale_MPa);
-// Whether the form has a meaning for the cause: logarithms need positive values, ...
-bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates);
-// Bounds of a fit inside what the data can tell: places inside the range, widths like it, and not
-// below half of the widest gap between values that were tested: what lies there nobody has seen.
-void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const PlacedEffect> effects,
-                  const Candidates& candidates);
-
 std::string cause_name(const Cause& cause, const Candidates& candidates);
 // 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 4 a pair.
 int complexity(const Cause& cause, const Candidates& candidates);

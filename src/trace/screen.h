@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "trace/candidates.h"
 #include "trace/noise.h"
+#include "trace/shapes.h"
 
 namespace frictab {
 
