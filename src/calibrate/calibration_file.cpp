@@ -231,17 +231,6 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   return fit;
 }
 
-// What nlohmann throws for a missing or mistyped key becomes one of our errors.
-template <class F> auto with_file(const std::string& file, F read) {
-  try {
-    return read();
-  } catch (const nlohmann::ordered_json::exception& error) {
-    std::string what = error.what();
-    what = what.substr(std::min(what.size(), what.find("] ") + 2));
-    throw InputError({file, 0, 0}, "not as frictab writes it: " + what, "calibrate again");
-  }
-}
-
 } // namespace
 
 std::string calibration_json(const Calibration& calibration) {
@@ -263,8 +252,8 @@ std::string calibration_json(const Calibration& calibration) {
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
   const Json j = parse_json(text, file);
-  return with_file(file, [&] {
-    Calibration calibration;
+  Calibration calibration;
+  read_json(file, "calibrate again", [&] {
     calibration.data_hash = j.at("data_hash");
     calibration.synthetic = j.at("synthetic_data");
     calibration.seed = j.at("seed");
@@ -285,8 +274,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       fit.band = parse_band(one.at("band"));
       calibration.fits.push_back(std::move(fit));
     }
-    return calibration;
   });
+  return calibration;
 }
 
 std::string model_json(const ModelFit& fit, const Calibration& calibration) {
@@ -303,7 +292,9 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
 
 Model parse_model(std::string_view text, const std::string& file) {
   const Json j = parse_json(text, file);
-  return with_file(file, [&] { return parse_fit(j, file).model; });
+  Model model;
+  read_json(file, "calibrate again", [&] { model = parse_fit(j, file).model; });
+  return model;
 }
 
 } // namespace frictab

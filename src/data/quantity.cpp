@@ -38,4 +38,8 @@ const Quantity* find_quantity(std::string_view name) {
   return nullptr;
 }
 
+bool is_measured(std::string_view name) {
+  return name == "tau_R_MPa" || name == "F_R_N" || name == "F_N_N";
+}
+
 } // namespace frictab

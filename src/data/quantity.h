@@ -26,4 +26,7 @@ std::span<const Quantity> quantities();
 // nullptr where `name` is not canonical (then the column is a bystander).
 const Quantity* find_quantity(std::string_view name);
 
+// What a tribometer measures of friction itself: no input of a law and no cause of an effect.
+bool is_measured(std::string_view name);
+
 } // namespace frictab

@@ -1,6 +1,8 @@
 // JSON text in and out.
 #include "io/json.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -27,6 +29,17 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
     throw InputError(place, "this is not valid JSON", "the file may be cut short");
   } catch (const nlohmann::ordered_json::exception& error) { // a number beyond double
     throw InputError({file, 0, 0}, std::string("this is not valid JSON: ") + error.what());
+  }
+}
+
+void read_json(const std::string& file, const std::string& mends,
+               const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const nlohmann::ordered_json::exception& error) {
+    std::string what = error.what();
+    what = what.substr(std::min(what.size(), what.find("] ") + 2));
+    throw InputError({file, 0, 0}, "not as frictab writes it: " + what, mends);
   }
 }
 

@@ -1,6 +1,7 @@
 // JSON text in and out with clear errors; the library's header stays in .cpp files.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,10 @@ std::string json_text(const nlohmann::ordered_json& value);
 
 // Throws InputError with file:line:col where the text is no JSON.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
+
+// Runs `read`, which takes values out of parsed JSON. A missing or mistyped key becomes an
+// InputError that names the file and says what `mends` it.
+void read_json(const std::string& file, const std::string& mends,
+               const std::function<void()>& read);
 
 } // namespace frictab

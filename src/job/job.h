@@ -116,7 +116,6 @@ struct TraceOptions {
   std::optional<double> repeatability;     // relative scatter between repeated tests
   std::string
       tool_distance; // column of the tool's wear: may be shipped though it follows the order
-  Place place;
 };
 
 struct Job {

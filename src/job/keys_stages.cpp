@@ -250,8 +250,7 @@ std::vector<KeyRule> export_keys() {
           [](Job & job, const std::string& name) -> auto& { return job.exports.inputs[name]; },
           "where a state comes from that the solver does not give: \"constant:1.0\" (canonical "
           "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field); "
-          "also "
-          "for the columns and histories that a traced effect brought in",
+          "also for the columns and histories that a traced effect brought in",
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
       named<std::string>(

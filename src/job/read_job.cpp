@@ -65,11 +65,6 @@ bool is_symbol(const std::string& name) {
   });
 }
 
-// What is measured is no input of any law.
-bool is_measured(const std::string& name) {
-  return name == "tau_R_MPa" || name == "F_R_N" || name == "F_N_N";
-}
-
 bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;

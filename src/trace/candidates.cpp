@@ -21,7 +21,6 @@ using Eigen::VectorXd;
 using Rows = std::span<const double>;
 
 constexpr std::size_t most_levels = 12; // a text column with more names experiments
-const std::set<std::string> measured_ones = {"tau_R_MPa", "F_R_N", "F_N_N"};
 
 bool is_constant(Rows values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
@@ -131,8 +130,7 @@ private:
   }
 
   bool allowed(const Column& column) {
-    if (measured_ones.count(column.name) || column.name == "origin" || ignored(column.name))
-      return false;
+    if (is_measured(column.name) || column.name == "origin" || ignored(column.name)) return false;
     if (column.name == found_.order_column) {
       if (column.name != "run_order") add_column(column.name, {column.name}, false, column.values);
       return false;

@@ -20,16 +20,6 @@ using Eigen::VectorXd;
 constexpr std::uint64_t order_stream = 72;
 constexpr int slow_waves = 4;
 
-std::vector<std::size_t> ranks(std::span<const double> order) {
-  std::vector<std::size_t> by(order.size()), rank(order.size());
-  std::iota(by.begin(), by.end(), 0);
-  std::stable_sort(by.begin(), by.end(),
-                   [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
-  for (std::size_t i = 0; i < by.size(); ++i)
-    rank[by[i]] = i;
-  return rank;
-}
-
 double wave(std::size_t rank, int number, std::size_t count) {
   return std::cos(std::numbers::pi * number * (static_cast<double>(rank) + 0.5) /
                   static_cast<double>(count));
@@ -63,6 +53,16 @@ VectorXd structures(const MatrixXd& z, std::span<const std::size_t> order, const
 }
 
 } // namespace
+
+std::vector<std::size_t> ranks(std::span<const double> order) {
+  std::vector<std::size_t> by(order.size()), rank(order.size());
+  std::iota(by.begin(), by.end(), 0);
+  std::stable_sort(by.begin(), by.end(),
+                   [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
+  for (std::size_t i = 0; i < by.size(); ++i)
+    rank[by[i]] = i;
+  return rank;
+}
 
 VectorXd experiment_scores(const VectorXd& residual, const VectorXd& sensitivity,
                            const MatrixXd& fitted, const Whitener& whitener,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -25,6 +26,9 @@ struct OrderTest {
 };
 OrderTest test_order(const Eigen::MatrixXd& scores, std::span<const double> order,
                      std::size_t permutations, std::uint64_t seed);
+
+// Place of each experiment in the order: 0, 1, 2, ...
+std::vector<std::size_t> ranks(std::span<const double> order);
 
 // Slow functions of the order (cosines of the rank), per experiment; each has mean 0.
 Eigen::MatrixXd order_functions(std::span<const double> order, int count);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <set>
 
 #include <Eigen/Cholesky>
 
@@ -16,8 +19,11 @@ using Eigen::VectorXd;
 
 constexpr int check_functions = 9;
 constexpr int nuisance_functions = 12;
-constexpr double suspicion = 0.05;     // p-value of the order's own test, in the rival's place
-constexpr double beyond_order = 3;     // statistic that an effect keeps beside the order of tests
+constexpr double suspicion = 0.05;    // p-value of the order's own test, in the rival's place
+constexpr double beyond_order = 3;    // statistic that an effect keeps beside the order of tests
+constexpr std::size_t neighbours = 3; // that may still be alike behind the slow functions
+constexpr double most_slow =
+    0.5; // of a column's variance, that slow functions of the order explain
 constexpr double share_of_alpha = 0.5; // that the order's test may spend
 constexpr const char* reference = "the mean of the campaign's tests";
 
@@ -63,16 +69,43 @@ bool is_order(const Search& search, const Cause& cause) {
   return numbers_tests(cause.column) || (cause.pair() && numbers_tests(cause.second));
 }
 
-void forbid_order(Search& search) {
+// A text column of which each level is one stretch of the order: a batch. It is the order itself.
+bool is_stretch(const CandidateColumn& column, const VectorXd& by_rank) {
+  Index stretches = 1;
+  for (Index i = 1; i < by_rank.size(); ++i)
+    stretches += by_rank(i) != by_rank(i - 1);
+  const std::set<double> seen(by_rank.begin(), by_rank.end());
+  return !column.levels.empty() && stretches <= static_cast<Index>(seen.size());
+}
+
+// A column that is mostly a slow function of the order.
+bool is_slow(const CandidateColumn& column, const VectorXd& by_rank) {
+  if (!column.levels.empty()) return false;
+  std::vector<double> order(static_cast<std::size_t>(by_rank.size()));
+  std::iota(order.begin(), order.end(), 0);
+  const int count = std::min(nuisance_functions, static_cast<int>(order.size() / 5));
+  const VectorXd x = by_rank.array() - by_rank.mean();
+  return (orthonormal(order_functions(order, count)).transpose() * x).squaredNorm() >
+         most_slow * x.squaredNorm();
+}
+
+// (Once structure along the order is known, slow columns are suspects, too.)
+bool is_order_itself(const Search& search, const Cause& cause) {
+  if (cause.pair()) return false;
+  const CandidateColumn& column = search.candidates.columns[cause.column];
+  const auto rank = ranks(search.candidates.order);
+  VectorXd by_rank(static_cast<Index>(rank.size()));
+  for (std::size_t e = 0; e < rank.size(); ++e)
+    by_rank(static_cast<Index>(rank[e])) = column.values(static_cast<Index>(search.first()[e]));
+  return is_stretch(column, by_rank) || (search.order.found && is_slow(column, by_rank));
+}
+
+void forbid(Search& search, const std::function<bool(const Cause&)>& which) {
   for (std::size_t c = 0; c < search.causes.size(); ++c)
-    if (is_order(search, search.causes[c])) search.shapes[c].clear();
+    if (which(search.causes[c])) search.shapes[c].clear();
 }
 
 } // namespace
-
-bool is_order(const Search& search, const Rival& rival) {
-  return is_order(search, rival.causes.back());
-}
 
 bool is_declared(const Search& search, const Rival& rival) {
   const std::string& name = rival.effects.back().column;
@@ -83,10 +116,12 @@ bool is_declared(const Search& search, const Rival& rival) {
 
 bool follows_order(const Search& search, const Rival& rival) {
   if (is_declared(search, rival)) return false;
-  if (is_order(search, rival)) return true;
-  if (search.order.found || search.candidates.order_column.empty() ||
+  if (is_order(search, rival.causes.back())) return true;
+  if (search.candidates.order_column.empty() ||
       !constant_in_experiments(rival.causes.back(), search.candidates))
     return false;
+  if (is_order_itself(search, rival.causes.back())) return true;
+  if (search.order.found) return false;
   const std::size_t place = place_of(rival.effects.back());
   const Whitener weights = search.whitener();
   if (test_order(scores_of(search, weights, place), search.candidates.order, trace_flips,
@@ -112,12 +147,24 @@ bool follows_order(const Search& search, const Rival& rival) {
   return statistic() < beyond_order;
 }
 
+void blame_order(Search& search, const Rival& rival, double p_value) {
+  const Cause cause = rival.causes.back();
+  if (!is_order(search, cause))
+    search.rejected.push_back(cause_name(cause, search.candidates) +
+                              ": cannot be told from a drift over the order of tests");
+  forbid(search, [&](const Cause& other) { return other == cause; });
+  take_order_out(search, p_value, place_of(rival.effects.back()));
+}
+
 void take_order_out(Search& search, double p_value, std::size_t place) {
-  forbid_order(search);
   if (search.order.found) return; // what is left behind the slow functions stays unexplained
+  forbid(search, [&](const Cause& cause) { return is_order(search, cause); });
   search.order.found = true;
   search.order.p_value = p_value;
   search.order.reference = reference;
+  const auto rank = ranks(search.candidates.order);
+  for (std::size_t e = 0; e < rank.size(); ++e)
+    search.units[e] = rank[e] / neighbours;
   MatrixXd functions = slow_functions(search, nuisance_functions, 5, place);
   measure(search, functions);
   search.campaign().nuisance = std::move(functions);
@@ -164,6 +211,7 @@ void reconsider_order(Search& search) {
     search.order = {};
     search.order.column = search.candidates.order_column;
     search.order.p_value = p;
+    std::iota(search.units.begin(), search.units.end(), 0);
     return;
   }
   search.campaign().nuisance = std::move(nuisance);

@@ -7,15 +7,15 @@
 
 namespace frictab {
 
-// Whether the rival acts by the column that numbers the tests.
-bool is_order(const Search& search, const Rival& rival);
-
 // The column that the user has declared as the tool's wear: it may follow the order.
 bool is_declared(const Search& search, const Rival& rival);
 
 // Whether a drift over the order of tests explains at least as much as the rival's last effect, and
 // little is left of that beside it.
 bool follows_order(const Search& search, const Rival& rival);
+
+// The rival's cause is out, and the order with it.
+void blame_order(Search& search, const Rival& rival, double p_value);
 
 // From here on nothing is explained that slow functions of the order can explain, in the place
 // (mu, limit, added) where it shows most.

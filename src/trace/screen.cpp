@@ -40,12 +40,19 @@ void unshrink(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& r
   }
 }
 
-MatrixXf signs(std::size_t flips, std::size_t experiments, std::uint64_t seed) {
-  MatrixXf s(static_cast<Index>(flips), static_cast<Index>(experiments));
+std::size_t count_of(std::span<const std::size_t> units) {
+  return *std::max_element(units.begin(), units.end()) + 1;
+}
+
+MatrixXf signs(std::size_t flips, std::span<const std::size_t> units, std::uint64_t seed) {
+  MatrixXf s(static_cast<Index>(flips), static_cast<Index>(units.size()));
+  std::vector<float> sign(count_of(units));
   for (Index b = 0; b < s.rows(); ++b) {
     Random random(seed, flip_stream + 1000 * static_cast<std::uint64_t>(b));
-    for (Index e = 0; e < s.cols(); ++e)
-      s(b, e) = random.uniform() < 0.5 ? -1.0f : 1.0f;
+    for (float& of_unit : sign)
+      of_unit = random.uniform() < 0.5 ? -1.0f : 1.0f;
+    for (std::size_t e = 0; e < units.size(); ++e)
+      s(b, static_cast<Index>(e)) = sign[units[e]];
   }
   return s;
 }
@@ -69,7 +76,7 @@ public:
     unshrink(q, in_.first, r);
     q_ = q.cast<float>();
     residual_ = r.cast<float>();
-    signs_ = signs(in_.flips, in_.first.size() - 1, in_.seed);
+    signs_ = signs(in_.flips, in_.units, in_.seed);
     for (std::size_t p = 0; p < places.size(); ++p)
       sensitivity_[p] = in_.sensitivities[p].cast<float>();
   }
@@ -203,7 +210,7 @@ ScreenResult screen(const ScreenInput& input) {
       result.flipped_maxima.end() -
       std::lower_bound(result.flipped_maxima.begin(), result.flipped_maxima.end(), most);
   // (All patterns of signs may have been drawn: the true one and its mirror image are two of them.)
-  const double least = std::pow(2.0, 2.0 - static_cast<double>(input.first.size()));
+  const double least = std::pow(2.0, 1.0 - static_cast<double>(count_of(input.units)));
   result.p_value =
       std::max(least, static_cast<double>(beyond + 1) / static_cast<double>(input.flips + 1));
   return result;

@@ -47,6 +47,8 @@ struct ScreenInput {
   std::span<const std::size_t> first; // blocks of each experiment
   const Eigen::VectorXd& residual;    // per block, not whitened
   const Eigen::MatrixXd& fitted;      // directions of fitted parameters, not whitened
+  // Per experiment, which of them change sign together (all 0, 1, 2, ...: each for itself).
+  std::span<const std::size_t> units;
   std::size_t flips = 999;
   std::uint64_t seed = 1;
   bool keep_scores = false;

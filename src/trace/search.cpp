@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -79,6 +80,8 @@ Search::Search(const TraceInput& in) : input(in) {
                      fmt::format("at least {}: an effect has to show in several experiments, "
                                  "whatever the number of rows",
                                  trace_experiments));
+  units.resize(experiments);
+  std::iota(units.begin(), units.end(), 0);
   blocks = make_blocks(in.training);
   make_candidates();
   make_campaign();
@@ -154,7 +157,7 @@ ScreenResult screen(const Search& search, bool keep_scores) {
   const Whitener weights = search.whitener();
   const VectorXd residual = search.residual();
   return screen({search.shapes, search.sensitivities(), weights, search.first(), residual,
-                 search.known(), trace_flips, search.input.seed, keep_scores});
+                 search.known(), search.units, trace_flips, search.input.seed, keep_scores});
 }
 
 } // namespace frictab

@@ -52,7 +52,8 @@ public:
   Rival base;                    // without effects
   std::vector<Finding> findings; // in the order in which they were added
   OrderStructure order;
-  double last_p_value = 1; // of what is left
+  std::vector<std::size_t> units; // per experiment: which of them the screening flips together
+  double last_p_value = 1;        // of what is left
   ScreenResult last_screen;
   std::vector<std::string> rejected;
 

@@ -269,17 +269,14 @@ std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
 
 std::vector<Trace> parse_traces(std::string_view text, const std::string& file) {
   const Json j = parse_json(text, file);
-  try {
-    std::vector<Trace> traces{parse_one(j)};
+  std::vector<Trace> traces;
+  read_json(file, "trace again", [&] {
+    traces.push_back(parse_one(j));
     if (j.contains("others"))
       for (const Json& other : j.at("others"))
         traces.push_back(parse_one(other));
-    return traces;
-  } catch (const nlohmann::ordered_json::exception& error) {
-    std::string what = error.what();
-    what = what.substr(std::min(what.size(), what.find("] ") + 2));
-    throw InputError({file, 0, 0}, "not as frictab writes it: " + what, "trace again");
-  }
+  });
+  return traces;
 }
 
 } // namespace frictab

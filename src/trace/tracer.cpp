@@ -42,7 +42,7 @@ private:
         find_rivals(s_.campaign(), s_.last(), s_.causes, s_.shapes, screened, s_.tau_scale_MPa);
     prefer_declared(rivals);
     if (follows_order(s_, rivals.front()))
-      blame_order(rivals.front(), screened.p_value);
+      blame_order(s_, rivals.front(), screened.p_value);
     else
       accept(std::move(rivals), screened);
     return true;
@@ -59,13 +59,6 @@ private:
                                     [&](const Rival& r) { return is_declared(s_, r); });
     if (found != rivals.end() && found->penalised > rivals.front().penalised - declared_lead)
       std::rotate(rivals.begin(), found, found + 1);
-  }
-
-  void blame_order(const Rival& rival, double p_value) {
-    if (!is_order(s_, rival))
-      s_.rejected.push_back(name_of(rival) +
-                            ": cannot be told from a drift over the order of tests");
-    take_order_out(s_, p_value, place_of(rival.effects.back()));
   }
 
   void accept(std::vector<Rival> rivals, const ScreenResult& screened) {

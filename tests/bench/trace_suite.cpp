@@ -280,6 +280,7 @@ struct Score {
   double scatter = 0;
   double seconds = 0;
   double p_value = 1;   // of the first effect
+  double order_p = 1;   // of no structure along the order of tests
   std::string found;    // "saturation of s_mm on mu"
   std::string rejected; // what was turned down, and why
 };
@@ -309,6 +310,7 @@ public:
     for (const TracedEffect& effect : trace_.effects)
       judge_added(effect);
     if (!trace_.effects.empty()) score_.p_value = trace_.effects.front().p_value;
+    score_.order_p = trace_.order.p_value;
     score_.rejected = join(trace_.rejected, "; ");
     errors();
     return std::move(score_);
@@ -654,10 +656,10 @@ Results run_all(const std::vector<Case>& cases, double alpha) {
   parallel_for(cases.size(), [&](std::size_t i) {
     results[i] = {&cases[i], run_case(cases[i], alpha)};
     const Score& score = results[i].score;
-    fmt::print(stderr, "{} {} {:g} seed {}: {} p {:.3f}{} | {}\n", cases[i].group, cases[i].name,
-               cases[i].strength, cases[i].options.seed,
+    fmt::print(stderr, "{} {} {:g} seed {}: {} p {:.3f}{}, order {:.3f} | {}\n", cases[i].group,
+               cases[i].name, cases[i].strength, cases[i].options.seed,
                score.error.empty() ? score.found : score.error, score.p_value,
-               score.order ? " along the order" : "", score.rejected);
+               score.order ? " along the order" : "", score.order_p, score.rejected);
   });
   return results;
 }

@@ -9,12 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/twin_fault.h"
 #include "twin/twin.h"
 #include "twin/twin_effect.h"
 
 namespace frictab {
 namespace {
 
+using test::fault_of;
 using testing::HasSubstr;
 
 TwinOptions small(const std::string& design = "v=5,500;points=110;validation=6") {
@@ -26,15 +28,6 @@ TwinOptions small(const std::string& design = "v=5,500;points=110;validation=6")
 
 std::span<const double> column(const TwinPart& part, const char* name) {
   return part.data.values(name);
-}
-
-std::string fault_of(const TwinOptions& options) {
-  try {
-    make_twin(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
 }
 
 TEST(TwinProfiles, VariedOnesTellHighestFromMeanAndMomentaryStress) {

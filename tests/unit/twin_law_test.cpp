@@ -5,14 +5,15 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/law_problem.h"
-#include "core/error.h"
 #include "effects/extended_law.h"
+#include "support/twin_fault.h"
 #include "twin/twin_effect.h"
 #include "twin/twin_summary.h"
 
 namespace frictab {
 namespace {
 
+using test::fault_of;
 using testing::HasSubstr;
 
 TwinOptions of_law(const std::string& law, const std::vector<std::string>& effects = {}) {
@@ -23,15 +24,6 @@ TwinOptions of_law(const std::string& law, const std::vector<std::string>& effec
   for (const std::string& effect : effects)
     options.effects.push_back(parse_effect(effect));
   return options;
-}
-
-std::string fault_of(const TwinOptions& options) {
-  try {
-    make_twin(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
 }
 
 double mae(std::span<const double> tau, const std::vector<double>& law) {

@@ -1,0 +1,16 @@
+#include "support/twin_fault.h"
+
+#include "core/error.h"
+
+namespace frictab::test {
+
+std::string fault_of(const TwinOptions& options) {
+  try {
+    make_twin(options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+} // namespace frictab::test

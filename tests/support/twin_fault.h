@@ -1,0 +1,13 @@
+// What the twin says to options it cannot follow.
+#pragma once
+
+#include <string>
+
+#include "twin/twin.h"
+
+namespace frictab::test {
+
+// "no fault" where it can.
+std::string fault_of(const TwinOptions& options);
+
+} // namespace frictab::test
