@@ -194,5 +194,19 @@ TEST(OrderOfTests, DriftAndBatchesAreSeenInAnyFileOrder) {
   }
 }
 
+TEST(OrderOfTests, SaysWhichOfSeveralScoresFollowsTheOrder) {
+  Random random(9, 1);
+  MatrixXd scores(81, 3);
+  std::vector<double> order;
+  for (Index e = 0; e < 81; ++e) {
+    order.push_back(static_cast<double>(e));
+    for (Index c = 0; c < 3; ++c)
+      scores(e, c) = random.normal() + (c == 1 ? 0.04 * (static_cast<double>(e) - 40) : 0.0);
+  }
+  const OrderTest test = test_order(scores, order, 999, 1);
+  EXPECT_LT(test.p_value, 0.01);
+  EXPECT_EQ(test.column, 1);
+}
+
 } // namespace
 } // namespace frictab

@@ -1,6 +1,7 @@
 // The trace stage on synthetic campaigns whose truth is known.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -135,6 +136,15 @@ TEST(Trace, DriftAlongTheOrderOfTestsIsReportedNotShipped) {
   EXPECT_LT(t.after.validation.mae_MPa, 1.02 * t.before.validation.mae_MPa);
 }
 
+TEST(Trace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
+  for (const char* hidden : {"latent=order,on=tau", "latent=batch"}) {
+    const Trace t = traced(campaign(
+        "log_coulomb", 3, fmt::format("form=linear,column=latent,{},strength=0.3", hidden)));
+    EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+    EXPECT_TRUE(t.order.found) << hidden;
+  }
+}
+
 TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
   TraceOptions how;
   how.tool_distance = "run_order";
@@ -212,6 +222,64 @@ TEST(Trace, TwoExperimentsAreRefused) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("2 experiments are too few"));
   }
+}
+
+// Rates over small campaigns; frictab_bench_trace has the large set and the table.
+bool names(const Trace& trace, const std::string& column) {
+  for (const TracedEffect& effect : trace.effects) {
+    if (effect.placed.column == column) return true;
+    for (const Alternative& other : effect.alternatives)
+      if (other.in_set && (other.derived == column || other.columns == std::vector{column}))
+        return true;
+  }
+  return false;
+}
+
+TEST(TraceRates, ElevenOfTwelvePlantedEffectsAreFoundInTheNamedSet) {
+  const std::pair<const char*, const char*> planted[] = {
+      {"exponential", "T_tool_C"}, {"linear", "Ra_um"},
+      {"logarithmic", "film_um"},  {"step", "T_contact_C"},
+      {"bump", "T_contact_C"},     {"stribeck", "v_rel_mm_s"},
+      {"periodic", "s_mm"},        {"category", "direction"},
+      {"linear", "vib"},           {"saturation", "friction_work"},
+      {"linear", "mean_sigma_n"},  {"saturation", "time_s"}};
+  int detected = 0, named = 0;
+  for (const auto& [form, column] : planted) {
+    const Trace t = traced(
+        campaign("log_coulomb", 21, fmt::format("form={},column={},strength=0.15", form, column)));
+    detected += t.verdict == Verdict::effect_added;
+    named += names(t, column);
+  }
+  EXPECT_GE(detected, 11);
+  EXPECT_GE(named, 11);
+}
+
+TEST(TraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
+  int alarms = 0, flagged = 0;
+  for (std::uint64_t seed = 31; seed < 41; ++seed)
+    for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
+      TwinOptions options = campaign(seed % 2 ? "orowan" : "exp_coulomb", seed);
+      options.noise = noise;
+      const Trace t = traced(options);
+      alarms += !t.effects.empty();
+      flagged += t.verdict == Verdict::unexplained_structure;
+    }
+  // Binomial, 30 at 0.02 and at 0.01: more than 3 in 0.2 %.
+  EXPECT_LE(alarms, 3);
+  EXPECT_LE(flagged, 3);
+}
+
+TEST(TraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
+  for (const char* hidden : {"direction", "dwell_s", "film_um"})
+    for (const std::uint64_t seed : {51u, 52u}) {
+      TwinOptions options =
+          campaign("log_coulomb", seed, fmt::format("form=linear,column={},strength=0.15", hidden));
+      if (std::string(hidden) == "direction")
+        options.effects = {parse_effect("form=category,column=direction,strength=0.15")};
+      options.hide = {hidden};
+      if (std::string(hidden) == "film_um") options.hide.push_back("film2_um"); // goes with it
+      EXPECT_TRUE(traced(options).effects.empty()) << hidden << seed;
+    }
 }
 
 } // namespace
