@@ -159,6 +159,11 @@ void set_fitted(PlacedEffect& effect, std::span<const double> values) {
 }
 
 Expr factor_of(const PlacedEffect& effect, const std::string& prefix) {
+  const std::size_t takes =
+      effect.form->categorical ? effect.levels.size() - 1 : effect.form->parameters.size();
+  if (effect.parameters.size() != takes)
+    throw std::logic_error(fmt::format("{} takes {} parameters, not {}", effect.form->name, takes,
+                                       effect.parameters.size()));
   if (effect.form->categorical) return category_factor(effect, prefix);
   std::map<std::string, Expr> replacements = {{"x", held(effect.column, effect.low, effect.high)}};
   if (effect.form->two_columns)

@@ -95,16 +95,22 @@ std::string trace_text(const Trace& t) {
 
 std::string power_text(const Trace& t) {
   if (t.detectable.empty()) return "";
-  std::string out =
-      "\nSmallest effect on mu that this campaign would have shown (80 % of the time, "
-      "straight line over the column's range; root mean square of tau_R):\n";
+  constexpr double wanted = 0.02; // of tau_R
+  const auto experiments = static_cast<double>(t.noise_floor.n_experiments);
+  std::string out = fmt::format(
+      "\nSmallest effect on mu that this campaign would have shown (80 % of the time, straight\n"
+      "line over the column's range; root mean square of tau_R), and how many experiments like\n"
+      "these it takes to see {:g} %:\n",
+      100 * wanted);
   for (const Detectable& d : t.detectable)
     out += d.identifiable
-               ? fmt::format("  {:<20}{:8.2f} MPa{:8.2f} %\n", d.column, d.size_MPa, 100 * d.share)
+               ? fmt::format("  {:<20}{:8.2f} MPa{:8.2f} %{:8.0f}\n", d.column, d.size_MPa,
+                             100 * d.share, std::ceil(experiments * std::pow(d.share / wanted, 2)))
                : fmt::format("  {:<20}  cannot be seen: the law's own parameters imitate it\n",
                              d.column);
-  out += "  Twice as many experiments would show effects 0.7 times as large; twice the spread of a "
-         "column, effects per unit half as large.\n";
+  out +=
+      "  Fewer do where a column is spread wider (twice the spread shows effects per unit half as "
+      "large), or changes within tests, where their scatter does not hide it.\n";
   return out;
 }
 

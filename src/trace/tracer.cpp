@@ -85,35 +85,52 @@ private:
     auto& findings = s_.findings;
     while (!findings.empty()) {
       const Rival& before = findings.size() > 1 ? findings[findings.size() - 2].rival : s_.base;
-      const Eigen::VectorXd without = held_out_errors(s_.campaign(), before, s_.input.seed);
-      const Eigen::VectorXd with =
-          held_out_errors(s_.campaign(), findings.back().rival, s_.input.seed);
-      if (pays(without, with)) break;
-      s_.rejected.push_back(fmt::format(
-          "{}: significant (p = {:.3g}), but no gain in cross-validation over "
-          "experiments ({:.3f} against {:.3f} MPa)",
-          name_of(findings.back().rival), findings.back().p_value, with.sum(), without.sum()));
+      const Payment payment = paid(before, findings.back().rival);
+      if (payment.enough) break;
+      reject(findings.size() - 1, payment);
       findings.pop_back();
     }
     s_.move_to(findings.empty() ? s_.base : findings.back().rival);
   }
 
-  // Effects that later ones have made unnecessary.
+  // Effects that later ones have made unnecessary, or that do not pay beside them.
   void drop_superseded() {
     bool dropped = true;
     while (dropped && s_.last().effects.size() > 1) {
       dropped = false;
       for (std::size_t i = 0; i < s_.last().effects.size() && !dropped; ++i) {
         Rival without = without_effect(s_.campaign(), s_.last(), i);
-        if (without.penalised < s_.last().penalised) continue;
-        s_.rejected.push_back(cause_name(s_.last().causes[i], s_.candidates) +
-                              ": explains nothing more once the later effects are in");
+        const Payment payment = paid(without, s_.last());
+        if (without.penalised < s_.last().penalised && payment.enough) continue;
+        reject(i, payment);
         s_.move_to(std::move(without));
         s_.findings.erase(s_.findings.begin() + static_cast<long>(i));
         dropped = true;
       }
     }
     if (s_.order.found || !s_.findings.empty()) s_.fit_again(60);
+  }
+
+  struct Payment {
+    double without_MPa, with_MPa; // errors of cross-validation
+    bool enough;
+  };
+  Payment paid(const Rival& without, const Rival& with) const {
+    const Eigen::VectorXd a = held_out_errors(s_.campaign(), without, s_.input.seed);
+    const Eigen::VectorXd b = held_out_errors(s_.campaign(), with, s_.input.seed);
+    return {a.sum(), b.sum(), pays(a, b)};
+  }
+
+  void reject(std::size_t finding, const Payment& payment) {
+    const Finding& f = s_.findings[finding];
+    const std::string text =
+        fmt::format("{}: significant (p = {:.3g}), but ", name_of(f.rival), f.p_value);
+    s_.rejected.push_back(
+        text + (payment.enough
+                    ? "explains nothing more once the later effects are in"
+                    : fmt::format("no gain in cross-validation over experiments ({:.3f} against "
+                                  "{:.3f} MPa)",
+                                  payment.with_MPa, payment.without_MPa)));
   }
 
   // What was turned down first and added later.

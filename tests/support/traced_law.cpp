@@ -22,7 +22,7 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "humidity") put("power", "humidity_pct", {0.3, 45}, 30, 60);
   if (which == "work") put("saturation", "friction_work", {-0.25, 400}, 0, 3000);
   if (which == "peak") put("linear", "peak_sigma_n", {0.2, 1500, 2000}, 500, 2750);
-  if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70}, 20, 120);
+  if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70, 50}, 20, 120);
   if (which == "tool") {
     put("category", "tool", {0.1, -0.15}, 0, 1);
     effect.levels = {"A", "B", "C"};

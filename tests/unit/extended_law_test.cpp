@@ -71,6 +71,14 @@ TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
       }
 }
 
+TEST(ExtendedLaw, AnEffectWithoutAllItsParametersIsRefused) {
+  for (const char* form : {"hinge", "category"}) {
+    PlacedEffect short_one = effect(form, "mu", 0.1);
+    short_one.parameters.pop_back();
+    EXPECT_THROW(factor_of(short_one, "e_"), std::logic_error) << form;
+  }
+}
+
 TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
   const Law& coulomb = *find_law("coulomb");
   const PlacedEffect half[] = {effect("linear", "mu", 0.5)};
