@@ -253,16 +253,37 @@ NoiseFit fit_noise(const VectorXd& residual, const VectorXd& tau,
   return {context.scaling.model(start, x), best};
 }
 
+namespace {
+
+// A usual mixture of the size of the residual; growth and scale are kept.
+NoiseModel usual_noise(NoiseModel noise, const VectorXd& residual) {
+  const double scatter = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
+  noise.additive = 0.2 * scatter;
+  noise.coupling = 0;
+  noise.multiplicative = 0.6 * scatter / noise.scale;
+  noise.slow = noise.white = 0.5 * scatter;
+  noise.rho = 0.6;
+  return noise;
+}
+
+} // namespace
+
+NoiseFit fit_noise_anew(const VectorXd& residual, const VectorXd& tau,
+                        std::span<const std::size_t> first, const NoiseModel& start,
+                        int evaluations, const MatrixXd& nuisance) {
+  const auto from = [&](const NoiseModel& noise) {
+    return fit_noise(residual, tau, first, {}, noise, evaluations, nuisance);
+  };
+  const NoiseFit again = from(start), anew = from(usual_noise(start, residual));
+  return anew.log_likelihood > again.log_likelihood ? anew : again;
+}
+
 NoiseFit first_noise(const VectorXd& residual, const VectorXd& tau,
                      std::span<const std::size_t> first, const MatrixXd& jacobian,
                      const MatrixXd& nuisance) {
   NoiseModel start;
   start.scale = tau.mean();
-  const double scatter = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
-  start.additive = 0.2 * scatter;
-  start.multiplicative = 0.6 * scatter / start.scale;
-  start.slow = start.white = 0.5 * scatter;
-  start.rho = 0.6;
+  start = usual_noise(start, residual);
   NoiseFit best;
   for (const double growth : {0.0, 1.0}) {
     start.growth = growth;

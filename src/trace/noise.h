@@ -83,6 +83,12 @@ NoiseFit fit_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
                    std::span<const std::size_t> first, const Eigen::MatrixXd& jacobian,
                    const NoiseModel& start, int evaluations, const Eigen::MatrixXd& nuisance = {});
 
+// The same from nothing but the size of the residual, beside `start`: noise that has been fitted to
+// the residual of a law that lacked an effect has swallowed it, and does not let go by itself.
+NoiseFit fit_noise_anew(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
+                        std::span<const std::size_t> first, const NoiseModel& start,
+                        int evaluations, const Eigen::MatrixXd& nuisance = {});
+
 // From nothing: both ways that noise may grow (not at all, with tau) are tried.
 NoiseFit first_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
                      std::span<const std::size_t> first, const Eigen::MatrixXd& jacobian,

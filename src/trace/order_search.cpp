@@ -168,7 +168,7 @@ void take_order_out(Search& search, double p_value, std::size_t place) {
   MatrixXd functions = slow_functions(search, nuisance_functions, 5, place);
   measure(search, functions);
   search.campaign().nuisance = std::move(functions);
-  search.fit_again(40);
+  search.fit_again();
 }
 
 OrderFound look_along_order(const Search& search) {
@@ -205,7 +205,7 @@ void reconsider_order(Search& search) {
   MatrixXd nuisance = std::move(search.campaign().nuisance);
   search.campaign().nuisance.resize(0, 0);
   Rival with_order = search.last();
-  search.fit_again(60);
+  search.fit_again();
   const double p = look_along_order(search).p_value;
   if (p > share_of_alpha * search.input.options.alpha) {
     search.order = {};

@@ -20,6 +20,8 @@ using Eigen::VectorXd;
 constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
 constexpr double per_complexity = 1.5; // and a step away from a recorded column
 constexpr std::size_t short_list = 12;
+constexpr double close_rivals =
+    60; // of log likelihood behind the best, that may still be caught up
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -83,7 +85,7 @@ Law bounded_law(const Campaign& campaign, const Rival& rival) {
 
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
-                const NoiseModel& noise, int noise_evaluations) {
+                const NoiseModel& noise, NoiseSearch search) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
   rival.parameters.assign(parameters.begin(), parameters.end());
@@ -106,13 +108,15 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
     for (const double width : {15.0, 5.0})
       refit(LawOnBlocks(extended, campaign.conventions, columns, width));
   refit(law);
-  if (noise_evaluations > 0) {
-    rival.noise =
-        fit_noise(campaign.measured - rival.predicted, rival.predicted, campaign.blocks.first, {},
-                  rival.noise, noise_evaluations, campaign.nuisance)
-            .noise;
-    refit(law);
-  }
+  const VectorXd residual = campaign.measured - rival.predicted;
+  const auto& first = campaign.blocks.first;
+  rival.noise =
+      search == NoiseSearch::near
+          ? fit_noise(residual, rival.predicted, first, {}, noise, 80, campaign.nuisance).noise
+          : fit_noise_anew(residual, rival.predicted, first, noise,
+                           search == NoiseSearch::quick ? 40 : 300, campaign.nuisance)
+                .noise;
+  refit(law);
   take_parameters(rival, own);
   rival.weights = rival.noise;
   judge(rival, campaign);
@@ -153,7 +157,8 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
   effects.erase(effects.begin() + static_cast<long>(index));
   causes.erase(causes.begin() + static_cast<long>(index));
   return fit_rival(campaign, std::move(effects), std::move(causes),
-                   std::span(rival.parameters).first(campaign.law.parameters.size()), rival.noise);
+                   std::span(rival.parameters).first(campaign.law.parameters.size()), rival.noise,
+                   NoiseSearch::thorough);
 }
 
 namespace {
@@ -175,8 +180,13 @@ Trial trial_of(const Direction& direction, const std::vector<Cause>& causes,
   return trial;
 }
 
-std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current,
-                           const std::vector<Trial>& trials) {
+void sort_best_first(std::vector<Rival>& rivals) {
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+}
+
+std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current, const NoiseModel& noise,
+                           const std::vector<Trial>& trials, NoiseSearch search) {
   std::vector<Rival> rivals(trials.size());
   parallel_for(trials.size(), [&](std::size_t i) {
     std::vector<PlacedEffect> effects = current.effects;
@@ -187,11 +197,26 @@ std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current,
                             current.parameters.begin() +
                                 static_cast<long>(campaign.law.parameters.size()));
     if (on_limit(current.effects)) own.push_back(current.parameters.back());
-    rivals[i] = fit_rival(campaign, effects, causes, own, current.noise);
+    rivals[i] = fit_rival(campaign, effects, causes, own, noise, search);
   });
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  sort_best_first(rivals);
   return rivals;
+}
+
+// Those that are near the best once more, from its noise, so that they are compared under noise
+// that is fitted alike. (Searches from far away stop at different distances from their ends.)
+void compare_closely(const Campaign& campaign, std::vector<Rival>& rivals) {
+  const auto again = [&](const Rival& r, const NoiseModel& noise, NoiseSearch search) {
+    return fit_rival(campaign, r.effects, r.causes, r.parameters, noise, search);
+  };
+  rivals.front() = again(rivals.front(), rivals.front().noise, NoiseSearch::thorough);
+  const NoiseModel noise = rivals.front().noise;
+  const double least = rivals.front().penalised - close_rivals;
+  parallel_for(rivals.size(), [&](std::size_t i) {
+    if (rivals[i].penalised > least || i < 4)
+      rivals[i] = again(rivals[i], noise, NoiseSearch::near);
+  });
+  sort_best_first(rivals);
 }
 
 // Per cause its directions, largest statistic first; causes by their best.
@@ -242,7 +267,9 @@ std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
     for (const Direction& direction : best_shapes(list, shapes))
       trials.push_back(trial_of(direction, causes, shapes, tau_scale_MPa));
   }
-  return fit_all(campaign, current, trials);
+  std::vector<Rival> rivals = fit_all(campaign, current, current.noise, trials, NoiseSearch::quick);
+  compare_closely(campaign, rivals);
+  return rivals;
 }
 
 std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
@@ -268,7 +295,7 @@ std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, co
     if (best) trial = trial_of(*best, causes, shapes, won.tau_scale_MPa);
     trials.push_back(std::move(trial));
   }
-  std::vector<Rival> rivals = fit_all(campaign, current, trials);
+  std::vector<Rival> rivals = fit_all(campaign, current, winner.noise, trials, NoiseSearch::near);
   rivals.push_back(winner); // whose grid start may have been the better one
   const double spline_margin = 1.3 * per_parameter;
   for (Rival& rival : rivals)
@@ -276,8 +303,7 @@ std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, co
       rival.penalised -=
           0.3 * per_parameter * static_cast<double>(rival.effects.back().form->amplitudes) +
           spline_margin;
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  sort_best_first(rivals);
   return rivals;
 }
 

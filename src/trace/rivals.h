@@ -34,11 +34,14 @@ struct Rival {
   double penalised = 0; // minus what parameters and complexity cost
 };
 
+// near: from a noise model that is nearly right | quick, thorough: also from nothing.
+enum class NoiseSearch { near, quick, thorough };
+
 // All parameters by generalised least squares, the noise by maximum likelihood, twice in turn.
 // `parameters`: start of the law's own (and m_limit, if any, behind them).
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
-                const NoiseModel& noise, int noise_evaluations = 25);
+                const NoiseModel& noise, NoiseSearch search);
 
 // Without its effect `index`, all refitted.
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);

@@ -127,7 +127,7 @@ void Search::fit_base() {
         trained_directions(inputs(*model.law, model.conventions), candidates.by_symbol, predicted);
   const NoiseFit noise =
       first_noise(campaign_->measured - predicted, predicted, first(), jacobian, trained_);
-  base = fit_rival(*campaign_, {}, {}, model.parameters, noise.noise, 60);
+  base = fit_rival(*campaign_, {}, {}, model.parameters, noise.noise, NoiseSearch::thorough);
   move_to(base);
 }
 
@@ -138,9 +138,9 @@ void Search::move_to(Rival rival) {
   append_columns(known_, trained_);
 }
 
-void Search::fit_again(int noise_evaluations) {
+void Search::fit_again() {
   move_to(fit_rival(*campaign_, last_.effects, last_.causes, last_.parameters, last_.noise,
-                    noise_evaluations));
+                    NoiseSearch::thorough));
 }
 
 Whitener Search::whitener() const {

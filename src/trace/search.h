@@ -28,7 +28,7 @@ public:
 
   void move_to(Rival rival);
   // The same effects once more, from where they are: after the nuisance changed.
-  void fit_again(int noise_evaluations);
+  void fit_again();
 
   Campaign& campaign() { return *campaign_; }
   const Campaign& campaign() const { return *campaign_; }

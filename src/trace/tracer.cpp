@@ -108,7 +108,7 @@ private:
         dropped = true;
       }
     }
-    if (s_.order.found || !s_.findings.empty()) s_.fit_again(60);
+    if (s_.order.found || !s_.findings.empty()) s_.fit_again();
   }
 
   struct Payment {
