@@ -12,49 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-} // namespace
-
-Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
-  constexpr double step = 0.06;
-  const std::size_t own = campaign.law.parameters.size();
-  BlockColumns columns = campaign.candidates.by_symbol;
-  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
-  const auto change = [&](const char* place) {
-    PlacedEffect everywhere;
-    everywhere.form = find_effect("linear");
-    everywhere.column = "everywhere";
-    everywhere.acts_on = place;
-    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
-    everywhere.low = 0;
-    std::vector<PlacedEffect> effects = rival.effects;
-    effects.push_back(everywhere);
-    const Law law = extended_law(campaign.law, campaign.conventions,
-                                 std::span(rival.parameters).first(own), effects, "sensitivity");
-    const LawOnBlocks on(law, campaign.conventions, columns);
-    std::vector<double> at = start_of(law, rival.parameters, own, effects);
-    const auto amplitude = static_cast<std::size_t>(
-        std::find_if(law.parameters.begin(), law.parameters.end(),
-                     [&](const Parameter& p) {
-                       return p.name == "e" + std::to_string(effects.size()) + "_a";
-                     }) -
-        law.parameters.begin());
-    at[amplitude] = step;
-    const VectorXd up = on.predict(at);
-    at[amplitude] = -step;
-    return VectorXd((up - on.predict(at)) / (2 * step));
-  };
-  Sensitivities all;
-  all[0] = change("mu");
-  if (has_limit(campaign.law, campaign.conventions)) {
-    all[1] = change("m");
-    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
-  }
-  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
-  return all;
-}
-
-namespace {
-
 // Straight lines between seven places of a quantity: what any form of it could be.
 MatrixXd hat_functions(const VectorXd& x) {
   constexpr int places = 7;
@@ -97,6 +54,45 @@ MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
     if (sensitivity.size() == 0) continue;
     append_columns(all, sensitivity.asDiagonal() * any_form(rival.causes[i], campaign.candidates));
   }
+  return all;
+}
+
+Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa) {
+  constexpr double step = 0.06;
+  const std::size_t own = campaign.law.parameters.size();
+  BlockColumns columns = campaign.candidates.by_symbol;
+  columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
+  const auto change = [&](const char* place) {
+    PlacedEffect everywhere;
+    everywhere.form = find_effect("linear");
+    everywhere.column = "everywhere";
+    everywhere.acts_on = place;
+    everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
+    everywhere.low = 0;
+    std::vector<PlacedEffect> effects = rival.effects;
+    effects.push_back(everywhere);
+    const Law law = extended_law(campaign.law, campaign.conventions,
+                                 std::span(rival.parameters).first(own), effects, "sensitivity");
+    const LawOnBlocks on(law, campaign.conventions, columns);
+    std::vector<double> at = start_of(law, rival.parameters, own, effects);
+    const auto amplitude = static_cast<std::size_t>(
+        std::find_if(law.parameters.begin(), law.parameters.end(),
+                     [&](const Parameter& p) {
+                       return p.name == "e" + std::to_string(effects.size()) + "_a";
+                     }) -
+        law.parameters.begin());
+    at[amplitude] = step;
+    const VectorXd up = on.predict(at);
+    at[amplitude] = -step;
+    return VectorXd((up - on.predict(at)) / (2 * step));
+  };
+  Sensitivities all;
+  all[0] = change("mu");
+  if (has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change("m");
+    if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
+  }
+  all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
   return all;
 }
 
