@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gsl/gsl_cdf.h>
+
 namespace frictab {
 
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-// Wilson and Hilferty's chi-square quantile, at a normal quantile z.
-double chi_square(double degrees, double z) {
-  const double a = 2 / (9 * degrees);
-  return degrees * std::pow(1 - a + z * std::sqrt(a), 3);
-}
 
 // Mean square of the measured rows about their block's line of blocks: what block means leave out.
 double within_blocks(const Dataset& training, const Blocks& blocks) {
@@ -69,9 +65,10 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
   trace.scatter_between = share;
   const double degrees = std::max(1.0, static_cast<double>(training.experiments.size()) -
                                            static_cast<double>(last.parameters.size()));
-  trace.scatter_interval = {share * std::sqrt(degrees / chi_square(degrees, 1.96)),
-                            share *
-                                std::sqrt(degrees / std::max(chi_square(degrees, -1.96), 1e-9))};
+  const auto bound = [&](double probability) {
+    return share * std::sqrt(degrees / gsl_cdf_chisq_Pinv(probability, degrees));
+  };
+  trace.scatter_interval = {bound(0.975), bound(0.025)};
 }
 
 } // namespace frictab

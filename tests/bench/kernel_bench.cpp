@@ -9,10 +9,8 @@
 #include "support/kinked_law.h"
 #include "table/drift.h"
 
-#ifdef FRICTAB_GSL
 #include <gsl/gsl_interp2d.h>
 #include <gsl/gsl_spline2d.h>
-#endif
 
 namespace frictab::bench {
 namespace {
@@ -102,7 +100,6 @@ void add_table(const std::string& grid, bool even, bool cubic) {
   });
 }
 
-#ifdef FRICTAB_GSL
 void add_gsl(const gsl_interp2d_type* type, const std::string& name) {
   const Table table = random_table(grids.at("33x33"), false, false);
   const std::vector<double>&x = table.axes[0].nodes, &y = table.axes[1].nodes;
@@ -123,7 +120,6 @@ void add_gsl(const gsl_interp2d_type* type, const std::string& name) {
     };
   });
 }
-#endif
 
 using Columns = std::vector<std::vector<double>>;
 
@@ -211,10 +207,8 @@ const Registration kernels([] {
         add_table(grid, even, cubic);
   for (const bool cubic : {false, true})
     add_table("33x33", false, cubic);
-#ifdef FRICTAB_GSL
   add_gsl(gsl_interp2d_bilinear, "linear");
   add_gsl(gsl_interp2d_bicubic, "cubic");
-#endif
   add_kinked();
 });
 

@@ -361,6 +361,10 @@ TEST_P(Measured, ExampleRunsEndToEnd) {
         << "calibration on measured data beats a constant of another field";
   }
   EXPECT_TRUE(fs::exists(directory.path("out/export/abaqus_vfric/coulomb/recipe.json")));
+  const auto scatter =
+      nlohmann::json::parse(directory.read("out/trace.json")).at("scatter_between_experiments");
+  EXPECT_LT(scatter.at("interval_95").at(1).get<double>(), 32 * scatter.at("share").get<double>())
+      << "one degree of freedom, the least there is: 1 over the root of 0.00098";
 }
 
 INSTANTIATE_TEST_SUITE_P(
