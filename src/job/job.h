@@ -116,6 +116,7 @@ struct TraceOptions {
   std::optional<double> repeatability;     // relative scatter between repeated tests
   std::string
       tool_distance; // column of the tool's wear: may be shipped though it follows the order
+  Place ignore_place, tool_distance_place;
 };
 
 struct Job {

@@ -85,9 +85,9 @@ double widest_gap(const std::vector<double>& tested) {
 class Finder {
 public:
   Finder(const Dataset& training, const Dataset& validation, const Blocks& blocks, Rows predicted,
-         const std::vector<std::string>& inputs, const CandidateRules& rules)
+         const std::vector<std::string>& inputs, const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
-        inputs_(inputs), rules_(rules) {}
+        inputs_(inputs), options_(options) {}
 
   Candidates run() {
     check_names();
@@ -106,17 +106,20 @@ private:
       known.push_back(column.name);
     for (const DerivedQuantity& quantity : derived_quantities())
       known.push_back(quantity.name);
-    std::vector<std::string> asked = rules_.ignore;
-    if (!rules_.tool_distance.empty()) asked.push_back(rules_.tool_distance);
     FaultList faults;
-    for (const std::string& name : asked)
+    const auto check = [&](const std::string& name, const Place& place) {
       if (std::find(known.begin(), known.end(), name) == known.end())
-        faults.add({"[trace]"}, "the data have no column '" + name + "'", suggest(name, known));
+        faults.add(place, "the data have no column '" + name + "'", suggest(name, known));
+    };
+    for (const std::string& name : options_.ignore)
+      check(name, options_.ignore_place);
+    if (!options_.tool_distance.empty())
+      check(options_.tool_distance, options_.tool_distance_place);
     faults.throw_if_any();
   }
 
   bool ignored(const std::string& name) const {
-    return std::find(rules_.ignore.begin(), rules_.ignore.end(), name) != rules_.ignore.end();
+    return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
   }
 
   void find_order() {
@@ -211,7 +214,7 @@ private:
   const Blocks& blocks_;
   Rows predicted_;
   const std::vector<std::string>& inputs_;
-  const CandidateRules& rules_;
+  const TraceOptions& options_;
   Candidates found_;
 };
 
@@ -226,8 +229,8 @@ bool may_pair(const CandidateColumn& column) {
 
 Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
                            Rows predicted, const std::vector<std::string>& inputs,
-                           const CandidateRules& rules) {
-  Candidates found = Finder(training, validation, blocks, predicted, inputs, rules).run();
+                           const TraceOptions& options) {
+  Candidates found = Finder(training, validation, blocks, predicted, inputs, options).run();
   for (const std::string& name : inputs)
     if (!found.by_symbol.count(name)) found.by_symbol[name] = blocks.mean(training.values(name));
   return found;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effects/extended_law.h"
+#include "job/job.h"
 #include "trace/blocks.h"
 #include "trace/law_on_blocks.h"
 
@@ -34,16 +35,11 @@ struct Candidates {
   std::vector<std::string> constant; // recorded, but never varied: nothing can be said
 };
 
-struct CandidateRules {
-  std::vector<std::string> ignore;
-  std::string tool_distance; // declared by the user: may be shipped although it follows the order
-};
-
 // `predicted`: the law's tau_R per row, from which work is integrated (never from measured tau_R).
-// Throws InputError where `ignore` or `tool_distance` name no column.
+// Throws InputError where the options `ignore` or `tool_distance` name no column.
 Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
                            std::span<const double> predicted,
-                           const std::vector<std::string>& inputs, const CandidateRules& rules);
+                           const std::vector<std::string>& inputs, const TraceOptions& options);
 
 // A quantity of one kind or a pair of them, as a place where an effect may act.
 struct Cause {

@@ -28,11 +28,14 @@ constexpr double share_of_alpha = 0.5; // that the order's test may spend
 constexpr const char* reference = "the mean of the campaign's tests";
 
 // At most one per so many experiments.
-MatrixXd slow_functions(const Search& search, int most, std::size_t experiments_each,
-                        std::size_t place) {
-  const std::vector<double>& order = search.candidates.order;
-  const int count = std::min(most, static_cast<int>(order.size() / experiments_each));
-  return on_blocks(order_functions(order, count), search.sensitivities()[place], search.first());
+MatrixXd slow_functions(const std::vector<double>& order, int most, std::size_t experiments_each) {
+  return order_functions(order, std::min(most, static_cast<int>(order.size() / experiments_each)));
+}
+
+MatrixXd slow_directions(const Search& search, int most, std::size_t experiments_each,
+                         std::size_t place) {
+  return on_blocks(slow_functions(search.candidates.order, most, experiments_each),
+                   search.sensitivities()[place], search.first());
 }
 
 VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t place) {
@@ -83,10 +86,9 @@ bool is_slow(const CandidateColumn& column, const VectorXd& by_rank) {
   if (!column.levels.empty()) return false;
   std::vector<double> order(static_cast<std::size_t>(by_rank.size()));
   std::iota(order.begin(), order.end(), 0);
-  const int count = std::min(nuisance_functions, static_cast<int>(order.size() / 5));
   const VectorXd x = by_rank.array() - by_rank.mean();
-  return (orthonormal(order_functions(order, count)).transpose() * x).squaredNorm() >
-         most_slow * x.squaredNorm();
+  const MatrixXd functions = orthonormal(slow_functions(order, nuisance_functions, 5));
+  return (functions.transpose() * x).squaredNorm() > most_slow * x.squaredNorm();
 }
 
 // (Once structure along the order is known, slow columns are suspects, too.)
@@ -129,7 +131,7 @@ bool follows_order(const Search& search, const Rival& rival) {
           .p_value > suspicion)
     return false;
   MatrixXd known = search.known();
-  MatrixXd waves = slow_functions(search, check_functions, 4, place);
+  MatrixXd waves = slow_directions(search, check_functions, 4, place);
   MatrixXd both(known.rows(), 2);
   both.col(0) = search.residual();
   both.col(1) = rival.predicted - search.last().predicted;
@@ -165,7 +167,7 @@ void take_order_out(Search& search, double p_value, std::size_t place) {
   const auto rank = ranks(search.candidates.order);
   for (std::size_t e = 0; e < rank.size(); ++e)
     search.units[e] = rank[e] / neighbours;
-  MatrixXd functions = slow_functions(search, nuisance_functions, 5, place);
+  MatrixXd functions = slow_directions(search, nuisance_functions, 5, place);
   measure(search, functions);
   search.campaign().nuisance = std::move(functions);
   search.fit_again();
@@ -196,7 +198,7 @@ bool find_order(Search& search) {
   }
   search.order.found = true;
   search.order.reference = reference;
-  measure(search, slow_functions(search, check_functions, 5, found.place));
+  measure(search, slow_directions(search, check_functions, 5, found.place));
   return true;
 }
 

@@ -204,7 +204,8 @@ std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current, const
 }
 
 // Those that are near the best once more, from its noise, so that they are compared under noise
-// that is fitted alike. (Searches from far away stop at different distances from their ends.)
+// that is fitted alike, the best as well. (Searches from far away stop at different distances from
+// their ends.)
 void compare_closely(const Campaign& campaign, std::vector<Rival>& rivals) {
   const auto again = [&](const Rival& r, const NoiseModel& noise, NoiseSearch search) {
     return fit_rival(campaign, r.effects, r.causes, r.parameters, noise, search);

@@ -90,9 +90,9 @@ Search::Search(const TraceInput& in) : input(in) {
 
 void Search::make_candidates() {
   const Model& model = input.fit.model;
-  candidates = find_candidates(
-      input.training, input.validation, blocks, predict(model, input.training),
-      inputs(*model.law, model.conventions), {input.options.ignore, input.options.tool_distance});
+  candidates =
+      find_candidates(input.training, input.validation, blocks, predict(model, input.training),
+                      inputs(*model.law, model.conventions), input.options);
   order.column = candidates.order_column;
   causes = all_causes(candidates);
   shapes.resize(causes.size());

@@ -137,8 +137,19 @@ TEST_F(TraceCommand, NamesAColumnThatIsNotThere) {
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
   const auto result = run_frictab({"trace", job, "--set", "trace.ignore=[\"humidity_pt\"]"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("the data have no column 'humidity_pt'"));
+  EXPECT_THAT(result.err, HasSubstr("--set 1: error: the data have no column 'humidity_pt'"));
   EXPECT_THAT(result.err, HasSubstr("did you mean 'humidity_pct'?"));
+}
+
+TEST_F(TraceCommand, SaysWhereTheJobNamesAColumnThatIsNotThere) {
+  make({});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  directory.write("job.toml",
+                  directory.read("job.toml") + "[trace]\ntool_distance = \"run_ordr\"\n");
+  const auto result = run_frictab({"trace", job});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("job.toml:9:17: error: the data have no column 'run_ordr'\n"
+                                    "  hint: did you mean 'run_order'?"));
 }
 
 TEST_F(TraceCommand, NeedsACalibration) {
