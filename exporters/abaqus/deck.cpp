@@ -5,7 +5,7 @@
 
 namespace frictab::abaqus {
 
-std::string friction_lines(const std::string& user, unsigned depvar,
+std::string friction_lines(const std::string& user, std::size_t depvar,
                            const std::vector<SolverInput>& inputs) {
   const std::vector<std::string> values = property_values(inputs);
   std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, " + user;

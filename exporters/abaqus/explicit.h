@@ -45,9 +45,11 @@ SourceBundle force_bundle(const ForceRoutine& routine, const ExportRequest& requ
 // refuse.
 std::string force_notes(const std::string& state_name, const std::string& state_by);
 
-// The state variables that both force routines keep, by number from 1: slip, work per area, peak
-// pressure, increments outside the range, and what the solver's precision rounds off the first two.
+// The state variables that both force routines keep for every law, by number from 1: slip, work per
+// area, peak pressure, increments outside the range, and what the solver's precision rounds off the
+// first two. Behind them those of codegen/histories.h, then what is rounded off these.
 inline constexpr unsigned explicit_states = 6;
+std::size_t state_count(const std::vector<SolverInput>& inputs);
 
 // For the file's head: comments from the second line on. `remarks` follow the properties.
 std::string explicit_head(const Exporter& exporter, const ExportRequest& request,

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "codegen/driver_rows.h"
+#include "codegen/histories.h"
 
 namespace frictab::abaqus {
 
@@ -20,7 +21,7 @@ public:
       : inputs_(inputs), columns_(columns) {}
 
   std::optional<double> solver_value(Source source, std::size_t row) const {
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
+    for (std::size_t c = 0; c < columns_.size(); ++c)
       if (inputs_[c].source == source)
         return inputs_[c].argument.solver.from_canonical(columns_[c][row]);
     return std::nullopt;
@@ -77,10 +78,11 @@ void drive_explicit(ExplicitBlock& block, const SolverGives& gives, const Export
       // A pressure for laws that do not ask for one: without it there is no friction.
       if (!uses(inputs, Source::pressure))
         block.pressure(k, peak.value_or(stress.from_canonical(1)));
-      for (std::size_t c = 0; c < inputs.size(); ++c)
+      for (std::size_t c = 0; c < columns.size(); ++c)
         set(block, inputs[c], k, inputs[c].argument.solver.from_canonical(columns[c][row]));
       block.history(k, states.solver_value(Source::slip, row).value_or(0),
-                    states.solver_value(Source::work, row).value_or(0), peak.value_or(0));
+                    states.solver_value(Source::work, row).value_or(0), peak.value_or(0),
+                    history_values(inputs, columns, row));
     }
     block.run();
     for (std::size_t k = 0; k < group.size(); ++k)

@@ -6,6 +6,7 @@
 
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/values_file.h"
@@ -24,23 +25,31 @@ struct StateVariable {
   std::string unit, meaning;
 };
 
-std::vector<StateVariable> state_variables(const ExportRequest& request) {
+std::vector<StateVariable> state_variables(const ExportRequest& request,
+                                           const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
   const std::string stress = solver_unit("MPa", request.units).name;
   const std::string work = solver_unit("MPa*mm", request.units).name;
-  return {{length, "accumulated slip under pressure"},
-          {work, "friction work per area"},
-          {stress, "peak pressure"},
-          {"1", "increments in which the state was outside the range"},
-          {length, "what the solver's precision rounds off 1"},
-          {work, "what the solver's precision rounds off 2"}};
+  std::vector<StateVariable> all = {{length, "accumulated slip under pressure"},
+                                    {work, "friction work per area"},
+                                    {stress, "peak pressure"},
+                                    {"1", "increments in which the state was outside the range"},
+                                    {length, "what the solver's precision rounds off 1"},
+                                    {work, "what the solver's precision rounds off 2"}};
+  const std::vector<HistoryState> further = history_states(inputs, request.units);
+  for (const HistoryState& state : further)
+    all.push_back({state.unit, state.meaning});
+  for (std::size_t i = 0; i < further.size(); ++i)
+    all.push_back({further[i].unit, fmt::format("what the solver's precision rounds off {}",
+                                                explicit_states + i + 1)});
+  return all;
 }
 
 std::vector<std::string> remarks(const ForceRoutine& routine, const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs) {
-  std::vector<std::string> lines = {
-      fmt::format("{} (DEPVAR={}), by {}:", routine.state_name, explicit_states, routine.state_by)};
-  const std::vector<StateVariable> states = state_variables(request);
+  std::vector<std::string> lines = {fmt::format("{} (DEPVAR={}), by {}:", routine.state_name,
+                                                state_count(inputs), routine.state_by)};
+  const std::vector<StateVariable> states = state_variables(request, inputs);
   for (std::size_t i = 0; i < states.size(); ++i)
     lines.push_back(fmt::format("{} {}{}", i + 1, states[i].meaning,
                                 states[i].unit == "1" ? "" : " (" + states[i].unit + ")"));
@@ -54,10 +63,38 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
   if (uses(inputs, Source::peak_pressure))
     lines.push_back(
         fmt::format("The law needs {}(3):{}the present pressure.", routine.state_name, absent));
+  if (uses(inputs, Source::history))
+    lines.push_back(fmt::format("The law needs {0}({1}) and on:{2}nothing so far: integrals 0, "
+                                "peaks and means what they are of now.",
+                                routine.state_name, explicit_states + 1, absent));
   lines.push_back(fmt::format("NaN in gives NaN out; such a point's {} stay as they were. A point "
                               "without area has no pressure to look up, and no friction.",
                               routine.state_name));
   return lines;
+}
+
+// What both parts declare.
+void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
+  values.text["n_hist"] = std::to_string(3 + history_count(inputs));
+  values.text["n_add"] = std::to_string(4 + history_count(inputs));
+}
+
+// Texts and lists of the further histories.
+void add_past(TemplateValues& values, const ExportRequest& request,
+              const std::vector<SolverInput>& inputs) {
+  fortran::add_histories(values, inputs, request.units, false);
+  const std::vector<HistoryState> states = history_states(inputs, request.units);
+  std::vector<std::string> grows;
+  Lines& sums = values.lists["sums"];
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    grows.push_back(states[i].grows ? "1" : "0");
+    if (!states[i].grows) continue;
+    sums.emplace_back();
+    sums.back().text = {{"add", std::to_string(5 + i)}, {"hist", std::to_string(4 + i)}};
+  }
+  values.text["grows"] = join(grows, ",");
+  values.text["n_states"] = std::to_string(state_count(inputs));
+  values.text["before_rest"] = std::to_string(explicit_states + states.size());
 }
 
 // The statements behind the declarations of the arguments.
@@ -73,6 +110,7 @@ std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& in
                  {"states", routine.states},
                  {"columns", routine.columns},
                  {"state", routine.state}};
+  add_sizes(values, inputs);
   values.flags = {{"unknown", needs_unknown(inputs)},
                   {"has_fixed", !values.text["fixed"].empty()},
                   {"has_given", !values.text["given"].empty()}};
@@ -88,6 +126,8 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
                  {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
   values.flags = {{"has_axes", !request.table.axes.empty()},
                   {"refuses", fortran::refuses(request.table)}};
+  add_sizes(values, inputs);
+  add_past(values, request, inputs);
   values.lists["inputs"] =
       only(inputs, routine.gives,
            {Source::pressure, Source::speed, Source::slip, Source::work, Source::peak_pressure},
@@ -103,11 +143,12 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
       fortran::core(request, {.unknown = fortran::refuses(table) || needs_unknown(inputs),
                               .quit = quit(Solver::explicit_),
                               .directory_routine = directory_routine(Solver::explicit_)});
+  const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
   values.text = {{"head", explicit_head(*find_exporter(routine.target), request, inputs,
                                         remarks(routine, request, inputs))},
-                 {"body", body(routine, inputs, core.n_x)},
-                 {"point", point(routine, request, inputs, core.n_x)},
+                 {"body", body(routine, inputs, n_x)},
+                 {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
   return render_template(routine.target + "/frictab_" + routine.entry + ".f", values);
 }
@@ -122,18 +163,22 @@ std::string recipe(const ForceRoutine& routine, const ExportRequest& request,
                    {"meaning", "-min(tau_R*area, max(fStickForce, 0)); other components 0"}};
   out["state_variables_by"] = routine.state_by;
   json states = json::array();
-  for (const StateVariable& state : state_variables(request))
+  for (const StateVariable& state : state_variables(request, inputs))
     states.push_back(
         {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs);
   add_compile(out, file);
-  out["input_deck"] = friction_lines(routine.user, explicit_states, inputs) + routine.deck_tail;
+  out["input_deck"] = friction_lines(routine.user, state_count(inputs), inputs) + routine.deck_tail;
   out["table"] = recipe_table(request);
   return json_text(out);
 }
 
 } // namespace
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return explicit_states + 2 * history_count(inputs);
+}
 
 std::string force_notes(const std::string& state_name, const std::string& state_by) {
   return fmt::format(
@@ -146,7 +191,9 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "what single precision rounds off slip and work (increments are small against their sum: "
       "with DEPVAR=4 a slip in steps of 1e-6 mm stops growing at 32 mm), each by {}. A law with "
       "friction_work or peak_sigma_n takes it from {}: slip and peak include the present "
-      "increment, work ends before it. Beyond a side with outside = error the routine ends the "
+      "increment, work ends before it; further histories of a traced law (energy, times, means, "
+      "peaks, friction power) take two state variables each. Beyond a side with outside = error "
+      "the routine ends the "
       "analysis through XPLB_ABQERR and names state and value: a NaN force would spread before "
       "anybody sees it. Works with the single- and the double-precision solver; table and "
       "arithmetic are double in both.",

@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -107,20 +109,45 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
   values.flags["frozen"] = frozen;
   values.lists["coefficient"] = fortran::comments(coefficient_lines(frozen));
   values.lists["inputs"] = all_flags(fortran_inputs(inputs, gives));
+  values.lists["histories"] = fortran::comments(
+      numbered(history_states(inputs, request.units), gives.before_histories + 1));
+  values.flags["knows_temperature"] = uses(inputs, Source::temperature);
+  fortran::add_histories(values, inputs, request.units, true);
+  values.text.erase("n_histories");
   return unknown;
 }
 
-std::size_t history_size(std::size_t n) {
+std::size_t states_size(std::size_t n) {
   return 2 * n + 1;
 }
 
-std::string history(std::size_t n) {
-  TemplateValues values;
-  values.text = {{"n", std::to_string(n)},
-                 {"stamp", std::to_string(n + 1)},
-                 {"first", std::to_string(n + 2)},
-                 {"last", std::to_string(history_size(n))}};
-  return fortran::without_last_break(render_template("abaqus/frictab_states.f", values));
+void add_states(TemplateValues& values, std::size_t n) {
+  const std::map<std::string, std::string> numbers = {{"n_states", std::to_string(n)},
+                                                      {"stamp", std::to_string(n + 1)},
+                                                      {"first", std::to_string(n + 2)},
+                                                      {"depvar", std::to_string(states_size(n))}};
+  TemplateValues own;
+  own.text = numbers;
+  values.text.insert(numbers.begin(), numbers.end());
+  values.text["states_text"] =
+      fortran::without_last_break(render_template("abaqus/frictab_states.f", own));
+}
+
+nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::string>> all,
+                                       const ExportRequest& request,
+                                       const std::vector<SolverInput>& inputs) {
+  for (const HistoryState& state : history_states(inputs, request.units))
+    all.emplace_back(state.unit, state.meaning);
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  const auto add = [&](const std::string& unit, const std::string& meaning) {
+    out.push_back({{"number", out.size() + 1}, {"unit", unit}, {"meaning", meaning}});
+  };
+  for (const auto& [unit, meaning] : all)
+    add(unit, meaning);
+  add("1", "step * 1e8 + increment that these belong to");
+  for (std::size_t i = 0; i < all.size(); ++i)
+    add(all[i].first, fmt::format("number {} at the start of the increment", i + 1));
+  return out;
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file) {

@@ -3,7 +3,10 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
@@ -18,15 +21,23 @@ bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& reques
 // end of a range that goes below that.
 double smallest_pressure(const Table& table);
 
-// Fills in what both templates hold: head, inputs with a flag for every source, core with its
-// gradient, stop, pmin and smallest, to_mpa, to_mm, to_work, lines `coefficient`, flags frozen,
-// has_axes, refuses. Gives whether the core holds ftqnan; `unknown` asks for it in any case.
+// Fills in what both templates hold: head, inputs with a flag for every source, histories, core
+// with its gradient, stop, pmin and smallest, to_mpa, to_mm, to_work, lines `coefficient`, flags
+// frozen, has_axes, refuses. Gives whether the core holds ftqnan; `unknown` asks for it in any
+// case.
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown);
 
-// ftbegn, ftkeep: n values of a history with what makes them proof against iterations.
-std::string history(std::size_t n);
-std::size_t history_size(std::size_t n); // state variables it takes
+// Adds what keeps n values, of which those of codegen/histories.h are the last, proof against
+// iterations: text states_text (ftbegn, ftkeep), depvar, stamp, first, n_states.
+void add_states(TemplateValues& values, std::size_t n);
+std::size_t states_size(std::size_t n); // state variables it takes
+
+// For the recipe: numbers, units and meanings of n values (those of codegen/histories.h are added),
+// the increment they belong to and their values at its start.
+nlohmann::ordered_json
+state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meaning,
+                const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
 std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file);

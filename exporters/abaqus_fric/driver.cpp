@@ -8,6 +8,7 @@
 #include "call.h"
 #include "codegen/compile.h"
 #include "codegen/driver_rows.h"
+#include "codegen/histories.h"
 #include "source.h"
 
 namespace frictab::abaqus_fric {
@@ -27,6 +28,7 @@ public:
     call_.properties.assign(property_count(inputs_) + 1, 0);
     call_.properties.back() = critical_slip;
     call_.time_increment = time_increment;
+    call_.states = static_cast<int>(abaqus::states_size(state_count(inputs_)));
     for (const SolverInput& input : inputs_)
       call_.predefined = std::max(call_.predefined, static_cast<int>(input.field));
   }
@@ -43,8 +45,10 @@ public:
     call_.resize();
     const double along = call_.directions == 2 ? 0.6 : 1, across = 0.8;
     speed_ = 0;
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
+    for (std::size_t c = 0; c < columns.size(); ++c)
       set(inputs_[c], columns[c][row]);
+    const std::vector<double> past = history_values(inputs_, columns, row);
+    std::copy(past.begin(), past.end(), call_.state.begin() + history);
     const double motion = speed_ * time_increment;
     call_.motion[0] = along * motion;
     call_.state[4] = along * critical_slip; // it slipped before, in this direction

@@ -27,26 +27,21 @@ std::string input_deck(const std::vector<SolverInput>& inputs) {
                      "properties={}\n{}*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
                      "** and on the step, for derivatives by the pressure:\n"
                      "*Step, unsymm=YES, nlgeom=YES\n",
-                     abaqus::history_size(history), values.size(), abaqus::property_deck(values));
+                     abaqus::states_size(state_count(inputs)), values.size(),
+                     abaqus::property_deck(values));
 }
 
-json state_variables(std::string_view units) {
-  const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
-  json out = json::array();
-  const auto add = [&](const std::string& unit, const std::string& meaning) {
-    out.push_back({{"number", out.size() + 1}, {"unit", unit}, {"meaning", meaning}});
-  };
-  add(length, "accumulated slip while under pressure");
-  add(stress + "*" + length, "friction work per area");
-  add(stress, "peak pressure");
-  add("1", "increments in which the state was outside the range");
-  add(length, "elastic slip, direction 1");
-  add(length, "elastic slip, direction 2");
-  add("1", "coefficient tau_R/p at the end of the increment");
-  add("1", "step * 1e8 + increment that these belong to");
-  for (std::size_t i = 0; i < history; ++i)
-    add(out[i]["unit"], fmt::format("number {} at the start of the increment", i + 1));
-  return out;
+json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  return abaqus::state_variables({{length, "accumulated slip while under pressure"},
+                                  {stress + "*" + length, "friction work per area"},
+                                  {stress, "peak pressure"},
+                                  {"1", "increments in which the state was outside the range"},
+                                  {length, "elastic slip, direction 1"},
+                                  {length, "elastic slip, direction 2"},
+                                  {"1", "coefficient tau_R/p at the end of the increment"}},
+                                 request, inputs);
 }
 
 json properties(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -72,7 +67,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                     "tau_R along the slip, or its share along the elastic slip while "
                     "the point sticks; derivatives by motion, pressure and temperature"}};
   out["state_variables_by"] = "contact point";
-  out["state_variables"] = state_variables(request.units);
+  out["state_variables"] = state_variables(request, inputs);
   out["properties"] = properties(request, inputs);
   out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
                     "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
@@ -121,7 +116,9 @@ const char* const notes =
     "there. Surface expansion and flow stress are not known to the solver: [export.inputs] says "
     "constant:VALUE, property or field:N. DEPVAR=15: accumulated slip, friction work per area, "
     "peak pressure, increments outside the range, elastic slip, coefficient, and their values at "
-    "the start of the increment, so that iterations and cutbacks count once. Where Newton fails "
+    "the start of the increment, so that iterations and cutbacks count once; two more for each "
+    "further history of a traced law (energy, times, means, peaks, friction power). Where Newton "
+    "fails "
     "to converge because the limit changes with speed or slip, set abaqus_coefficient = "
     "\"start_of_increment\" in [export.options]. Below 1 MPa (or the low end of the range) the "
     "coefficient is held. Beyond a side with outside = error STDB_ABQERR ends the analysis, and "

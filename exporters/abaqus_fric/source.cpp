@@ -2,6 +2,7 @@
 #include "source.h"
 
 #include "../abaqus/standard.h"
+#include "codegen/histories.h"
 
 namespace frictab::abaqus_fric {
 
@@ -12,10 +13,16 @@ const SolverGives& gives() {
        {Source::slip, "STATEV(1), accumulated slip at the end of the increment"},
        {Source::work, "STATEV(2), friction work at the start of the increment"},
        {Source::peak_pressure, "STATEV(3), peak pressure at the end of the increment"},
+       {Source::history, "STATEV({})"},
        {Source::temperature, "mean of TEMP(1), TEMP(2)"}},
       "property {}",
-      "mean of both surfaces' predefined field {}"};
+      "mean of both surfaces' predefined field {}",
+      history};
   return all;
+}
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return history + history_count(inputs);
 }
 
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -27,7 +34,7 @@ std::string fric_source(const ExportRequest& request, const std::vector<SolverIn
   values.text["n_props"] = std::to_string(properties + 1);
   // A millionth of a millimetre, where the deck and the solver give no length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
-  values.text["states_text"] = abaqus::history(history);
+  abaqus::add_states(values, state_count(inputs));
   return render_template("abaqus_fric/frictab_fric.f", values);
 }
 

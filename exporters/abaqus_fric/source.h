@@ -11,8 +11,9 @@ namespace frictab::abaqus_fric {
 // What FRIC's arguments hold.
 const SolverGives& gives();
 
-// Values of a contact point's history, without what protects them.
+// Values that are kept for every law, and for one with these inputs; without what protects them.
 inline constexpr std::size_t history = 7;
+std::size_t state_count(const std::vector<SolverInput>& inputs);
 
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 

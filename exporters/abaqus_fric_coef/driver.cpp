@@ -7,6 +7,7 @@
 #include "call.h"
 #include "codegen/compile.h"
 #include "codegen/driver_rows.h"
+#include "codegen/histories.h"
 #include "source.h"
 
 namespace frictab::abaqus_fric_coef {
@@ -23,8 +24,9 @@ public:
     call_.release_2024 = is_2024(request);
     call_.temperatures = true;
     call_.properties.assign(property_count(inputs_), 0);
-    const bool history = uses(inputs_, Source::work) || uses(inputs_, Source::peak_pressure);
-    if (history) call_.states = static_cast<int>(abaqus::history_size(abaqus_fric_coef::history));
+    const bool history = uses(inputs_, Source::work) || uses(inputs_, Source::peak_pressure) ||
+                         uses(inputs_, Source::history);
+    if (history) call_.states = static_cast<int>(abaqus::states_size(state_count(inputs_)));
     most_ = history ? 1 : block;
     for (const SolverInput& input : inputs_)
       call_.fields = std::max(call_.fields, static_cast<int>(input.field));
@@ -38,9 +40,12 @@ public:
     call_.resize(static_cast<int>(rows.size()));
     std::fill(call_.pressure.begin(), call_.pressure.end(),
               stress_.from_canonical(abaqus::any_pressure));
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
+    for (std::size_t c = 0; c < columns.size(); ++c)
       for (std::size_t k = 0; k < rows.size(); ++k)
         set(inputs_[c], k, columns[c][rows[k]]);
+    const std::vector<double> past = history_values(inputs_, columns, rows[0]);
+    if (!past.empty())
+      std::copy(past.begin(), past.end(), call_.state.begin() + abaqus_fric_coef::history);
     call_.run(function_);
     for (std::size_t k = 0; k < rows.size(); ++k)
       tau[rows[k]] = stress_.to_canonical(call_.coefficient[k] * call_.pressure[k]);

@@ -23,7 +23,8 @@ using json = nlohmann::ordered_json;
 std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::vector<std::string> values = property_values(inputs);
   std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, user=COEFFICIENT";
-  if (is_2024(request)) deck += fmt::format(", depvar={}", abaqus::history_size(history));
+  if (is_2024(request))
+    deck += fmt::format(", depvar={}", abaqus::states_size(state_count(inputs)));
   if (!values.empty()) deck += fmt::format(", properties={}", values.size());
   return deck + "\n" + abaqus::property_deck(values) +
          "*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
@@ -31,23 +32,16 @@ std::string input_deck(const ExportRequest& request, const std::vector<SolverInp
          "*Step, unsymm=YES, nlgeom=YES\n";
 }
 
-json state_variables(const ExportRequest& request) {
+json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
   const std::string stress = solver_unit("MPa", request.units).name;
-  json out = json::array();
-  if (!is_2024(request)) return out;
-  const auto add = [&](const std::string& unit, const std::string& meaning) {
-    out.push_back({{"number", out.size() + 1}, {"unit", unit}, {"meaning", meaning}});
-  };
-  add(stress + "*" + length, "friction work per area");
-  add(stress, "peak pressure");
-  add("1", "increments in which the state was outside the range");
-  add("1", "coefficient tau_R/p at the end of the increment");
-  add(length, "equivalent slip at the end of the increment");
-  add("1", "step * 1e8 + increment that these belong to");
-  for (std::size_t i = 0; i < history; ++i)
-    add(out[i]["unit"], fmt::format("number {} at the start of the increment", i + 1));
-  return out;
+  if (!is_2024(request)) return json::array();
+  return abaqus::state_variables({{stress + "*" + length, "friction work per area"},
+                                  {stress, "peak pressure"},
+                                  {"1", "increments in which the state was outside the range"},
+                                  {"1", "coefficient tau_R/p at the end of the increment"},
+                                  {length, "equivalent slip at the end of the increment"}},
+                                 request, inputs);
 }
 
 std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
@@ -64,7 +58,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
       {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
                       std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
   out["state_variables_by"] = "contact point";
-  out["state_variables"] = state_variables(request);
+  out["state_variables"] = state_variables(request, inputs);
   out["properties"] = recipe_properties(inputs);
   out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
                     "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
@@ -111,7 +105,8 @@ const char* const notes =
     "of the range) the coefficient is held: a law whose tau_R does not vanish with the pressure "
     "would need an infinite one. Derivatives by pressure act with *STEP, UNSYMM=YES. Slip history "
     "is the solver's equivalent slip (2024) or not known (2020: a property, or a field). Friction "
-    "work and peak pressure take DEPVAR=11 and exist only with the list of 2024; "
+    "work and peak pressure take DEPVAR=11, further histories of a traced law two more each; they "
+    "exist only with the list of 2024; "
     "abaqus_coefficient = \"start_of_increment\" needs them too. Rates are slip over time: a "
     "static step needs times that mean seconds. Surface expansion and flow stress are not known "
     "to the solver: [export.inputs] says constant:VALUE, property or field:N. Beyond a side with "

@@ -3,6 +3,7 @@
 
 #include "../abaqus/standard.h"
 #include "codegen/fortran_parts.h"
+#include "codegen/histories.h"
 #include "core/error.h"
 
 namespace frictab::abaqus_fric_coef {
@@ -23,6 +24,8 @@ SolverGives given(bool release_2024) {
   all.states.push_back({Source::slip, "slipData(:,4), equivalent slip"});
   all.states.push_back({Source::work, "state variable 1, at the start of the increment"});
   all.states.push_back({Source::peak_pressure, "state variable 2, with the pressure now"});
+  all.states.push_back({Source::history, "state variable {}"});
+  all.before_histories = history;
   return all;
 }
 
@@ -51,6 +54,10 @@ const SolverGives& gives(bool release_2024) {
   return release_2024 ? newer : older;
 }
 
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return history + history_count(inputs);
+}
+
 std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool newer = is_2024(request);
   if (!newer && abaqus::coefficient_is_frozen(target(), request))
@@ -65,7 +72,7 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
   values.flags["new"] = newer;
   values.text["release"] = newer ? "2024" : "2020";
   values.text["n_props"] = std::to_string(property_count(inputs));
-  values.text["states_text"] = newer ? abaqus::history(history) : "";
+  abaqus::add_states(values, state_count(inputs));
   values.lists["release_lines"] = fortran::comments(release_lines(newer));
   return render_template("abaqus_fric_coef/frictab_fric_coef.f", values);
 }

@@ -14,8 +14,10 @@ bool is_2024(const ExportRequest& request);
 // What that argument list holds.
 const SolverGives& gives(bool release_2024);
 
-// Values of a contact point's history, without what protects them; only with the list of 2024.
+// Values that are kept for every law, and for one with these inputs; without what protects them.
+// Only with the list of 2024.
 inline constexpr std::size_t history = 5;
+std::size_t state_count(const std::vector<SolverInput>& inputs);
 
 // Throws InputError where the coefficient shall be kept by an argument list without state
 // variables.

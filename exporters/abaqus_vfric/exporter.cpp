@@ -20,9 +20,11 @@ const abaqus::ForceRoutine& routine() {
                 {Source::slip, "STATEV(1), accumulated slip under pressure"},
                 {Source::work, "STATEV(2), friction work per area of the increments done"},
                 {Source::peak_pressure, "STATEV(3), highest pressure so far"},
+                {Source::history, "STATEV({})"},
                 {Source::temperature, "mean of both surfaces", "nTemp = 0"}},
                "property {}",
-               "mean of both surfaces' predefined field {}"};
+               "mean of both surfaces' predefined field {}",
+               abaqus::explicit_states};
     r.names = {"tempSec(k)",      "tempMain(min(k,numDefTfv))",      "nPred",
                "preDefSec(k,{})", "preDefMain(min(k,numDefTfv),{})", "numDefTfv"};
     r.points = "nContact";

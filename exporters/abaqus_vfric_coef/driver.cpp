@@ -10,8 +10,8 @@ namespace {
 
 template <class Real> class Block : public abaqus::ExplicitBlock {
 public:
-  Block(void* function, std::size_t properties) : function_(function) {
-    call_.properties.assign(properties, Real(0));
+  Block(void* function, const std::vector<SolverInput>& inputs) : function_(function) {
+    call_.properties.assign(property_count(inputs), Real(0));
     call_.temperatures = true;
   }
 

@@ -13,10 +13,10 @@ namespace {
 
 template <class Real> class Block : public abaqus::ExplicitBlock {
 public:
-  Block(void* function, std::size_t properties) : function_(function) {
-    call_.properties.assign(properties, Real(0));
+  Block(void* function, const std::vector<SolverInput>& inputs) : function_(function) {
+    call_.properties.assign(property_count(inputs), Real(0));
     call_.temperatures = true;
-    call_.states = int{abaqus::explicit_states};
+    call_.states = static_cast<int>(abaqus::state_count(inputs));
     call_.time_increment = Real(abaqus::driver_increment);
   }
 
@@ -42,9 +42,11 @@ public:
     const std::size_t at = k * static_cast<std::size_t>(call_.fields) + number;
     call_.field[at] = call_.field_main[at] = static_cast<Real>(value);
   }
-  void history(std::size_t k, double slip, double work, double peak) override {
+  void history(std::size_t k, double slip, double work, double peak,
+               std::span<const double> further) override {
     const double before = slip - std::abs(static_cast<double>(call_.slip[3 * k]));
-    abaqus::put_history(&call_.state[std::size_t{abaqus::explicit_states} * k], before, work, peak);
+    abaqus::put_history(&call_.state[static_cast<std::size_t>(call_.states) * k], before, work,
+                        peak, further);
   }
   void run() override { call_.run(function_); }
   double stress(std::size_t k) const override {

@@ -21,9 +21,11 @@ const abaqus::ForceRoutine& routine() {
                 {Source::slip, "STATE(1), accumulated slip under pressure"},
                 {Source::work, "STATE(2), friction work per area of the increments done"},
                 {Source::peak_pressure, "STATE(3), highest pressure so far"},
+                {Source::history, "STATE({})"},
                 {Source::temperature, "mean of both surfaces", "nTemp = 0"}},
                "property {}",
-               "mean of both surfaces' field variable {}"};
+               "mean of both surfaces' field variable {}",
+               abaqus::explicit_states};
     r.names = {"tempSlv(k)",     "tempMst(min(k,nBlockAnal))",     "nFields",
                "fieldSlv({},k)", "fieldMst({},min(k,nBlockAnal))", "nBlockAnal"};
     r.points = "nBlock";

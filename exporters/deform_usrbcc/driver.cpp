@@ -7,6 +7,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/driver_rows.h"
+#include "codegen/histories.h"
 #include "source.h"
 
 namespace frictab::deform_usrbcc {
@@ -29,9 +30,10 @@ public:
         constants_(static_cast<double*>(Library::address(library, "ftcons_"))),
         inputs_(inputs_of(request)), kind_(coefficient_kind(request)),
         stress_(solver_unit("MPa", request.units)) {
-    call_.user_variables = 3;
+    call_.user_variables = static_cast<int>(state_count(inputs_));
     for (const SolverInput& input : inputs_)
       call_.user_variables = std::max(call_.user_variables, static_cast<int>(input.field));
+    call_.temperature[0] = call_.temperature[1] = 0; // of laws that follow it without taking it
     call_.nodal.assign(2 * static_cast<std::size_t>(call_.user_variables), 0.0);
   }
 
@@ -39,8 +41,11 @@ public:
 
   double tau(std::span<const double* const> columns, std::size_t row) {
     pressure_ = some_pressure, flow_ = some_flow_stress;
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
+    for (std::size_t c = 0; c < columns.size(); ++c)
       set(inputs_[c], c, columns[c][row]);
+    const std::vector<double> past = history_values(inputs_, columns, row);
+    for (std::size_t i = 0; i < past.size(); ++i)
+      nodal(4 + i, past[i]);
     contact_->pressure = stress_.from_canonical(pressure_);
     surface_->effective_stress = stress_.from_canonical(flow_);
     call_.run(function_);

@@ -2,9 +2,11 @@
 // refers to it; the source text is filled in source.cpp.
 #include "codegen/exporter.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/values_file.h"
@@ -41,20 +43,26 @@ json result(Coefficient kind, const SolverUnit& stress) {
   return out;
 }
 
-json user_variables(const ExportRequest& request) {
+json user_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", request.units).name;
   const std::string stress = solver_unit("MPa", request.units).name;
-  return {{{"number", 1}, {"unit", length}, {"meaning", "accumulated slip while under pressure"}},
-          {{"number", 2}, {"unit", stress + "*" + length}, {"meaning", "friction work per area"}},
-          {{"number", 3}, {"unit", stress}, {"meaning", "peak pressure"}}};
+  json all = {
+      {{"number", 1}, {"unit", length}, {"meaning", "accumulated slip while under pressure"}},
+      {{"number", 2}, {"unit", stress + "*" + length}, {"meaning", "friction work per area"}},
+      {{"number", 3}, {"unit", stress}, {"meaning", "peak pressure"}}};
+  for (const HistoryState& state : history_states(inputs, request.units))
+    all.push_back({{"number", all.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
+  return all;
 }
 
-json build_steps(const SourceBundle& files) {
+json build_steps(const SourceBundle& files, const std::vector<SolverInput>& inputs) {
   json steps = {"copy the folder UserRoutine\\DEF_SIM (or DEF_SIM_DLL) of the 2-D installation",
                 "replace subroutine USRBCC in usr_bcc.f by frictab_usrbcc.f; USRBCC2 stays"};
   if (files.count(update_file))
-    steps.push_back("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
-                    "that copies USRN1 to USRN2; at least 3 user variables per node");
+    steps.push_back(
+        fmt::format("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
+                    "that copies USRN1 to USRN2; at least {} user variables per node",
+                    state_count(inputs)));
   steps.push_back("build with the Fortran compiler of the release (Intel or Absoft) and name the "
                   "new engine in DEF_SIM_DIR.DAT of the problem's folder");
   return steps;
@@ -70,10 +78,10 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["result"] = result(kind, solver_unit("MPa", request.units));
   out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
   out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
-  out["state_variables"] = takes_history(inputs) ? user_variables(request) : json::array();
+  out["state_variables"] = takes_history(inputs) ? user_variables(request, inputs) : json::array();
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-  out["build"] = build_steps(files);
+  out["build"] = build_steps(files, inputs);
   out["compile"] = {"gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
                     "frictab_usrbcc.f"};
   out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
@@ -90,7 +98,7 @@ SourceBundle generate(const ExportRequest& request) {
   const std::vector<SolverInput> inputs = inputs_of(request);
   SourceBundle files;
   files[main_file] = usrbcc_source(request, inputs);
-  if (takes_history(inputs)) files[update_file] = usrupd_source(request);
+  if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
   add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
   return files;
@@ -125,7 +133,9 @@ Exporter exporter() {
       "of "
       "0.001 MPa. Sliding distance, friction work and peak pressure come from USRNOD(1..3), which "
       "FTUPD (frictab_usrupd.f, called in USRUPD) accumulates once per converged step, so friction "
-      "sees them one step late; [export.inputs] takes field:N for another USRNOD(N), "
+      "sees them one step late; further histories of a traced law (energy, times, means, peaks, "
+      "friction power) follow from USRNOD(4) on; [export.inputs] takes field:N for another "
+      "USRNOD(N), "
       "constant:VALUE "
       "for a number in the source. DEFORM's own SI units are mm-t-s: MPa, mm/s, mm, degC. USRBCC "
       "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "

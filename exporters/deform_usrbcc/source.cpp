@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_core.h"
+#include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
 #include "core/error.h"
 
 namespace frictab::deform_usrbcc {
@@ -15,7 +17,7 @@ using fortran::Coefficient;
 
 namespace {
 
-constexpr std::size_t histories = 3; // USRNOD(1..3)
+constexpr std::size_t first_three = 3; // USRNOD(1..3): slip, work, peak pressure
 
 const char* result_name(Coefficient kind) {
   switch (kind) {
@@ -27,6 +29,14 @@ const char* result_name(Coefficient kind) {
     break;
   }
   return "frictional shear stress tau_R";
+}
+
+// Histories behind the first three.
+void add_further(TemplateValues& values, const ExportRequest& request,
+                 const std::vector<SolverInput>& inputs) {
+  fortran::add_histories(values, inputs, request.units, false);
+  values.lists["further"] =
+      fortran::comments(numbered(history_states(inputs, request.units), first_three + 1));
 }
 
 std::string result_text(Coefficient kind, const std::string& stress) {
@@ -61,17 +71,23 @@ const SolverGives& gives() {
        {Source::slip, "USRNOD(1), mean of NODE1 and NODE2, kept by FTUPD"},
        {Source::work, "USRNOD(2), mean of NODE1 and NODE2, kept by FTUPD"},
        {Source::peak_pressure, "the larger of USRNOD(3), kept by FTUPD, and |PRESS|"},
+       {Source::history, "USRNOD({}), mean of NODE1 and NODE2, kept by FTUPD"},
        {Source::temperature, "mean of TEMC(1) and TEMC(2)"},
        {Source::flow_stress, "EFSTS of COMMON /UFHCOM2/ (meaning inferred)"},
        {Source::expansion, "STRCH of COMMON /UFHCOM2/ (meaning inferred)"}},
       "",
-      "mean of USRNOD({}) at NODE1 and NODE2"};
+      "mean of USRNOD({}) at NODE1 and NODE2",
+      first_three};
   return all;
 }
 
 bool takes_history(const std::vector<SolverInput>& inputs) {
   return uses(inputs, Source::slip) || uses(inputs, Source::work) ||
-         uses(inputs, Source::peak_pressure);
+         uses(inputs, Source::peak_pressure) || uses(inputs, Source::history);
+}
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return first_three + history_count(inputs);
 }
 
 std::vector<SolverInput> inputs_of(const ExportRequest& request) {
@@ -79,10 +95,10 @@ std::vector<SolverInput> inputs_of(const ExportRequest& request) {
   FaultList faults;
   if (takes_history(inputs))
     for (const SolverInput& input : inputs)
-      if (input.source == Source::field && input.field <= histories)
+      if (input.source == Source::field && input.field <= state_count(inputs))
         faults.add({"export.inputs." + input.argument.name, 0, 0},
                    fmt::format("USRNOD({}) holds a history that the law needs", input.field),
-                   fmt::format("field:{} or higher", histories + 1));
+                   fmt::format("field:{} or higher", state_count(inputs) + 1));
   faults.throw_if_any();
   return inputs;
 }
@@ -114,16 +130,22 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["core"] =
       fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
   values.flags["histories"] = takes_history(inputs);
+  values.text["n_states"] = std::to_string(state_count(inputs));
+  add_further(values, request, inputs);
   values.flags["uses_peak"] = uses(inputs, Source::peak_pressure);
   values.lists["inputs"] = fortran::constant_inputs(inputs, gives());
   return render_template("deform_usrbcc/frictab_usrbcc.f", values);
 }
 
-std::string usrupd_source(const ExportRequest& request) {
-  TemplateValues values;
+std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  TemplateValues values, all;
   values.text = {{"version", FRICTAB_VERSION},
                  {"length", solver_unit("mm", request.units).name},
                  {"stress", solver_unit("MPa", request.units).name}};
+  add_further(all, request, inputs);
+  values.text["n_histories"] = all.text.at("n_histories");
+  values.flags = all.flags;
+  values.lists = all.lists;
   return render_template("deform_usrbcc/frictab_usrupd.f", values);
 }
 

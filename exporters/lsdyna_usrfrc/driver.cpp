@@ -7,6 +7,7 @@
 #include "call.h"
 #include "codegen/compile.h"
 #include "codegen/driver_rows.h"
+#include "codegen/histories.h"
 #include "source.h"
 
 namespace frictab::lsdyna_usrfrc {
@@ -30,6 +31,8 @@ public:
         stress_(solver_unit("MPa", request.units)) {
     call_.constants.assign(property_count(inputs_), Real(0));
     call_.rate = Real(rate);
+    call_.histories =
+        static_cast<Int>(std::max<std::size_t>(4, state_count(request.table, inputs_)));
   }
 
   const std::vector<SolverInput>& inputs() const { return inputs_; }
@@ -43,11 +46,18 @@ public:
       call_.area[k] = static_cast<Real>(node_area(k));
       call_.normal[k] = Real(-some_pressure) * call_.area[k];
     }
-    for (std::size_t c = 0; c < inputs_.size(); ++c)
+    for (std::size_t c = 0; c < columns.size(); ++c)
       for (std::size_t k = 0; k < count; ++k)
         set(inputs_[c], k, columns[c][rows[k]]);
-    for (std::size_t k = 0; k < count; ++k) // what was slipped before this cycle
+    for (std::size_t k = 0; k < count; ++k) { // what was slipped before this cycle
       *history(k, 0) -= std::abs(call_.slip[1][k]);
+      const std::vector<double> past = history_values(inputs_, columns, rows[k]);
+      for (std::size_t i = 0; i < past.size(); ++i) {
+        *history(k, 4 + i) = static_cast<Real>(past[i]);
+        *history(k, 4 + past.size() + i) =
+            static_cast<Real>(past[i] - static_cast<double>(*history(k, 4 + i)));
+      }
+    }
     call_.run(function_);
     for (std::size_t k = 0; k < count; ++k)
       tau[rows[k]] = stress_.to_canonical(static_cast<double>(call_.force[0][k]) / node_area(k));
@@ -55,7 +65,9 @@ public:
 
 private:
   Real* history(std::size_t k, std::size_t number) {
-    return &call_.history[4 * (static_cast<std::size_t>(call_.history_of[k]) - 1) + number];
+    return &call_.history[static_cast<std::size_t>(call_.histories) *
+                              (static_cast<std::size_t>(call_.history_of[k]) - 1) +
+                          number];
   }
 
   void set(const SolverInput& input, std::size_t k, double canonical) {

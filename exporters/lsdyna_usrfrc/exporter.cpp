@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/values_file.h"
@@ -32,22 +33,28 @@ std::string keywords(const Table& table, const std::vector<SolverInput>& inputs)
       "$     ifid       noc      noci      nhsv\n"
       "{:>10}{:>10}{:>10}{:>10}\n",
       std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
-      history_count(table));
+      state_count(table, inputs));
   for (std::size_t i = 0; i < values.size(); ++i)
     deck += fmt::format("{:>10}{}", values[i], i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
   return deck;
 }
 
-json history(const Table& table, std::string_view units) {
+json history(const Table& table, std::string_view units, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
-  const auto one = [](int number, const std::string& unit, const char* meaning) {
+  const auto one = [](std::size_t number, const std::string& unit, const std::string& meaning) {
     return json{{"number", number}, {"unit", unit}, {"meaning", meaning}};
   };
   json out = {one(1, length, "accumulated slip while under pressure"),
               one(2, stress + "*" + length, "friction work per area"),
               one(3, stress, "peak pressure")};
-  if (history_count(table) == 4)
+  if (state_count(table, inputs) >= 4)
     out.push_back(one(4, "1", "cycles in which the state was outside the range"));
+  const std::vector<HistoryState> further = history_states(inputs, units);
+  for (const HistoryState& state : further)
+    out.push_back(one(out.size() + 1, state.unit, state.meaning));
+  for (std::size_t i = 0; i < further.size(); ++i)
+    out.push_back(one(out.size() + 1, further[i].unit,
+                      fmt::format("what the solver's precision rounds off {}", 5 + i)));
   return out;
 }
 
@@ -60,7 +67,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                    {"meaning", "force along what would hold the node, of magnitude "
                                "min(tau_R*areas*frc(1,.), that force)"}};
   out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
-  out["state_variables"] = history(request.table, request.units);
+  out["state_variables"] = history(request.table, request.units, inputs);
   out["properties"] = recipe_properties(inputs);
   out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
                   "object package; older ones end at isurface and have no history",
@@ -125,7 +132,9 @@ Exporter exporter() {
       "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
       "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
       "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where "
-      "nothing is tabulated). Surface expansion and flow stress are not known to the solver: "
+      "nothing is tabulated); two more for each further history of a traced law (energy, times, "
+      "means, peaks, friction power). Surface expansion and flow stress are not known to the "
+      "solver: "
       "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
       "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
       "histories would count every iteration of an implicit one. Works in both precisions; table "

@@ -11,8 +11,9 @@ namespace frictab::lsdyna_usrfrc {
 // What USRFRC's arguments hold.
 const SolverGives& gives();
 
-// Values of UFHIST per node that the routine keeps.
-int history_count(const Table& table);
+// Values of UFHIST per node that the routine keeps: 3, 4 where it counts, and two for each of
+// codegen/histories.h.
+std::size_t state_count(const Table& table, const std::vector<SolverInput>& inputs);
 
 std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 

@@ -13,7 +13,7 @@ namespace frictab {
 namespace {
 
 // At most this many arguments behind the contract's six.
-constexpr std::size_t most_arguments = 14;
+constexpr std::size_t most_arguments = 24;
 
 template <std::size_t> using Number = double;
 

@@ -5,13 +5,15 @@
 #include <compare>
 #include <numeric>
 
+#include "codegen/histories.h"
+
 namespace frictab {
 
 bool posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
            std::size_t row, double otherwise) {
   double pressure = otherwise;
   std::optional<double> slip, peak;
-  for (std::size_t c = 0; c < inputs.size(); ++c) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
     const double value = columns[c][row];
     if (inputs[c].source == Source::pressure) pressure = value;
     if (inputs[c].source == Source::peak_pressure) peak = value;
@@ -19,6 +21,7 @@ bool posed(const std::vector<SolverInput>& inputs, std::span<const double* const
     if (slip && *slip != value) return false;
     slip = value;
   }
+  if (!history_posed(inputs, columns, row)) return false;
   return !peak || !(*peak < pressure); // NaN is posed
 }
 
@@ -33,7 +36,7 @@ std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>
                                                   std::span<const double* const> columns,
                                                   std::size_t most) {
   std::vector<const double*> properties;
-  for (std::size_t c = 0; c < inputs.size(); ++c)
+  for (std::size_t c = 0; c < columns.size(); ++c)
     if (inputs[c].source == Source::property) properties.push_back(columns[c]);
   for (std::size_t p = properties.size(); p-- > 0;)
     std::stable_sort(rows.begin(), rows.end(), [x = properties[p]](std::size_t a, std::size_t b) {

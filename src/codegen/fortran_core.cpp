@@ -177,7 +177,7 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.text["version"] = FRICTAB_VERSION;
   values.text["from"] = table.is_direct() ? "by the law itself, no table" : "from a table";
-  values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
+  values.text["n_x"] = std::to_string(std::max<std::size_t>(inputs.size(), 1));
   values.text["stress"] = stress.name;
   values.text["length"] = solver_unit("mm", request.units).name;
   values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
+#include "codegen/histories.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "data/meaning.h"
 #include "data/quantity.h"
 
 namespace frictab {
@@ -28,6 +30,7 @@ constexpr std::array source_names = {
     SourceName{Source::slip, "is_slip", "state"},
     SourceName{Source::work, "is_work", "state"},
     SourceName{Source::peak_pressure, "is_peak", "state"},
+    SourceName{Source::history, "", "state"},
     SourceName{Source::temperature, "is_temperature", "temperature"},
     SourceName{Source::flow_stress, "is_flow_stress", "solver"},
     SourceName{Source::expansion, "is_expansion", "solver"},
@@ -50,6 +53,7 @@ std::optional<Source> natural_source(const std::string& name) {
                                                         {"T_contact_C", Source::temperature},
                                                         {"sigma_f_MPa", Source::flow_stress},
                                                         {"psi", Source::expansion}};
+  if (is_further_history(name)) return Source::history;
   const auto found = sources.find(name);
   return found == sources.end() ? std::nullopt : std::optional(found->second);
 }
@@ -117,6 +121,9 @@ public:
       return fmt::format(fmt::runtime(gives_.field), input_.field);
     case Source::constant:
       return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
+    case Source::history:
+      return fmt::format(fmt::runtime(given_->text), gives_.before_histories + input_.history) +
+             ", " + meaning_of(input_.argument.name).text;
     default:
       return given_->text + (given_->without.empty()
                                  ? ""
@@ -169,21 +176,21 @@ void check_names(const ExportRequest& request, const std::vector<std::string>& n
         faults.add(place(name), "no state of this name", fmt::format("did you mean '{}'?", near));
 }
 
-std::string conversion(const SolverUnit& unit) {
+} // namespace
+
+std::string fortran_conversion(const SolverUnit& unit) {
   if (unit.times != 1) return "*" + fortran_number(unit.times);
   return unit.over != 1 ? "/" + fortran_number(unit.over) : "";
 }
-
-} // namespace
 
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives) {
   FaultList faults;
   const std::vector<std::string> needed = request.table.inputs();
   const std::vector<InputArgument> arguments = entry_arguments(request.table, request.units);
   std::vector<SolverInput> inputs;
-  std::size_t properties = 0;
-  check_names(request, needed, faults);
-  for (const std::string& name : needed) {
+  std::size_t properties = 0, histories = 0;
+  bool warm = false;
+  const auto add = [&](const std::string& name) {
     SolverInput input;
     input.argument = *std::find_if(arguments.begin(), arguments.end(),
                                    [&](const InputArgument& a) { return a.name == name; });
@@ -192,10 +199,19 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
     if (const auto said = request.inputs.find(name); said != request.inputs.end())
       choice.read(said->second);
     if (choice.needs_property()) input.property = ++properties;
+    if (input.source == Source::history) {
+      input.history = ++histories;
+      warm = warm || follows_temperature(name);
+    }
     input.text = choice.text();
     input.without = choice.without();
     inputs.push_back(std::move(input));
-  }
+  };
+  check_names(request, needed, faults);
+  for (const std::string& name : needed)
+    add(name);
+  if (warm && std::find(needed.begin(), needed.end(), "T_contact_C") == needed.end())
+    add("T_contact_C");
   faults.throw_if_any();
   return inputs;
 }
@@ -233,7 +249,7 @@ std::vector<TemplateValues> fortran_inputs(const std::vector<SolverInput>& input
   std::vector<TemplateValues> list;
   for (const SolverInput& input : all) {
     TemplateValues values;
-    const std::string convert = conversion(input.argument.solver);
+    const std::string convert = fortran_conversion(input.argument.solver);
     values.text = {
         {"index", std::to_string(list.size() + 1)},
         {"comment", fortran::clip(inputs.empty() ? "no state is needed"
@@ -247,7 +263,7 @@ std::vector<TemplateValues> fortran_inputs(const std::vector<SolverInput>& input
       values.flags[name_of(source).flag] = input.source == source;
     };
     for (const SolverGives::State& state : gives.states)
-      flag(state.source);
+      if (state.source != Source::history) flag(state.source); // these are filled by ftpast
     flag(Source::constant);
     if (!gives.property.empty()) flag(Source::property);
     if (!gives.field.empty()) flag(Source::field);

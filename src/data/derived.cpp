@@ -63,40 +63,84 @@ struct Rule {
   std::function<void(const std::vector<Rows>&, Out)> along;
 };
 
-Rule one(std::string name, std::string unit, std::string meaning, std::string column,
-         void (*rule)(Rows, Out)) {
-  return {{std::move(name), std::move(unit), std::move(meaning), {std::move(column)}},
-          [rule](const std::vector<Rows>& in, Out out) { rule(in[0], out); }};
+Rule one(DerivedQuantity quantity, void (*rule)(Rows, Out)) {
+  return {std::move(quantity), [rule](const std::vector<Rows>& in, Out out) { rule(in[0], out); }};
 }
 
-Rule two(std::string name, std::string unit, std::string meaning, std::string first,
-         std::string second, void (*rule)(Rows, Rows, Out)) {
-  return {
-      {std::move(name), std::move(unit), std::move(meaning), {std::move(first), std::move(second)}},
-      [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], out); }};
+Rule two(DerivedQuantity quantity, void (*rule)(Rows, Rows, Out)) {
+  return {std::move(quantity),
+          [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], out); }};
 }
 
 const std::vector<Rule>& rules() {
+  using C = Continuation;
   static const std::vector<Rule> all = {
-      one("sliding_distance", "mm", "sliding distance so far", "s_mm", since_start),
-      two("friction_work", "MPa mm", "friction work per area so far, integral of tau ds", "tau",
-          "s_mm", integrate),
-      two("energy", "MPa mm", "load times sliding distance so far, integral of sigma_N ds",
-          "sigma_n_MPa", "s_mm", integrate),
-      two("friction_power", "MPa mm/s", "friction power per area, tau v", "tau", "v_rel_mm_s",
+      one({"sliding_distance", "mm", "sliding distance so far", {"s_mm"}, {C::per_slip, C::one}},
+          since_start),
+      two({"friction_work",
+           "MPa mm",
+           "friction work per area so far, integral of tau ds",
+           {"tau", "s_mm"},
+           {C::per_slip, C::tau}},
+          integrate),
+      two({"energy",
+           "MPa mm",
+           "load times sliding distance so far, integral of sigma_N ds",
+           {"sigma_n_MPa", "s_mm"},
+           {C::per_slip, C::pressure}},
+          integrate),
+      two({"friction_power",
+           "MPa mm/s",
+           "friction power per area, tau v",
+           {"tau", "v_rel_mm_s"},
+           {C::last, C::power}},
           power),
-      one("time_since_start", "s", "time since the experiment's first row", "time_s", since_start),
-      two("dwell", "s", "time so far at no less than half the peak stress", "sigma_n_MPa", "time_s",
+      one({"time_since_start",
+           "s",
+           "time since the experiment's first row",
+           {"time_s"},
+           {C::per_time, C::one}},
+          since_start),
+      two({"dwell",
+           "s",
+           "time so far at no less than half the peak stress",
+           {"sigma_n_MPa", "time_s"},
+           {C::dwell, C::pressure}},
           dwell),
-      one("peak_sigma_n", "MPa", "highest contact normal stress so far", "sigma_n_MPa",
+      one({"peak_sigma_n",
+           "MPa",
+           "highest contact normal stress so far",
+           {"sigma_n_MPa"},
+           {C::peak, C::pressure}},
           running_peak),
-      one("mean_sigma_n", "MPa", "mean contact normal stress so far", "sigma_n_MPa", running_mean),
-      one("peak_v_rel", "mm/s", "highest sliding speed so far", "v_rel_mm_s", running_peak),
-      one("mean_v_rel", "mm/s", "mean sliding speed so far", "v_rel_mm_s", running_mean),
-      one("peak_T_contact", "degC", "highest contact temperature so far", "T_contact_C",
+      one({"mean_sigma_n",
+           "MPa",
+           "mean contact normal stress so far",
+           {"sigma_n_MPa"},
+           {C::mean, C::pressure}},
+          running_mean),
+      one({"peak_v_rel",
+           "mm/s",
+           "highest sliding speed so far",
+           {"v_rel_mm_s"},
+           {C::peak, C::speed}},
           running_peak),
-      one("mean_T_contact", "degC", "mean contact temperature so far", "T_contact_C", running_mean),
-      one("test_order", "1", "place of the experiment in the order of tests", "run_order", copy),
+      one({"mean_v_rel", "mm/s", "mean sliding speed so far", {"v_rel_mm_s"}, {C::mean, C::speed}},
+          running_mean),
+      one({"peak_T_contact",
+           "degC",
+           "highest contact temperature so far",
+           {"T_contact_C"},
+           {C::peak, C::temperature}},
+          running_peak),
+      one({"mean_T_contact",
+           "degC",
+           "mean contact temperature so far",
+           {"T_contact_C"},
+           {C::mean, C::temperature}},
+          running_mean),
+      one({"test_order", "1", "place of the experiment in the order of tests", {"run_order"}, {}},
+          copy),
   };
   return all;
 }
@@ -119,7 +163,7 @@ const DerivedQuantity* find_derived(std::string_view name) {
   return nullptr;
 }
 
-bool is_followed(std::string_view derived) {
+bool is_always_kept(std::string_view derived) {
   return derived == "sliding_distance" || derived == "friction_work" || derived == "peak_sigma_n";
 }
 

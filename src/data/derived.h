@@ -10,6 +10,22 @@
 
 namespace frictab {
 
+// How a contact point of a simulation continues a history from one increment to the next.
+struct Continuation {
+  enum Rule {
+    none,     // belongs to the experiment: a simulation has no such thing
+    per_slip, // integral over the slip
+    per_time, // integral over the time under pressure
+    dwell,    // time at no less than half of the peak pressure
+    mean,     // over the time under pressure
+    peak,
+    last // the value at the end of the last increment
+  };
+  enum Of { one, pressure, speed, temperature, tau, power };
+  Rule rule = none;
+  Of of = one;
+};
+
 // `needs` lists columns; "tau" stands for a model's shear stress. Never derive a history from
 // measured tau_R: its noise would leak into the quantity.
 struct DerivedQuantity {
@@ -17,14 +33,14 @@ struct DerivedQuantity {
   std::string unit;
   std::string meaning;
   std::vector<std::string> needs;
+  Continuation continuation;
 };
 
 std::span<const DerivedQuantity> derived_quantities();
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none
 
-// Histories that generated routines keep as state variables of a contact point; others are
-// constants there.
-bool is_followed(std::string_view derived);
+// Slip, friction work and peak pressure: routines with state variables keep these for every law.
+bool is_always_kept(std::string_view derived);
 
 // One value per row; integrals by the trapezoidal rule, starting at 0 in every experiment. `tau` is
 // the model's shear stress per row (unused by most). The data must have what `needs` lists.

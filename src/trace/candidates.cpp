@@ -256,7 +256,7 @@ int complexity(const Cause& cause, const Candidates& candidates) {
   if (cause.pair()) return 4;
   const CandidateColumn& column = candidates.columns[cause.column];
   if (!column.derived) return 0;
-  return is_followed(column.name) ? 1 : 2;
+  return is_always_kept(column.name) ? 1 : 2; // others need a state variable more
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {

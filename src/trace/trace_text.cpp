@@ -36,6 +36,12 @@ std::string parameter_text(const TracedEffect& effect) {
   return text;
 }
 
+bool belongs_to_the_experiment(const TracedEffect& effect) {
+  const DerivedQuantity* derived =
+      effect.derived.empty() ? nullptr : find_derived(effect.placed.column);
+  return derived && derived->continuation.rule == Continuation::none;
+}
+
 void add_effect(std::string& out, const TracedEffect& e) {
   out += fmt::format("  + {}: {}, {}, p = {:.3g}, gains {:.2f} MPa on unseen experiments\n",
                      cause_text(e), e.placed.form->name, place_text(e.placed.acts_on), e.p_value,
@@ -46,8 +52,8 @@ void add_effect(std::string& out, const TracedEffect& e) {
     if (a.in_set) same.push_back(a.derived.empty() ? join(a.columns, " x ") : a.derived);
   if (!same.empty())
     out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
-  if (!e.derived.empty() && !is_followed(e.placed.column))
-    out += fmt::format("      routines do not follow {}: it is a property or constant there; "
+  if (belongs_to_the_experiment(e))
+    out += fmt::format("      no simulation has a {}: it is a property or constant of routines; "
                        "[trace] ignore leaves it out\n",
                        e.derived);
   if (!e.discriminating.empty()) out += fmt::format("      would decide: {}\n", e.discriminating);

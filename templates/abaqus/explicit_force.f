@@ -1,7 +1,7 @@
 C     All that is computed is double precision, whatever the solver's
 C     precision.
       double precision x(@{n_x}), pnorm, area, stick, slip, fprev
-      double precision dtime, fric, comp, hist(3), add(4)
+      double precision dtime, fric, comp, hist(@{n_hist}), add(@{n_add})
       logical lkeep
 @if unknown
       double precision ftqnan
@@ -32,7 +32,7 @@ C
 @if has_given
 @{given}
 @end
-        do i = 1, 3
+        do i = 1, @{n_hist}
           hist(i) = 0.0D0
         end do
         if (@{states} .ge. 1) call ftread(@{states}, @{columns},

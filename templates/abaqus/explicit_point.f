@@ -3,11 +3,15 @@ C     fills it; normal force, area, stick force, slip of the increment
 C     and its time, size of the friction force before it; hist: slip,
 C     work per area and peak pressure before it. Out: fric, against the
 C     slip; add: what the state variables gain, where lkeep.
+@if has_histories
+C     From hist(4) and add(5) on: further histories, see ftpast; of what
+C     is no sum add is the value itself.
+@end
       subroutine ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
      &  fric, add, lkeep)
       implicit none
       double precision x(@{n_x}), pnorm, area, stick, slip, dtime, fprev
-      double precision hist(3), fric, add(4), press, speed, fttau
+      double precision hist(@{n_hist}), fric, add(@{n_add}), press, speed, fttau
       logical lkeep, ftnan
       integer i
       integer*8 bits, most
@@ -21,8 +25,11 @@ C     slip; add: what the state variables gain, where lkeep.
       logical ftstop
       external ftqnan, ftstop
 @end
+@if has_histories
+      double precision pmax
+@end
       lkeep = .false.
-      do i = 1, 4
+      do i = 1, @{n_add}
         add(i) = 0.0D0
       end do
 C     NaN first: nothing below compares with one. By the bits of all
@@ -64,6 +71,9 @@ C       @{in.comment}
         end if
 @end
 @end
+@if has_histories
+        call ftpast(hist(4), press, speed, @{past_now}, x)
+@end
 @if refuses
         fric = ftqnan()
         if (.not. ftstop(x)) fric = fttau(x)@{to_solver}
@@ -83,6 +93,15 @@ C       and the force now, times its slip.
 @if has_axes
         if (ftout(x)) add(4) = 1.0D0
 @end
+@if has_histories
+        pmax = hist(3)
+        if (.not. ftnan(pmax)) pmax = max(pmax, press)
+        call ftnext(hist(4), press, speed, @{past_now}, pmax, fric/area,
+     &    slip, dtime, add(5))
+@for sum in sums
+        add(@{sum.add}) = add(@{sum.add}) - hist(@{sum.hist})
+@end
+@end
       end if
       return
       end
@@ -92,7 +111,7 @@ C     columns: slip, work, peak pressure; 0 where there are none.
       subroutine ftread(nst, ncol, st, hist)
       include 'vaba_param.inc'
       dimension st(nst,ncol)
-      double precision hist(3), part
+      double precision hist(@{n_hist}), part
       do i = 1, 3
         hist(i) = 0.0D0
         if (nst .ge. i) then
@@ -107,6 +126,21 @@ C     columns: slip, work, peak pressure; 0 where there are none.
           if (ncol .gt. 1) hist(i) = hist(i)/ncol
         end if
       end do
+@if has_histories
+C     Further histories and what is rounded off them, as one.
+      do i = 1, @{n_histories}
+        hist(3+i) = 0.0D0
+        if (nst .ge. @{n_states}) then
+          do j = 1, ncol
+            part = st(6+i,j)
+            hist(3+i) = hist(3+i) + part
+            part = st(@{before_rest}+i,j)
+            hist(3+i) = hist(3+i) + part
+          end do
+          if (ncol .gt. 1) hist(3+i) = hist(3+i)/ncol
+        end if
+      end do
+@end
       return
       end
 C
@@ -116,8 +150,12 @@ C     against their sum.
       subroutine ftkeep(nst, ncol, st, add)
       include 'vaba_param.inc'
       dimension st(nst,ncol)
-      double precision add(4), both, part, lost
+      double precision add(@{n_add}), both, part, lost
       integer*8 bits, nofin
+@if has_histories
+      integer grows(@{n_histories})
+      data grows /@{grows}/
+@end
 C     The bits of infinity; above them lies NaN.
       parameter (nofin = 9218868437227405312_8)
       do j = 1, ncol
@@ -145,7 +183,28 @@ C     The bits of infinity; above them lies NaN.
           part = st(4,j)
           st(4,j) = real(part + add(4), kind(st))
         end if
+@if has_histories
+        do i = 1, @{n_histories}
+          if (nst .lt. @{n_states}) exit
+          both = 0.0D0
+          if (grows(i) .eq. 1) then
+            both = st(6+i,j)
+            part = st(@{before_rest}+i,j)
+            both = both + part
+          end if
+          both = both + add(4+i)
+          st(6+i,j) = real(both, kind(st))
+          part = st(6+i,j)
+          lost = 0.0D0
+          if (ibclr(transfer(part, bits), 63) .lt. nofin)
+     &      lost = both - part
+          st(@{before_rest}+i,j) = real(lost, kind(st))
+        end do
+@end
       end do
       return
       end
 C
+@if has_histories
+@{past_text}
+@end

@@ -1,13 +1,13 @@
 C     History of a contact point that no iteration and no cutback can
-C     spoil. st(1..@{n}): the values now, st(@{stamp}): the increment they
-C     belong to, st(@{first}..@{last}): the values at its start. ftbegn gives
+C     spoil. st(1..@{n_states}): the values now, st(@{stamp}): the increment they
+C     belong to, st(@{first}..@{depvar}): the values at its start. ftbegn gives
 C     the start: what is kept there where st belongs to this very
 C     increment, else the values now, which the last one left. So it
 C     does not matter whether the solver passes the start of the
 C     increment or the last iteration.
       subroutine ftbegn(st, kstep, kinc, s0)
       implicit none
-      double precision st(@{last}), s0(@{n}), ftstmp
+      double precision st(@{depvar}), s0(@{n_states}), ftstmp
       integer kstep, kinc, i, from
       logical ftnan
       from = 0
@@ -15,7 +15,7 @@ C     increment or the last iteration.
         if (abs(st(@{stamp}) - ftstmp(kstep, kinc)) .lt. 0.5D0)
      &    from = @{stamp}
       end if
-      do i = 1, @{n}
+      do i = 1, @{n_states}
         s0(i) = st(from+i)
       end do
       return
@@ -23,9 +23,9 @@ C     increment or the last iteration.
 C
       subroutine ftkeep(st, kstep, kinc, s0, s1)
       implicit none
-      double precision st(@{last}), s0(@{n}), s1(@{n}), ftstmp
+      double precision st(@{depvar}), s0(@{n_states}), s1(@{n_states}), ftstmp
       integer kstep, kinc, i
-      do i = 1, @{n}
+      do i = 1, @{n_states}
         st(i) = s1(i)
         st(@{stamp}+i) = s0(i)
       end do

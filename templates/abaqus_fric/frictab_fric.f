@@ -31,12 +31,15 @@ C     @{line.text}
 @end
 C     @{critical} critical elastic slip (@{length}); 0 or none: 0.005*CHRLNGTH
 C
-C     STATEV (DEPVAR=15), by contact point, at the end of the increment:
+C     STATEV (DEPVAR=@{depvar}), by contact point, at the end of the increment:
 C     1 accumulated slip under pressure (@{length}), 2 friction work per
 C     area (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 increments in which
 C     the state was outside the range, 5 and 6 elastic slip (@{length}),
-C     7 coefficient tau_R/p, 8 the increment these belong to,
-C     9 to 15 numbers 1 to 7 at its start.
+C     7 coefficient tau_R/p, @{stamp} the increment these belong to,
+C     @{first} to @{depvar} numbers 1 to @{n_states} at its start.
+@for line in histories
+C     @{line.text}
+@end
 C     With fewer there is no history: slip and work count as 0, the
 C     peak pressure is the pressure, elastic slip follows from TAU.
 C
@@ -63,7 +66,7 @@ C
 C     Canonical units (MPa, mm) in x, y, dy and what is named so.
       double precision x(@{n_x}), dy(@{n_x}), y, pmpa, peval
 C     History at the start and at the end of this increment
-      double precision s0(7), s1(7)
+      double precision s0(@{n_states}), s1(@{n_states})
 C     Relative motion, its direction, elastic slip, trial elastic slip
       double precision dg(2), e(2), ge(2), gt(2)
 C     The limit in the solver's units, its derivatives, a direction
@@ -84,10 +87,14 @@ C     The limit in the solver's units, its derivatives, a direction
       logical ftstop
       external ftstop
 @end
+@if has_histories
+C     What histories add to the derivatives by speed and temperature
+      double precision hv, ht
+@end
       parameter (zero = 0.0D0)
 C
-      keeps = nstatv .ge. 15
-      do i = 1, 7
+      keeps = nstatv .ge. @{depvar}
+      do i = 1, @{n_states}
         s0(i) = zero
       end do
       if (keeps) call ftbegn(statev, kstep, kinc, s0)
@@ -113,7 +120,7 @@ C     NaN first: nothing below compares with one.
       if (ftnan(speed)) bad = .true.
       if (ftnan(gc)) bad = .true.
       if (ftnan(hold)) bad = .true.
-      do i = 1, 7
+      do i = 1, @{n_states}
         if (ftnan(s0(i))) bad = .true.
       end do
       do i = 1, 2
@@ -144,7 +151,7 @@ C     NaN first: nothing below compares with one.
 C
 C     No friction without pressure.
       if (p .le. zero) then
-        do i = 1, 7
+        do i = 1, @{n_states}
           s1(i) = s0(i)
         end do
         s1(5) = zero
@@ -249,6 +256,12 @@ C     @{in.comment}
       end if
 @end
 @end
+@if has_histories
+      do i = 1, @{n_x}
+        dy(i) = zero
+      end do
+      call ftpast(s0(8), p, speed, @{past_now}, x)
+@end
 @if refuses
       if (ftstop(x)) then
         y = ftqnan()
@@ -288,6 +301,15 @@ C     The limit and its derivatives
 @end
 @if in.is_temperature
       flimt = dy(@{in.index})@{to_solver}
+@end
+@end
+@if has_histories
+      hv = zero
+      ht = zero
+      call ftlive(s0(8), p, speed, @{past_now}, dy, dpeak, hv, ht)
+      flimv = flimv + hv@{to_solver}@{to_mm}
+@if knows_temperature
+      flimt = flimt + ht@{to_solver}
 @end
 @end
       if (pmpa .ge. peval) then
@@ -368,6 +390,10 @@ C
         if (ftout(x)) s1(4) = s1(4) + 1.0D0
 @end
         s1(7) = amu
+@if has_histories
+        call ftnext(s0(8), p, speed, @{past_now}, s1(3), flim, ds,
+     &    dtime, s1(8))
+@end
         call ftkeep(statev, kstep, kinc, s0, s1)
       end if
       return
@@ -383,4 +409,7 @@ C     Length of a vector in the contact plane
 C
 @{states_text}
 C
+@if has_histories
+@{past_text}
+@end
 @{core}

@@ -32,13 +32,16 @@ C     @{line.text}
 @end
 C
 @if new
-C     State variables (DEPVAR=11), at the end of the increment:
+C     State variables (DEPVAR=@{depvar}), at the end of the increment:
 C     1 friction work per area (@{stress}*@{length}), 2 peak pressure (@{stress}),
 C     3 increments in which the state was outside the range,
-C     4 coefficient, 5 equivalent slip (@{length}), 6 the increment these
-C     belong to, 7 to 11 numbers 1 to 5 at its start. With fewer, or
+C     4 coefficient, 5 equivalent slip (@{length}), @{stamp} the increment these
+C     belong to, @{first} to @{depvar} numbers 1 to @{n_states} at its start. With fewer, or
 C     more than one point in a call, there is no history: friction
 C     work is 0 and the peak pressure is the pressure.
+@for line in histories
+C     @{line.text}
+@end
 @else
 C     No state variables: this argument list has none.
 @end
@@ -93,7 +96,7 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       double precision x(@{n_x}), dy(@{n_x}), y, peval, p, rate
       double precision amu, dmup, dmuv, dmus, dmut, dpeak, zero
 @if new
-      double precision s0(5), s1(5), s
+      double precision s0(@{n_states}), s1(@{n_states}), s
       logical keeps
 @end
       logical ftnan
@@ -111,6 +114,10 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
 @if refuses
       logical ftstop
       external ftstop
+@end
+@if has_histories
+C     What histories add to the derivatives by speed and temperature
+      double precision hv, ht
 @end
       parameter (zero = 0.0D0)
 C
@@ -132,10 +139,10 @@ C     @{in.comment}
 @end
 @if new
 C     The state variables lie in rData; they are those of one point.
-      do i = 1, 5
+      do i = 1, @{n_states}
         s0(i) = zero
       end do
-      keeps = nBlock .eq. 1 .and. iData(i_ifc_nStateV) .ge. 11
+      keeps = nBlock .eq. 1 .and. iData(i_ifc_nStateV) .ge. @{depvar}
       if (keeps) call ftbegn(rData(i_rfc_StateV),
      & iData(i_ifc_KStep), iData(i_ifc_KInc), s0)
 @end
@@ -162,7 +169,7 @@ C       than 1D30 is as good as infinite.
         if (ftnan(rate)) y = rate
 @if new
         if (ftnan(s)) y = s
-        do i = 1, 5
+        do i = 1, @{n_states}
           if (ftnan(s0(i))) y = s0(i)
         end do
 @end
@@ -213,6 +220,12 @@ C         @{in.comment}
           end if
 @end
 @end
+@if has_histories
+          do i = 1, @{n_x}
+            dy(i) = zero
+          end do
+          call ftpast(s0(6), p, rate, @{past_now}, x)
+@end
 @if refuses
           if (p .gt. zero) then
             if (ftstop(x)) then
@@ -256,12 +269,21 @@ C           A point that does not press cannot stop the analysis.
           if (nTemp .gt. 0) dmut = dy(@{in.index})/peval
 @end
 @end
+@if has_histories
+          hv = zero
+          ht = zero
+          call ftlive(s0(6), p, rate, @{past_now}, dy, dpeak, hv, ht)
+          dmuv = dmuv + hv/peval@{to_mm}
+@if knows_temperature
+          if (nTemp .gt. 0) dmut = dmut + ht/peval
+@end
+@end
           dmup = dmup + dpeak - amu
           if (p@{to_mpa} .lt. peval) dmup = dpeak
           dmup = dmup/peval@{to_mpa}
 @if new
           if (keeps) then
-            do i = 1, 5
+            do i = 1, @{n_states}
               s1(i) = s0(i)
             end do
             s1(4) = amu
@@ -284,6 +306,11 @@ C           The coefficient that the last increment left
 @end
             if (p .gt. zero)
      &        s1(1) = s0(1) + amu*p*max(s - s0(5), zero)
+@if has_histories
+C           rData(3): time increment
+            if (p .gt. zero) call ftnext(s0(6), p, rate, @{past_now},
+     &        s1(2), amu*p, max(s - s0(5), zero), rData(3), s1(6))
+@end
             call ftkeep(rData(i_rfc_StateV), iData(i_ifc_KStep),
      &        iData(i_ifc_KInc), s0, s1)
           end if
@@ -307,5 +334,9 @@ C           The coefficient that the last increment left
 C
 @if new
 @{states_text}
+@if has_histories
+C
+@{past_text}
+@end
 @end
 @{core}

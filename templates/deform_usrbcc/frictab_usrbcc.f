@@ -27,7 +27,10 @@ C     USRNOD(1..3) of a node: accumulated slip (@{length}), friction
 C     work per area (@{stress}*@{length}), peak pressure (@{stress}),
 C     kept by FTUPD (frictab_usrupd.f), which USRUPD has to call once
 C     per converged step: the law sees them one step late. With fewer
-C     than 3 user variables per node they count as 0.
+C     than @{n_states} user variables per node they count as 0.
+@for line in further
+C     @{line.text}
+@end
 @end
 C     What DEFORM does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Nothing is read from files
@@ -60,6 +63,10 @@ C
       double precision ftqnan
       external ftnan, ftstop, ftqnan
 @end
+@if has_histories
+      double precision h(@{n_histories})
+      integer i
+@end
 C
       if (imode .ne. 1) return
       if (itype .ne. 2) return
@@ -89,17 +96,17 @@ C     @{in.comment}
 @end
 @if in.is_slip
       x(@{in.index}) = 0.0D0
-      if (nusrn .ge. 3)
+      if (nusrn .ge. @{n_states})
      &  x(@{in.index}) = 0.5D0*(usrnod(1,node1) + usrnod(1,node2))@{in.convert}
 @end
 @if in.is_work
       x(@{in.index}) = 0.0D0
-      if (nusrn .ge. 3)
+      if (nusrn .ge. @{n_states})
      &  x(@{in.index}) = 0.5D0*(usrnod(2,node1) + usrnod(2,node2))@{work_convert}
 @end
 @if in.is_peak
       x(@{in.index}) = 0.0D0
-      if (nusrn .ge. 3)
+      if (nusrn .ge. @{n_states})
      &  x(@{in.index}) = 0.5D0*(usrnod(3,node1) + usrnod(3,node2))@{in.convert}
       call ftpeak(x(@{in.index}), p)
 @end
@@ -110,6 +117,14 @@ C     @{in.comment}
      &    + usrnod(@{in.field},node2))@{in.convert}
       end if
 @end
+@end
+@if has_histories
+      do i = 1, @{n_histories}
+        h(i) = 0.0D0
+        if (nusrn .ge. @{n_states})
+     &    h(i) = 0.5D0*(usrnod(3+i,node1) + usrnod(3+i,node2))
+      end do
+      call ftpast(h, abs(press), speed, @{past_now}, x)
 @end
 @if given_flow
 C     k of the law's own flow stress.
@@ -146,6 +161,9 @@ C     The larger of both; NaN where one is.
       return
       end
 C
+@end
+@if has_histories
+@{past_text}
 @end
 @{constants}
 @{coefficient}

@@ -6,6 +6,9 @@ C         CALL FTUPD
 C     USRN2(1) accumulated slip while under pressure (@{length})
 C     USRN2(2) friction work per area (@{stress}*@{length})
 C     USRN2(3) peak pressure (@{stress})
+@for line in further
+C     USRN2: @{line.text}
+@end
 C     It acts at the end of a converged step (ISTATUS=1), so friction
 C     sees these values one step late. PRESR(1) is the tangential and
 C     PRESR(2) the normal traction; of both only the magnitude is used.
@@ -28,6 +31,10 @@ C     against your release.
       common /nodcom2/ arean, tmpneb, sldvel, presr, intnal
 C
       double precision slip, p
+@if has_histories
+      double precision speed
+      integer i
+@end
       logical ftnan
       external ftnan
       if (istatus .ne. 1) return
@@ -38,6 +45,11 @@ C
       usrn2(1) = usrn1(1)
       usrn2(2) = usrn1(2)
       usrn2(3) = usrn1(3)
+@if has_histories
+      do i = 1, @{n_histories}
+        usrn2(3+i) = usrn1(3+i)
+      end do
+@end
       if (.not. ftnan(p)) then
         if (p .le. 0.0D0) return
       end if
@@ -48,5 +60,11 @@ C
       else if (.not. ftnan(usrn1(3))) then
         if (p .gt. usrn1(3)) usrn2(3) = p
       end if
+@if has_histories
+C     TEMPN: the node's temperature
+      speed = abs(sldvel)
+      call ftnext(usrn1(4), p, speed, tempn, usrn2(3), abs(presr(1)),
+     &  slip, dtmaxc, usrn2(4))
+@end
       return
       end

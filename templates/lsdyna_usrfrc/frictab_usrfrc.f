@@ -28,6 +28,12 @@ C     which the state was outside the range.
 @else
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}).
 @end
+@for line in histories
+C     @{line.text}
+@end
+@if has_histories
+C     from @{first_rest} on: what the solver's precision rounds off them.
+@end
 C     With fewer the missing ones count as 0.
 C
 C     LS-DYNA leaves the friction force to this routine: the force
@@ -79,6 +85,9 @@ C
 @if refuses
       logical ftstop
       external ftstop
+@end
+@if has_histories
+      double precision past(@{n_histories}), next(@{n_histories}), dtime
 @end
       integer i, ii, j, kk
 C
@@ -197,6 +206,16 @@ C         @{in.comment}
           end if
 @end
 @end
+@if has_histories
+          do i = 1, @{n_histories}
+            past(i) = 0.0D0
+            if (nhv .ge. @{n_history}) then
+              past(i) = ufhist(@{before_rest}+i,j)
+              past(i) = past(i) + ufhist(4+i,j)
+            end if
+          end do
+          call ftpast(past, press, speed, @{past_now}, x)
+@end
 @if refuses
           if (ftstop(x)) then
             fric = ftqnan()
@@ -220,6 +239,20 @@ C             Work: mean of the force before and the force now.
 @if has_axes
               if (nhv .ge. 4) then
                 if (ftout(x)) ufhist(4,j) = ufhist(4,j) + 1
+              end if
+@end
+@if has_histories
+              if (nhv .ge. @{n_history}) then
+                dtime = 0.0D0
+                if (rate .gt. 0.0D0) dtime = 1.0D0/rate
+                call ftnext(past, press, speed, @{past_now}, pmax,
+     &            fric/area, slip, dtime, next)
+                do i = 1, @{n_histories}
+                  ufhist(4+i,j) = real(next(i), kind(ufhist))
+                  if (.not. ftnan(next(i)))
+     &              next(i) = next(i) - ufhist(4+i,j)
+                  ufhist(@{before_rest}+i,j) = real(next(i), kind(ufhist))
+                end do
               end if
 @end
             end if
@@ -257,4 +290,7 @@ C     A pressed node without area ends the analysis.
       return
       end
 C
+@if has_histories
+@{past_text}
+@end
 @{core}

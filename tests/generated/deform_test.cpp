@@ -13,6 +13,7 @@
 
 #include "../../exporters/deform_usrbcc/driver.h"
 #include "core/error.h"
+#include "generated/deform_case.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -22,6 +23,8 @@ namespace {
 using deform_usrbcc::Ufhcom;
 using deform_usrbcc::Ufhcom2;
 using deform_usrbcc::UsrbccCall;
+using test::Nodcom;
+using test::Nodcom2;
 using testing::HasSubstr;
 using Words = std::map<std::string, std::string>;
 
@@ -329,17 +332,6 @@ TEST_F(Deform, NamesTheKeywordOfItsFrictionType) {
     EXPECT_EQ(recipe["input_deck"], keyword);
   }
 }
-
-// COMMON blocks of USRUPD.
-struct Nodcom {
-  double coordinate[2], velocity[2], displacement[2], temperature, temperature_step;
-  double before[1500], after[1500];
-  int node;
-};
-struct Nodcom2 {
-  double area, neighbour_temperature, sliding_speed, traction[2];
-  int internal;
-};
 
 struct DeformUpdate : Deform {
   void SetUp() override {

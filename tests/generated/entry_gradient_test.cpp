@@ -63,26 +63,34 @@ public:
     return x;
   }
 
-  double tau(const Row& x) const {
-    if (x.size() == 6)
-      return library_->find<double(double, double, double, double, double, double)>(
-          "frictab_tau_R")(x[0], x[1], x[2], x[3], x[4], x[5]);
-    return library_->find<double(double, double, double, double, double, double, double)>(
-        "frictab_tau_R")(x[0], x[1], x[2], x[3], x[4], x[5], x.at(6));
-  }
+  double tau(const Row& x) const { return call("frictab_tau_R", x); }
 
   double gradient(const Row& x, Row& slopes) const {
     slopes.assign(x.size(), -1);
-    if (x.size() == 6)
-      return library_->find<double(double, double, double, double, double, double, double*)>(
-          "frictab_tau_R_gradient")(x[0], x[1], x[2], x[3], x[4], x[5], slopes.data());
-    return library_->find<double(double, double, double, double, double, double, double, double*)>(
-        "frictab_tau_R_gradient")(x[0], x[1], x[2], x[3], x[4], x[5], x.at(6), slopes.data());
+    return call("frictab_tau_R_gradient", x, slopes.data());
   }
 
   const Library& library() const { return *library_; }
 
 private:
+  template <std::size_t> using Number = double;
+
+  template <class... More> double call(const char* name, const Row& x, More... more) const {
+    const auto with = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return library_->find<double(Number<I>..., More...)>(name)(x[I]..., more...);
+    };
+    switch (x.size()) {
+    case 6:
+      return with(std::make_index_sequence<6>{});
+    case 7:
+      return with(std::make_index_sequence<7>{});
+    case 15:
+      return with(std::make_index_sequence<15>{});
+    default:
+      throw std::logic_error("a call of " + std::to_string(x.size()) + " arguments is not written");
+    }
+  }
+
   Table table_;
   ExportRequest request_;
   std::vector<InputArgument> arguments_;

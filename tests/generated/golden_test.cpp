@@ -24,7 +24,8 @@ const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "tests/data/golden";
 // are properties, history of a contact point, a column that is not canonical.
 bool kept(const Exporter& exporter, const test::NamedTable& sample) {
   static const std::set<std::string> whole = {"c", "fortran"};
-  static const std::set<std::string> tables = {"branching", "four_axes", "traced"};
+  static const std::set<std::string> tables = {"branching", "four_axes", "traced",
+                                               "further_histories"};
   return whole.count(exporter.name) || tables.count(sample.name);
 }
 

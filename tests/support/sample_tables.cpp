@@ -118,6 +118,25 @@ Table traced_table() {
   return table;
 }
 
+Table further_histories_table() {
+  Table table;
+  table.model = "further";
+  table.axes = {axis("energy", false, {0, 300, 2000})};
+  table.axes[0].unit = "MPa mm";
+  fill(table, 0.03, 0.3);
+  const auto x = [](const char* name, double gain) { return Expr(gain) * Expr::symbol(name); };
+  table.combine = Expr::symbol("sigma_n_MPa") *
+                  (Expr::symbol("value") + x("friction_power", 1e-4) + x("time_since_start", 2e-4) +
+                   x("dwell", 3e-4) + x("mean_sigma_n", 1e-4) + x("mean_v_rel", 2e-4) +
+                   x("mean_T_contact", 3e-4) + x("peak_v_rel", 1e-4) + x("peak_T_contact", 2e-4));
+  for (const std::string& name : table.inputs()) {
+    if (name == "energy" || name == "sigma_n_MPa") continue;
+    table.number_attributes["range_low_" + name] = 100;
+    table.number_attributes["range_high_" + name] = 1000;
+  }
+  return table;
+}
+
 Table spline_table() {
   Table table;
   table.model = "spline";
@@ -214,12 +233,17 @@ Table history_table() {
 }
 
 const std::vector<NamedTable>& sample_tables() {
-  static const std::vector<NamedTable> tables = {
-      {"constant", constant_table()},       {"one_axis", one_axis_table()},
-      {"four_axes", four_axis_table()},     {"branching", branching_table()},
-      {"traced", traced_table()},           {"spline", spline_table()},
-      {"spline_axis", spline_axis_table()}, {"sides", sides_table()},
-      {"direct", direct_table()},           {"direct_network", direct_network()}};
+  static const std::vector<NamedTable> tables = {{"constant", constant_table()},
+                                                 {"one_axis", one_axis_table()},
+                                                 {"four_axes", four_axis_table()},
+                                                 {"branching", branching_table()},
+                                                 {"traced", traced_table()},
+                                                 {"further_histories", further_histories_table()},
+                                                 {"spline", spline_table()},
+                                                 {"spline_axis", spline_axis_table()},
+                                                 {"sides", sides_table()},
+                                                 {"direct", direct_table()},
+                                                 {"direct_network", direct_network()}};
   return tables;
 }
 

@@ -15,7 +15,10 @@ Table one_axis_table();  // psi, even nodes; the table is tau_R itself
 Table four_axis_table(); // log and linear, even and uneven nodes; ln value; shear limit
 Table branching_table(); // sliding distance; where, minimum, maximum, power, exp, constants
 Table traced_table();    // six axes, one of them a column that is not canonical
-Table spline_table();    // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
+// Every history that needs a state variable of its own, one of them an axis; neither speed nor
+// temperature is a state.
+Table further_histories_table();
+Table spline_table(); // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
 Table spline_axis_table(); // cubic, one axis
 
 Table sides_table();    // each way to go on beyond an end; uneven nodes; ln value

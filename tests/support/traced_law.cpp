@@ -22,6 +22,10 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "humidity") put("power", "humidity_pct", {0.3, 45}, 30, 60);
   if (which == "work") put("saturation", "friction_work", {-0.25, 400}, 0, 3000);
   if (which == "peak") put("linear", "peak_sigma_n", {0.2, 1500, 2000}, 500, 2750);
+  if (which == "energy") put("saturation", "energy", {-0.3, 4000}, 0, 30000);
+  if (which == "dwell") put("linear", "dwell", {-0.2, 1, 2}, 0, 2);
+  if (which == "warmth") put("linear", "mean_T_contact", {0.2, 100, 180}, 20, 200);
+  if (which == "fastest") put("linear", "peak_v_rel", {-0.1, 250, 500}, 5, 500);
   if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70, 50}, 20, 120);
   if (which == "tool") {
     put("category", "tool", {0.1, -0.15}, 0, 1);
@@ -56,6 +60,14 @@ Column scattered(const Dataset& data, const char* name, double low, double high)
   return column;
 }
 
+// 2 s per experiment.
+Column time(const Dataset& data) {
+  Column column{"time_s", "s", {}, {}};
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    column.values.push_back(2 * static_cast<double>(i % 40) / 39);
+  return column;
+}
+
 Column tool(const Dataset& data) {
   Column column{"tool", "", {}, {"A", "B", "C"}};
   for (std::size_t i = 0; i < data.rows(); ++i)
@@ -74,6 +86,7 @@ Dataset traced_data(const Model& truth) {
   for (Column& column : data.columns)
     for (std::size_t i = 0; column.name == "s_mm" && i < data.rows(); ++i)
       column.values[i] = 20 * static_cast<double>(i % 40) / 39;
+  data.columns.push_back(time(data));
   data.columns.push_back(scattered(data, "T_tool_C", 20, 120));
   data.columns.push_back(scattered(data, "humidity_pct", 30, 60));
   data.columns.push_back(tool(data));

@@ -11,8 +11,9 @@
 namespace frictab::test {
 
 // "humidity": a power of humidity_pct | "work": a saturation in friction_work | "tool": one factor
-// per tool A, B, C | "peak": linear in peak_sigma_n | "tool_heat": a hinge in T_tool_C. All act on
-// mu.
+// per tool A, B, C | "peak": linear in peak_sigma_n | "energy": a saturation in energy | "dwell",
+// "warmth", "fastest": linear in dwell, mean_T_contact, peak_v_rel | "tool_heat": a hinge in
+// T_tool_C. All act on mu.
 PlacedEffect traced_effect(const std::string& which);
 
 // log_coulomb_traced with these effects.
@@ -21,8 +22,8 @@ Model traced_model(const std::vector<std::string>& which);
 // Any law with any effects, named as its base with _traced.
 Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects);
 
-// 12 experiments of 40 rows: canonical states, T_tool_C, humidity_pct and tool (A, B, C in turn);
-// s_mm from 0 to 20; tau_R_MPa of the model.
+// 12 experiments of 40 rows: canonical states, time_s, T_tool_C, humidity_pct and tool (A, B, C in
+// turn); s_mm from 0 to 20; tau_R_MPa of the model.
 Dataset traced_data(const Model& truth);
 
 // The campaign as a file with text for its text columns.

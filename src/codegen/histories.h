@@ -1,0 +1,63 @@
+// Histories that a law takes beyond slip, friction work and peak pressure: a routine keeps state
+// variables for them, in the solver's units, where its law takes them and only there. Increment by
+// increment they are the sums that data/derived.h takes over rows, to first order in the increment:
+// integrals end before the present one, peaks include it, means are over the time under pressure
+// (over rows, where these are evenly spaced in time) and the present value over no time yet.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+#include "codegen/template.h"
+
+namespace frictab {
+
+// One state variable.
+struct HistoryState {
+  std::string unit;    // the solver's
+  std::string meaning; // "contact normal stress times time under pressure"
+  bool grows = true;   // a sum: its increments are small against it
+};
+
+// Those that these inputs (Source::history) need, in the order of SolverInput::history; behind them
+// the time that means are taken over, where no input is it.
+std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
+                                         std::string_view units);
+std::size_t history_count(const std::vector<SolverInput>& inputs);
+
+// "8 pressure times slip, summed (MPa mm)", the first with that number.
+std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first);
+
+// True for a history that needs a state variable of its own.
+bool is_further_history(const std::string& name);
+// Whether it follows the contact temperature, which the routine then has to know as well.
+bool follows_temperature(const std::string& name);
+
+namespace fortran {
+
+// Adds to the values of a source in fixed form: flag has_histories; texts n_histories, past_now
+// ("x(5)" or a zero: the temperature now) and past_text, the units
+//   ftpast(h, p, v, t, x): those states x (canonical) from the state variables h before the
+//     increment and the present pressure and speed (solver's units) and temperature (degC),
+//   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;
+//     pmax is the peak pressure so far, tau the frictional stress,
+//   ftlive(h, p, v, t, dy, dp, dv, dt), with `gradient`: adds to the derivatives of tau_R by
+//     pressure, speed and temperature (canonical) what peaks and new means add.
+// Empty where the law has none. NaN in gives NaN where it is used.
+void add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
+                   std::string_view units, bool gradient);
+
+} // namespace fortran
+
+// The state variables (solver's units) at which a row's histories are what its columns say.
+std::vector<double> history_values(const std::vector<SolverInput>& inputs,
+                                   std::span<const double* const> columns, std::size_t row);
+
+// Whether there are such ones: a peak is not below the present value (0 where the law does not take
+// it and it is no constant), and a mean needs time.
+bool history_posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
+                   std::size_t row);
+
+} // namespace frictab
