@@ -21,6 +21,7 @@ using Eigen::VectorXf;
 
 constexpr double least_left = 0.002; // of a direction, behind what fitted parameters imitate
 constexpr std::uint64_t flip_stream = 71;
+constexpr float least_variance = 1; // that of the noise model
 
 // (I - H_ee)^-1/2 r, H_ee = Q_e Q_e': the residual as if its own experiment had not been fitted.
 void unshrink(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
@@ -97,7 +98,7 @@ public:
       found.absorbed = true;
       return found;
     }
-    found.maxima = (signs_ * found.scores).cwiseAbs().rowwise().maxCoeff();
+    studentise(found);
     return found;
   }
 
@@ -134,20 +135,18 @@ private:
     std::vector<Direction> kept;
     found.scores.resize(scores.rows(), scores.cols());
     for (Index c = 0; c < scores.cols(); ++c) {
-      const float spread = scores.col(c).norm();
-      if (!(size(c) * size(c) > least_left * before(c) * before(c)) || !(spread > 0)) continue;
+      if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
+        continue;
       Direction direction = found.directions[static_cast<std::size_t>(c)];
       direction.size = size(c);
-      const float by = denominator(size(c), spread);
-      found.scores.col(static_cast<Index>(kept.size())) = scores.col(c) / by;
-      direction.statistic = scores.col(c).sum() / by;
+      found.scores.col(static_cast<Index>(kept.size())) = scores.col(c) / size(c);
       kept.push_back(direction);
     }
     found.scores.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
     found.directions = std::move(kept);
   }
 
-  static float denominator(float size, float spread);
+  void studentise(CauseScores& found) const;
 
   const ScreenInput& in_;
   MatrixXf q_, signs_;
@@ -155,10 +154,23 @@ private:
   std::array<VectorXf, 3> sensitivity_;
 };
 
-// The larger of what the noise model and what the experiments themselves say: where some
-// experiments scatter more than others, directions that live on them do not win by that.
-float Screening::denominator(float size, float spread) {
-  return std::max(size, spread);
+// A sum of scores over the larger of what the noise model and what the experiments themselves say
+// of its standard deviation: where some experiments scatter more than others, directions that live
+// on them do not win by that. What the sum itself explains is no scatter, in the flips as in the
+// truth.
+void Screening::studentise(CauseScores& found) const {
+  const auto experiments = static_cast<float>(found.scores.rows());
+  found.maxima = VectorXf::Zero(signs_.rows());
+  const MatrixXf sums = signs_ * found.scores;
+  for (Index c = 0; c < sums.cols(); ++c) {
+    const float total = found.scores.col(c).squaredNorm(), sum = found.scores.col(c).sum();
+    found.directions[static_cast<std::size_t>(c)].statistic =
+        sum / std::sqrt(std::max(total - sum * sum / experiments, least_variance));
+    const auto squares = sums.col(c).array().square();
+    found.maxima = found.maxima.cwiseMax(
+        (squares / (total - squares / experiments).max(least_variance)).matrix());
+  }
+  found.maxima = found.maxima.cwiseSqrt();
 }
 
 } // namespace
