@@ -64,9 +64,9 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
     lines.push_back(
         fmt::format("The law needs {}(3):{}the present pressure.", routine.state_name, absent));
   if (uses(inputs, Source::history))
-    lines.push_back(fmt::format("The law needs {0}({1}) and on:{2}nothing so far: integrals 0, "
-                                "peaks and means what they are of now.",
-                                routine.state_name, explicit_states + 1, absent));
+    lines.push_back(fmt::format("The law needs {}({}) and on: with a smaller DEPVAR "
+                                "integrals are 0, peaks and means the present value.",
+                                routine.state_name, explicit_states + 1));
   lines.push_back(fmt::format("NaN in gives NaN out; such a point's {} stay as they were. A point "
                               "without area has no pressure to look up, and no friction.",
                               routine.state_name));
@@ -90,9 +90,10 @@ void add_past(TemplateValues& values, const ExportRequest& request,
     grows.push_back(states[i].grows ? "1" : "0");
     if (!states[i].grows) continue;
     sums.emplace_back();
-    sums.back().text = {{"add", std::to_string(5 + i)}, {"hist", std::to_string(4 + i)}};
+    sums.back().text = {{"number", std::to_string(1 + i)}};
   }
   values.text["grows"] = join(grows, ",");
+  values.text["n_histories"] = std::to_string(states.size());
   values.text["n_states"] = std::to_string(state_count(inputs));
   values.text["before_rest"] = std::to_string(explicit_states + states.size());
 }
@@ -192,7 +193,8 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "with DEPVAR=4 a slip in steps of 1e-6 mm stops growing at 32 mm), each by {}. A law with "
       "friction_work or peak_sigma_n takes it from {}: slip and peak include the present "
       "increment, work ends before it; further histories of a traced law (energy, times, means, "
-      "peaks, friction power) take two state variables each. Beyond a side with outside = error "
+      "peaks, friction power) take two state variables each, their times are the solver's seconds, "
+      "which time scaling changes. Beyond a side with outside = error "
       "the routine ends the "
       "analysis through XPLB_ABQERR and names state and value: a NaN force would spread before "
       "anybody sees it. Works with the single- and the double-precision solver; table and "

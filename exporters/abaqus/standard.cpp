@@ -113,7 +113,6 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
       numbered(history_states(inputs, request.units), gives.before_histories + 1));
   values.flags["knows_temperature"] = uses(inputs, Source::temperature);
   fortran::add_histories(values, inputs, request.units, true);
-  values.text.erase("n_histories");
   return unknown;
 }
 

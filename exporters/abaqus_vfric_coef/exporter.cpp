@@ -43,7 +43,8 @@ std::vector<std::string> remarks(const ExportRequest& request) {
                   stress.from_canonical(least_pressure), stress.name,
                   stress.from_canonical(least_pressure), stress.name),
       "fCoefDeriv is set to 0: the explicit solver builds no tangent.",
-      "No state variables: sliding distance, work and peak pressure are properties or fields, and "
+      "No state variables: sliding distance, work, peak pressure and every other history are "
+      "properties or fields, and "
       "states outside the range are not counted.",
       "NaN in gives NaN out."};
   if (fortran::refuses(request.table))

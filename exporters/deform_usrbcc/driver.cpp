@@ -33,7 +33,8 @@ public:
     call_.user_variables = static_cast<int>(state_count(inputs_));
     for (const SolverInput& input : inputs_)
       call_.user_variables = std::max(call_.user_variables, static_cast<int>(input.field));
-    call_.temperature[0] = call_.temperature[1] = 0; // of laws that follow it without taking it
+    // Of laws whose histories follow them without taking them.
+    call_.temperature[0] = call_.temperature[1] = contact_->sliding_speed = 0;
     call_.nodal.assign(2 * static_cast<std::size_t>(call_.user_variables), 0.0);
   }
 

@@ -35,8 +35,19 @@ const char* result_name(Coefficient kind) {
 void add_further(TemplateValues& values, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs) {
   fortran::add_histories(values, inputs, request.units, false);
-  values.lists["further"] =
-      fortran::comments(numbered(history_states(inputs, request.units), first_three + 1));
+  values.text["n_histories"] = std::to_string(history_count(inputs));
+  values.lists["further"] = fortran::comments(
+      numbered(history_states(inputs, request.units), first_three + 1, "USRNOD({})"));
+}
+
+// What FTUPD takes for the temperature, as the job says; by default the node's own.
+std::string node_temperature(const std::vector<SolverInput>& inputs) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].argument.name != "T_contact_C") continue;
+    if (inputs[i].source == Source::constant) return fmt::format("cst({})", i + 1);
+    if (inputs[i].source == Source::field) return fmt::format("usrn1({})", inputs[i].field);
+  }
+  return "tempn";
 }
 
 std::string result_text(Coefficient kind, const std::string& stress) {
@@ -130,6 +141,10 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["core"] =
       fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
   values.flags["histories"] = takes_history(inputs);
+  Lines& warmest = values.lists["warmest"];
+  for (const std::size_t state : peak_temperatures(inputs))
+    warmest.push_back(item(std::to_string(state)));
+  values.flags["has_warmest"] = !warmest.empty();
   values.text["n_states"] = std::to_string(state_count(inputs));
   add_further(values, request, inputs);
   values.flags["uses_peak"] = uses(inputs, Source::peak_pressure);
@@ -144,6 +159,8 @@ std::string usrupd_source(const ExportRequest& request, const std::vector<Solver
                  {"stress", solver_unit("MPa", request.units).name}};
   add_further(all, request, inputs);
   values.text["n_histories"] = all.text.at("n_histories");
+  values.text["node_temperature"] = node_temperature(inputs);
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.flags = all.flags;
   values.lists = all.lists;
   return render_template("deform_usrbcc/frictab_usrupd.f", values);

@@ -48,7 +48,9 @@ json history(const Table& table, std::string_view units, const std::vector<Solve
               one(2, stress + "*" + length, "friction work per area"),
               one(3, stress, "peak pressure")};
   if (state_count(table, inputs) >= 4)
-    out.push_back(one(4, "1", "cycles in which the state was outside the range"));
+    out.push_back(
+        one(4, "1",
+            table.axes.empty() ? "not used" : "cycles in which the state was outside the range"));
   const std::vector<HistoryState> further = history_states(inputs, units);
   for (const HistoryState& state : further)
     out.push_back(one(out.size() + 1, state.unit, state.meaning));

@@ -45,6 +45,7 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   const std::size_t before_rest = before_histories + history_count(inputs);
   fortran::add_histories(values, inputs, request.units, false);
   values.text["n_history"] = std::to_string(state_count(table, inputs));
+  values.text["n_histories"] = std::to_string(history_count(inputs));
   values.text["before_rest"] = std::to_string(before_rest);
   values.text["first_rest"] = std::to_string(before_rest + 1);
   values.lists["histories"] =

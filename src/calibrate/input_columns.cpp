@@ -19,7 +19,9 @@ namespace {
 constexpr double settled = 1e-12; // relative change between two rounds
 constexpr int plain_rounds = 20, most_rounds = 80;
 
+// (A column that has the name of a history is not it.)
 const Column* recorded(const std::string& name, const Dataset& data) {
+  if (find_derived(name)) return nullptr;
   if (const Column* column = data.find(name)) return column;
   for (const Column& column : data.columns)
     if (symbol_of(column.name) == name) return &column;
@@ -35,7 +37,7 @@ std::vector<std::string> lacks(const DerivedQuantity& derived, const Dataset& da
 }
 
 bool follows_tau(const std::string& name, const Dataset& data) {
-  const DerivedQuantity* derived = recorded(name, data) ? nullptr : find_derived(name);
+  const DerivedQuantity* derived = find_derived(name);
   return derived && std::count(derived->needs.begin(), derived->needs.end(), "tau") > 0;
 }
 

@@ -15,8 +15,9 @@ namespace frictab {
 // (from s_mm)".
 std::vector<std::string> missing_inputs(const std::vector<std::string>& names, const Dataset& data);
 
-// A recorded column is found by its name or by its symbol_of; else the input is a derived quantity
-// (data/derived.h). Numbers of a text column are those of the law's levels, whatever the file's.
+// An input with the name of a derived quantity (data/derived.h) is that, whatever is recorded; any
+// other is a recorded column, found by its name or by its symbol_of. Numbers of a text column are
+// those of the law's levels, whatever the file's.
 class InputColumns {
 public:
   // The data must outlive this. Throws InputError that names all inputs the data do not have, and

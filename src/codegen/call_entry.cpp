@@ -12,7 +12,8 @@ namespace frictab {
 
 namespace {
 
-// At most this many arguments behind the contract's six.
+// Arguments that a call can have: the contract's six and 18 columns and histories of traced
+// effects.
 constexpr std::size_t most_arguments = 24;
 
 template <std::size_t> using Number = double;

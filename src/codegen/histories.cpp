@@ -18,12 +18,12 @@ using C = Continuation;
 
 constexpr double zero_celsius = 273.15; // K: a peak is kept above absolute zero, 0 stands for none
 
-const DerivedQuantity& of(const SolverInput& input) {
-  return *find_derived(input.argument.name);
+const Continuation& continuation(const SolverInput& input) {
+  return find_derived(input.argument.name)->continuation;
 }
 
 bool is(const SolverInput& input, C::Rule rule) {
-  return input.source == Source::history && of(input).continuation.rule == rule;
+  return input.source == Source::history && continuation(input).rule == rule;
 }
 
 // Number of the state variable that holds the time under pressure, from 1; 0: there is none.
@@ -47,7 +47,7 @@ const char* name_of(C::Of of) {
 }
 
 HistoryState state_of(const SolverInput& input, std::string_view units) {
-  const Continuation how = of(input).continuation;
+  const Continuation how = continuation(input);
   switch (how.rule) {
   case C::mean:
     return {how.of == C::speed ? solver_unit("mm", units).name
@@ -57,7 +57,8 @@ HistoryState state_of(const SolverInput& input, std::string_view units) {
     if (how.of == C::temperature) return {"K", "peak temperature; 0: none yet", false};
     return {input.argument.solver.name, fmt::format("peak {}", name_of(how.of)), false};
   case C::last:
-    return {input.argument.solver.name, "friction power per area in the last increment", false};
+    return {input.argument.solver.name,
+            "friction power per area in the last increment under pressure", false};
   case C::per_slip:
     return {input.argument.solver.name, "pressure times slip, summed"};
   case C::dwell:
@@ -73,7 +74,7 @@ const char* argument(C::Of of) {
 }
 
 TemplateValues filled(const SolverInput& input, std::size_t index, std::size_t time) {
-  const Continuation how = of(input).continuation;
+  const Continuation how = continuation(input);
   TemplateValues values;
   const std::string shift =
       how.rule == C::peak && how.of == C::temperature ? fortran_number(zero_celsius) : "";
@@ -117,7 +118,7 @@ double present(C::Of of, const std::vector<SolverInput>& inputs,
 
 bool is_further_history(const std::string& name) {
   const DerivedQuantity* derived = find_derived(name);
-  return derived && derived->continuation.rule != C::none && !is_always_kept(name);
+  return derived && derived->continuation.rule != C::none && !derived->continuation.always;
 }
 
 bool follows_temperature(const std::string& name) {
@@ -133,11 +134,22 @@ std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
   return states;
 }
 
-std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first) {
+std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first,
+                                  const std::string& pattern) {
   std::vector<std::string> lines;
   for (const HistoryState& state : states)
-    lines.push_back(fmt::format("{} {} ({})", first + lines.size(), state.meaning, state.unit));
+    lines.push_back(fmt::format("{} {} ({})",
+                                fmt::format(fmt::runtime(pattern), first + lines.size()),
+                                state.meaning, state.unit));
   return lines;
+}
+
+std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& inputs) {
+  std::vector<std::size_t> states;
+  for (const SolverInput& input : inputs)
+    if (is(input, C::peak) && continuation(input).of == C::temperature)
+      states.push_back(input.history);
+  return states;
 }
 
 std::size_t history_count(const std::vector<SolverInput>& inputs) {
@@ -148,13 +160,12 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
                             std::string_view units, bool gradient) {
   const std::vector<HistoryState> states = history_states(inputs, units);
   values.flags["has_histories"] = !states.empty();
-  values.text["n_histories"] = std::to_string(states.size());
   values.text["past_now"] = "0.0D0";
   values.text["past_text"] = "";
   if (states.empty()) return;
   TemplateValues own;
   const std::size_t time = time_state(inputs);
-  own.flags = {{"gradient", gradient}, {"has_time", time > 0}};
+  own.flags = {{"gradient", gradient}, {"time_of_its_own", time > 0}};
   for (const auto& [flag, rule] :
        {std::pair{"has_mean", C::mean}, {"has_peak", C::peak}, {"has_dwell", C::dwell}})
     own.flags[flag] = std::any_of(inputs.begin(), inputs.end(),
@@ -163,7 +174,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
     const SolverInput& input = inputs[i];
     if (input.argument.name == "T_contact_C") values.text["past_now"] = fmt::format("x({})", i + 1);
     if (input.source != Source::history) continue;
-    if (is(input, C::per_time)) own.flags["has_time"] = false; // it is a state itself
+    if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
     own.lists["inputs"].push_back(filled(input, i + 1, time));
   }
   own.text = {{"n", std::to_string(states.size())}, {"time", std::to_string(time)}};
@@ -183,17 +194,19 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
     double& value = values[input.history - 1];
     value = input.argument.solver.from_canonical(columns[c][row]);
     if (is(input, C::mean)) value *= values[time - 1];
-    if (is(input, C::peak) && of(input).continuation.of == C::temperature) value += zero_celsius;
+    if (is(input, C::peak) && continuation(input).of == C::temperature) value += zero_celsius;
   }
   return values;
 }
 
 bool history_posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
                    std::size_t row) {
-  const double* time = column_of("time_since_start", inputs, columns);
+  const double* time = nullptr;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (is(inputs[c], C::per_time)) time = columns[c];
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (inputs[c].source != Source::history) continue;
-    const Continuation how = of(inputs[c]).continuation;
+    const Continuation how = continuation(inputs[c]);
     if (how.rule == C::mean && time && !(time[row] > 0)) return false;
     if (how.rule == C::peak && columns[c][row] < present(how.of, inputs, columns, row))
       return false;

@@ -1,8 +1,9 @@
 // Histories that a law takes beyond slip, friction work and peak pressure: a routine keeps state
-// variables for them, in the solver's units, where its law takes them and only there. Increment by
-// increment they are the sums that data/derived.h takes over rows, to first order in the increment:
-// integrals end before the present one, peaks include it, means are over the time under pressure
-// (over rows, where these are evenly spaced in time) and the present value over no time yet.
+// variables for them, in the solver's units, where its law takes them and only there. To first
+// order in the increment they are what data/derived.h takes along rows. Integrals and means end
+// before the present increment, peaks include it. Means are over the time under pressure, which is
+// a mean over rows where these are evenly spaced in time; in the first increment of a contact they
+// are the present value.
 #pragma once
 
 #include <span>
@@ -27,8 +28,12 @@ std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
                                          std::string_view units);
 std::size_t history_count(const std::vector<SolverInput>& inputs);
 
-// "8 pressure times slip, summed (MPa mm)", the first with that number.
-std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first);
+// "8 pressure times slip, summed (MPa mm)", the first with that number; `pattern` writes it.
+std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first,
+                                  const std::string& pattern = "{}");
+
+// Numbers of those that are 0 K where there was no contact yet: no value to take a mean with.
+std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& inputs);
 
 // True for a history that needs a state variable of its own.
 bool is_further_history(const std::string& name);
@@ -37,8 +42,8 @@ bool follows_temperature(const std::string& name);
 
 namespace fortran {
 
-// Adds to the values of a source in fixed form: flag has_histories; texts n_histories, past_now
-// ("x(5)" or a zero: the temperature now) and past_text, the units
+// Adds to the values of a source in fixed form: flag has_histories; texts past_now ("x(5)" or a
+// zero: the temperature now) and past_text, the units
 //   ftpast(h, p, v, t, x): those states x (canonical) from the state variables h before the
 //     increment and the present pressure and speed (solver's units) and temperature (degC),
 //   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;

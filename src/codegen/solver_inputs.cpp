@@ -122,7 +122,8 @@ public:
     case Source::constant:
       return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
     case Source::history:
-      return fmt::format(fmt::runtime(given_->text), gives_.before_histories + input_.history) +
+      return "from " +
+             fmt::format(fmt::runtime(given_->text), gives_.before_histories + input_.history) +
              ", " + meaning_of(input_.argument.name).text;
     default:
       return given_->text + (given_->without.empty()

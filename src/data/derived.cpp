@@ -75,13 +75,17 @@ Rule two(DerivedQuantity quantity, void (*rule)(Rows, Rows, Out)) {
 const std::vector<Rule>& rules() {
   using C = Continuation;
   static const std::vector<Rule> all = {
-      one({"sliding_distance", "mm", "sliding distance so far", {"s_mm"}, {C::per_slip, C::one}},
+      one({"sliding_distance",
+           "mm",
+           "sliding distance so far",
+           {"s_mm"},
+           {C::per_slip, C::one, true}},
           since_start),
       two({"friction_work",
            "MPa mm",
            "friction work per area so far, integral of tau ds",
            {"tau", "s_mm"},
-           {C::per_slip, C::tau}},
+           {C::per_slip, C::tau, true}},
           integrate),
       two({"energy",
            "MPa mm",
@@ -111,7 +115,7 @@ const std::vector<Rule>& rules() {
            "MPa",
            "highest contact normal stress so far",
            {"sigma_n_MPa"},
-           {C::peak, C::pressure}},
+           {C::peak, C::pressure, true}},
           running_peak),
       one({"mean_sigma_n",
            "MPa",
@@ -161,10 +165,6 @@ const DerivedQuantity* find_derived(std::string_view name) {
   for (const DerivedQuantity& quantity : derived_quantities())
     if (quantity.name == name) return &quantity;
   return nullptr;
-}
-
-bool is_always_kept(std::string_view derived) {
-  return derived == "sliding_distance" || derived == "friction_work" || derived == "peak_sigma_n";
 }
 
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,

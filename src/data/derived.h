@@ -24,6 +24,7 @@ struct Continuation {
   enum Of { one, pressure, speed, temperature, tau, power };
   Rule rule = none;
   Of of = one;
+  bool always = false; // routines with state variables keep it for every law
 };
 
 // `needs` lists columns; "tau" stands for a model's shear stress. Never derive a history from
@@ -38,9 +39,6 @@ struct DerivedQuantity {
 
 std::span<const DerivedQuantity> derived_quantities();
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none
-
-// Slip, friction work and peak pressure: routines with state variables keep these for every law.
-bool is_always_kept(std::string_view derived);
 
 // One value per row; integrals by the trapezoidal rule, starting at 0 in every experiment. `tau` is
 // the model's shear stress per row (unused by most). The data must have what `needs` lists.

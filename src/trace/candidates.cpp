@@ -138,6 +138,12 @@ private:
       if (column.name != "run_order") add_column(column.name, {column.name}, false, column.values);
       return false;
     }
+    if (find_derived(symbol_of(column.name))) {
+      found_.notes.push_back(column.name + " has the name of a history that frictab computes "
+                                           "itself: the column is left out; another name lets it "
+                                           "be tried");
+      return false;
+    }
     if (is_constant(column.values)) {
       found_.constant.push_back(column.name);
       return false;
@@ -256,7 +262,7 @@ int complexity(const Cause& cause, const Candidates& candidates) {
   if (cause.pair()) return 4;
   const CandidateColumn& column = candidates.columns[cause.column];
   if (!column.derived) return 0;
-  return is_always_kept(column.name) ? 1 : 2; // others need a state variable more
+  return find_derived(column.name)->continuation.always ? 1 : 2; // a state variable more
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {

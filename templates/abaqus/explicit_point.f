@@ -26,7 +26,7 @@ C     is no sum add is the value itself.
       external ftqnan, ftstop
 @end
 @if has_histories
-      double precision pmax
+      double precision pmax, from(@{n_histories})
 @end
       lkeep = .false.
       do i = 1, @{n_add}
@@ -96,11 +96,14 @@ C       and the force now, times its slip.
 @if has_histories
         pmax = hist(3)
         if (.not. ftnan(pmax)) pmax = max(pmax, press)
-        call ftnext(hist(4), press, speed, @{past_now}, pmax, fric/area,
-     &    slip, dtime, add(5))
+        do i = 1, @{n_histories}
+          from(i) = hist(3+i)
+        end do
 @for sum in sums
-        add(@{sum.add}) = add(@{sum.add}) - hist(@{sum.hist})
+        from(@{sum.number}) = 0.0D0
 @end
+        call ftnext(from, press, speed, @{past_now}, pmax, fric/area,
+     &    slip, dtime, add(5))
 @end
       end if
       return

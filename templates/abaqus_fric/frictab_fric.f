@@ -391,8 +391,8 @@ C
 @end
         s1(7) = amu
 @if has_histories
-        call ftnext(s0(8), p, speed, @{past_now}, s1(3), flim, ds,
-     &    dtime, s1(8))
+        call ftnext(s0(8), p, speed, @{past_now}, s1(3), gain*gtn,
+     &    ds, dtime, s1(8))
 @end
         call ftkeep(statev, kstep, kinc, s0, s1)
       end if

@@ -117,7 +117,8 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
 @end
 @if has_histories
 C     What histories add to the derivatives by speed and temperature
-      double precision hv, ht
+      double precision hv, ht, dtime
+      parameter (i_rfc_DTimCur = 3)
 @end
       parameter (zero = 0.0D0)
 C
@@ -167,6 +168,10 @@ C       than 1D30 is as good as infinite.
         peval = @{pmin}
         if (ftnan(p)) y = p
         if (ftnan(rate)) y = rate
+@if has_histories
+        dtime = rData(i_rfc_DTimCur)
+        if (ftnan(dtime)) y = dtime
+@end
 @if new
         if (ftnan(s)) y = s
         do i = 1, @{n_states}
@@ -307,9 +312,8 @@ C           The coefficient that the last increment left
             if (p .gt. zero)
      &        s1(1) = s0(1) + amu*p*max(s - s0(5), zero)
 @if has_histories
-C           rData(3): time increment
             if (p .gt. zero) call ftnext(s0(6), p, rate, @{past_now},
-     &        s1(2), amu*p, max(s - s0(5), zero), rData(3), s1(6))
+     &        s1(2), amu*p, max(s - s0(5), zero), dtime, s1(6))
 @end
             call ftkeep(rData(i_rfc_StateV), iData(i_ifc_KStep),
      &        iData(i_ifc_KInc), s0, s1)

@@ -25,12 +25,12 @@ C     with rigid dies both are not what the law needs.
 @if histories
 C     USRNOD(1..3) of a node: accumulated slip (@{length}), friction
 C     work per area (@{stress}*@{length}), peak pressure (@{stress}),
+@for line in further
+C     @{line.text},
+@end
 C     kept by FTUPD (frictab_usrupd.f), which USRUPD has to call once
 C     per converged step: the law sees them one step late. With fewer
 C     than @{n_states} user variables per node they count as 0.
-@for line in further
-C     @{line.text}
-@end
 @end
 C     What DEFORM does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Nothing is read from files
@@ -64,8 +64,12 @@ C
       external ftnan, ftstop, ftqnan
 @end
 @if has_histories
-      double precision h(@{n_histories})
+      double precision h(@{n_histories}), h2(@{n_histories})
       integer i
+@if has_warmest
+      double precision ftmost
+      external ftmost
+@end
 @end
 C
       if (imode .ne. 1) return
@@ -121,8 +125,19 @@ C     @{in.comment}
 @if has_histories
       do i = 1, @{n_histories}
         h(i) = 0.0D0
-        if (nusrn .ge. @{n_states})
-     &    h(i) = 0.5D0*(usrnod(3+i,node1) + usrnod(3+i,node2))
+        h2(i) = 0.0D0
+        if (nusrn .ge. @{n_states}) then
+          h(i) = usrnod(3+i,node1)
+          h2(i) = usrnod(3+i,node2)
+        end if
+      end do
+@for state in warmest
+C     K; a node that was never in contact is as warm as now.
+      h(@{state.text}) = ftmost(h(@{state.text}), @{past_now} + 273.15D0)
+      h2(@{state.text}) = ftmost(h2(@{state.text}), @{past_now} + 273.15D0)
+@end
+      do i = 1, @{n_histories}
+        h(i) = 0.5D0*(h(i) + h2(i))
       end do
       call ftpast(h, abs(press), speed, @{past_now}, x)
 @end

@@ -7,7 +7,7 @@ C     USRN2(1) accumulated slip while under pressure (@{length})
 C     USRN2(2) friction work per area (@{stress}*@{length})
 C     USRN2(3) peak pressure (@{stress})
 @for line in further
-C     USRN2: @{line.text}
+C     @{line.text}
 @end
 C     It acts at the end of a converged step (ISTATUS=1), so friction
 C     sees these values one step late. PRESR(1) is the tangential and
@@ -34,6 +34,7 @@ C
 @if has_histories
       double precision speed
       integer i
+@{common}
 @end
       logical ftnan
       external ftnan
@@ -61,10 +62,9 @@ C
         if (p .gt. usrn1(3)) usrn2(3) = p
       end if
 @if has_histories
-C     TEMPN: the node's temperature
       speed = abs(sldvel)
-      call ftnext(usrn1(4), p, speed, tempn, usrn2(3), abs(presr(1)),
-     &  slip, dtmaxc, usrn2(4))
+      call ftnext(usrn1(4), p, speed, @{node_temperature}, usrn2(3),
+     &  abs(presr(1)), slip, dtmaxc, usrn2(4))
 @end
       return
       end

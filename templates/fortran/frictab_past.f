@@ -48,7 +48,8 @@ C     frictional stress tau; pmax: the peak pressure so far.
 @for in in inputs
 C     @{in.comment}
 @if in.is_sum
-      h1(@{in.state}) = h(@{in.state}) + p*ds
+      h1(@{in.state}) = h(@{in.state})
+      if (ds .gt. 0.0D0) h1(@{in.state}) = h(@{in.state}) + p*ds
 @end
 @if in.is_time
       h1(@{in.state}) = h(@{in.state}) + dt
@@ -62,16 +63,18 @@ C     @{in.comment}
       end if
 @end
 @if in.is_mean
-      h1(@{in.state}) = h(@{in.state}) + @{in.of}*dt
+      h1(@{in.state}) = h(@{in.state})
+      if (dt .gt. 0.0D0) h1(@{in.state}) = h(@{in.state}) + @{in.of}*dt
 @end
 @if in.is_peak
       h1(@{in.state}) = ftmost(h(@{in.state}), @{in.of}@{in.above})
 @end
 @if in.is_last
-      h1(@{in.state}) = tau*v
+      h1(@{in.state}) = 0.0D0
+      if (v .gt. 0.0D0) h1(@{in.state}) = tau*v
 @end
 @end
-@if has_time
+@if time_of_its_own
 C     time that means are taken over
       h1(@{time}) = h(@{time}) + dt
 @end
@@ -113,13 +116,15 @@ C     The larger of both; NaN where one is.
 C
 @end
 @if has_mean
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

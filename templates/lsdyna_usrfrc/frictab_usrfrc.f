@@ -28,13 +28,16 @@ C     which the state was outside the range.
 @else
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}).
 @end
+@if has_histories
 @for line in histories
 C     @{line.text}
 @end
-@if has_histories
 C     from @{first_rest} on: what the solver's precision rounds off them.
-@end
+C     With fewer the missing ones of 1 to 3 count as 0, and of those
+C     behind them integrals as 0, peaks and means as the present value.
+@else
 C     With fewer the missing ones count as 0.
+@end
 C
 C     LS-DYNA leaves the friction force to this routine: the force
 C     that would hold the node (old force and stiffness times relative
@@ -88,6 +91,7 @@ C
 @end
 @if has_histories
       double precision past(@{n_histories}), next(@{n_histories}), dtime
+      double precision part, lost
 @end
       integer i, ii, j, kk
 C
@@ -249,9 +253,12 @@ C             Work: mean of the force before and the force now.
      &            fric/area, slip, dtime, next)
                 do i = 1, @{n_histories}
                   ufhist(4+i,j) = real(next(i), kind(ufhist))
-                  if (.not. ftnan(next(i)))
-     &              next(i) = next(i) - ufhist(4+i,j)
-                  ufhist(@{before_rest}+i,j) = real(next(i), kind(ufhist))
+                  part = ufhist(4+i,j)
+                  lost = 0.0D0
+                  if (.not. ftnan(part)) then
+                    if (abs(part) .lt. 1.0D300) lost = next(i) - part
+                  end if
+                  ufhist(@{before_rest}+i,j) = real(lost, kind(ufhist))
                 end do
               end if
 @end

@@ -21,6 +21,15 @@ namespace {
 
 using test::further_histories_table;
 
+// mu = 0.05 + 0.0001 history; the temperature now is no state of it.
+Table table_of(const char* history) {
+  Table table = test::constant_table();
+  table.value = {0.05};
+  table.combine =
+      Expr::symbol("sigma_n_MPa") * (Expr::symbol("value") + Expr(1e-4) * Expr::symbol(history));
+  return table;
+}
+
 struct Increment {
   double pressure, speed, time, temperature; // MPa, mm/s, s, degC
 };
@@ -71,17 +80,23 @@ public:
   double peak_speed = 0, peak_temperature = -273.15, peak_pressure = 0;
 };
 
-// What the solver's units are of MPa and of mm.
+// What the solver's units are of MPa and of mm; which table, and where its temperature comes from.
 struct Units {
   std::string name;
   double stress, length;
+  std::string table = "further";
+  std::string temperature = {};
 };
 const std::vector<Units> both_units = {{"mm-t-s", 1, 1}, {"m-kg-s", 1e6, 1e-3}};
 
 const Library& compiled(const std::string& target, const Units& units, const std::string& variant) {
-  static const Table table = further_histories_table();
-  return *test::compiled("further " + units.name, *find_exporter(target), {table, units.name, {}},
-                         variant, test::strict);
+  static const std::map<std::string, Table> tables = {{"further", further_histories_table()},
+                                                      {"mean", table_of("mean_T_contact")},
+                                                      {"peak", table_of("peak_T_contact")}};
+  std::map<std::string, std::string> inputs;
+  if (!units.temperature.empty()) inputs["T_contact_C"] = units.temperature;
+  return *test::compiled(units.table + units.name + units.temperature, *find_exporter(target),
+                         {tables.at(units.table), units.name, inputs}, variant, test::strict);
 }
 
 // One contact point of a target: tau_R (MPa) of the next increment.
@@ -307,6 +322,30 @@ TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   }
 }
 
+TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
+  Units units = both_units[0];
+  units.table = "mean";
+  TypeParam point(units);
+  const double bound = std::max(1e-10, frictab::bound<TypeParam>());
+  EXPECT_NEAR(point.step({500, 2, 0.5, 80}), 500 * 0.058, 29 * bound);
+  TypeParam spoilt = point;
+  EXPECT_TRUE(std::isnan(spoilt.step({500, 2, 0.5, test::nan})));
+  if (std::string(TypeParam::target) != "deform_usrbcc") { // whose USRUPD runs once it converged
+    EXPECT_NEAR(spoilt.step({500, 2, 0.5, 20}), 500 * 0.058, 29 * bound);
+  }
+  EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * 0.058, 29 * bound);
+  EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * 0.055, 29 * bound);
+}
+
+TYPED_TEST(FurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
+  TypeParam point(both_units[0]);
+  point.step({500, 0, 0.5, 80});
+  point.step({1e30, 0, 1e-30, 80});
+  point.step({1e30, 2, 0.5, 80});
+  for (int i = 0; i < 3; ++i)
+    EXPECT_FALSE(std::isnan(point.step({500, 2, 0.5, 80})));
+}
+
 TYPED_TEST(FurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
   static const Table table = further_histories_table();
   const auto recipe = nlohmann::json::parse(
@@ -318,7 +357,7 @@ TYPED_TEST(FurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
     unit_of[states[i].at("meaning")] = states[i].at("unit");
   }
   EXPECT_EQ(unit_of.at("pressure times slip, summed"), "Pa m");
-  EXPECT_EQ(unit_of.at("friction power per area in the last increment"), "Pa m/s");
+  EXPECT_EQ(unit_of.at("friction power per area in the last increment under pressure"), "Pa m/s");
   EXPECT_EQ(unit_of.at("pressure times time under pressure"), "Pa s");
   EXPECT_EQ(unit_of.at("sliding speed times time under pressure"), "m");
   EXPECT_EQ(unit_of.at("peak temperature; 0: none yet"), "K");
@@ -377,6 +416,44 @@ TEST(FurtherHistoriesOfFric, AreNothingSoFarWithFewerStateVariables) {
   for (int i = 0; i < 2; ++i)
     EXPECT_NEAR(point.step(path[1]), nothing.tau(path[1]), 1e-10 * nothing.tau(path[1]));
   EXPECT_THAT(point.c.state, testing::Each(0));
+}
+
+TEST(FurtherHistoriesOfFric, CountTheStressThatASticksPointHas) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  Fric point(both_units[0]);
+  point.c.properties = {1}; // mm: all of the motion is elastic
+  const double tau = point.step({800, 0.02, 0.5, 60});
+  EXPECT_GT(tau, 0);
+  EXPECT_LT(tau, 0.02 * Definition().tau({800, 0.02, 0.5, 60}));
+  const auto power = std::find_if(point.c.state.begin(), point.c.state.begin() + 16,
+                                  [&](double s) { return std::abs(s - tau * 0.02) < 1e-12; });
+  EXPECT_NE(power, point.c.state.begin() + 16);
+}
+
+TEST(FurtherHistoriesOfDeform, TakeTheTemperatureThatTheJobSays) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  Units units = both_units[0];
+  units.table = "mean";
+  units.temperature = "constant:90";
+  Usrbcc fixed(units);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NEAR(fixed.step({500, 2, 0.5, 20}), 500 * 0.059, 1e-10);
+  units.temperature = "field:9";
+  Usrbcc field(units);
+  field.c.nodal[8] = field.c.nodal[12 + 8] = 150;
+  EXPECT_NEAR(field.step({500, 2, 0.5, 20}), 500 * 0.065, 1e-10);
+  field.c.nodal[8] = field.c.nodal[12 + 8] = 20; // USRUPD writes it, now the mean counts
+  EXPECT_NEAR(field.step({500, 2, 0.5, 20}), 500 * 0.065, 1e-10);
+}
+
+TEST(FurtherHistoriesOfDeform, DoNotForgetAPeakBesideANodeThatWasNeverInContact) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  Units units = both_units[0];
+  units.table = "peak";
+  Usrbcc point(units);
+  point.step({500, 2, 0.5, 200});
+  std::fill(point.c.nodal.begin() + 12, point.c.nodal.end(), 0.0);
+  EXPECT_NEAR(point.step({500, 2, 0.5, 30}), 500 * (0.05 + 1e-4 * 0.5 * (200 + 30)), 1e-10);
 }
 
 TEST(FurtherHistoriesOfDeform, KeepAFieldFromTheirPlaces) {

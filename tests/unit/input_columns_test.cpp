@@ -111,6 +111,14 @@ TEST(InputColumns, FollowTheLawsOwnStressUntilNothingChanges) {
   EXPECT_EQ(predict(model, data), found.tau_MPa);
 }
 
+TEST(InputColumns, TakeAHistoryForWhatItIsWhateverIsRecordedUnderItsName) {
+  const Model model = test::traced_model({"energy"});
+  Dataset data = test::traced_data(model);
+  const std::vector<double> tau = predict(model, data);
+  data.columns.push_back({"energy", "", std::vector<double>(data.rows(), 7), {}});
+  EXPECT_EQ(predict(model, data), tau);
+}
+
 // d work/d s = p mu (1 + a work/w): work = (exp(p mu a s/w) - 1) w/a.
 TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
   PlacedEffect effect = test::traced_effect("work");

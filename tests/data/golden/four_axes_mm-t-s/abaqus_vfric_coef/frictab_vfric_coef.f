@@ -30,9 +30,9 @@ C
 C     Below 0.001 MPa (and out of contact) fCoef is tau_R/pressure at
 C       0.001 MPa: the limit, not 0/0.
 C     fCoefDeriv is set to 0: the explicit solver builds no tangent.
-C     No state variables: sliding distance, work and peak pressure are
-C       properties or fields, and states outside the range are not
-C       counted.
+C     No state variables: sliding distance, work, peak pressure and
+C       every other history are properties or fields, and states outside
+C       the range are not counted.
 C     NaN in gives NaN out.
 C
 C     Argument list:

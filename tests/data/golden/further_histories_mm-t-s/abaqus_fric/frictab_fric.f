@@ -14,24 +14,25 @@ C       0.0002*peak_T_contact)
 C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: PRESS; no axis, any value
-C     in_dwell: STATEV(8), time so far at no less than half the peak
-C       stress; 100 .. 1000 s (no axis: any value, verified there)
-C     in_energy: STATEV(9), load times sliding distance so far,
+C     in_dwell: from STATEV(8), time so far at no less than half the
+C       peak stress; 100 .. 1000 s (no axis: any value, verified there)
+C     in_energy: from STATEV(9), load times sliding distance so far,
 C       integral of sigma_N ds; 0 .. 2000 MPa mm
-C     in_friction_power: STATEV(10), friction power per area, tau v;
-C       100 .. 1000 MPa mm/s (no axis: any value, verified there)
-C     in_mean_T_contact: STATEV(11), mean contact temperature so far;
-C       100 .. 1000 degC (no axis: any value, verified there)
-C     in_mean_sigma_n: STATEV(12), mean contact normal stress so far;
-C       100 .. 1000 MPa (no axis: any value, verified there)
-C     in_mean_v_rel: STATEV(13), mean sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_peak_T_contact: STATEV(14), highest contact temperature so
+C     in_friction_power: from STATEV(10), friction power per area, tau
+C       v; 100 .. 1000 MPa mm/s (no axis: any value, verified there)
+C     in_mean_T_contact: from STATEV(11), mean contact temperature so
 C       far; 100 .. 1000 degC (no axis: any value, verified there)
-C     in_peak_v_rel: STATEV(15), highest sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_time_since_start: STATEV(16), time since the experiment's
-C       first row; 100 .. 1000 s (no axis: any value, verified there)
+C     in_mean_sigma_n: from STATEV(12), mean contact normal stress so
+C       far; 100 .. 1000 MPa (no axis: any value, verified there)
+C     in_mean_v_rel: from STATEV(13), mean sliding speed so far; 100
+C       .. 1000 mm/s (no axis: any value, verified there)
+C     in_peak_T_contact: from STATEV(14), highest contact temperature
+C       so far; 100 .. 1000 degC (no axis: any value, verified there)
+C     in_peak_v_rel: from STATEV(15), highest sliding speed so far;
+C       100 .. 1000 mm/s (no axis: any value, verified there)
+C     in_time_since_start: from STATEV(16), time since the
+C       experiment's first row; 100 .. 1000 s (no axis: any value,
+C       verified there)
 C     T_contact_C: mean of TEMP(1), TEMP(2); no axis, any value
 C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
@@ -57,7 +58,8 @@ C     7 coefficient tau_R/p, 17 the increment these belong to,
 C     18 to 33 numbers 1 to 16 at its start.
 C     8 time at no less than half of the peak pressure (s)
 C     9 pressure times slip, summed (MPa mm)
-C     10 friction power per area in the last increment (MPa mm/s)
+C     10 friction power per area in the last increment under pressure
+C       (MPa mm/s)
 C     11 temperature (degC) times time under pressure (degC s)
 C     12 pressure times time under pressure (MPa s)
 C     13 sliding speed times time under pressure (mm)
@@ -78,12 +80,12 @@ C       solver. Recalled, check against your release: STATEV hold the
 C       start of the increment in every iteration (the routine is right
 C       either way, as long as KSTEP and KINC number increments and a
 C       cutback keeps the number); TAU comes in as of the start of the
-C       increment (used only with DEPVAR below 15); DROT turns the
-C       components of state variables; TEMP(1), TEMP(2) and PREDEF(1,i),
-C       PREDEF(2,i) are those of the two surfaces; SFD is the work of
-C       the increment, SED the elastic energy; 0.005*CHRLNGTH is the
-C       solver's own slip tolerance. STDB_ABQERR (only where outside =
-C       error) is called as public routines do
+C       increment (used only where there are fewer state variables);
+C       DROT turns the components of state variables; TEMP(1), TEMP(2)
+C       and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD
+C       is the work of the increment, SED the elastic energy;
+C       0.005*CHRLNGTH is the solver's own slip tolerance. STDB_ABQERR
+C       (only where outside = error) is called as public routines do
 C
       subroutine fric(lm,tau,ddtddg,ddtddp,dslip,sed,sfd,
      1 ddtddt,pnewdt,statev,dgam,taulm,press,dpress,ddpddh,slip,
@@ -331,8 +333,8 @@ C
         s1(4) = s0(4)
         if (ftout(x)) s1(4) = s1(4) + 1.0D0
         s1(7) = amu
-        call ftnext(s0(8), p, speed, x(11), s1(3), flim, ds,
-     &    dtime, s1(8))
+        call ftnext(s0(8), p, speed, x(11), s1(3), gain*gtn,
+     &    ds, dtime, s1(8))
         call ftkeep(statev, kstep, kinc, s0, s1)
       end if
       return
@@ -439,15 +441,20 @@ C     dwell
         h1(1) = h(1) + dt
       end if
 C     energy
-      h1(2) = h(2) + p*ds
+      h1(2) = h(2)
+      if (ds .gt. 0.0D0) h1(2) = h(2) + p*ds
 C     friction_power
-      h1(3) = tau*v
+      h1(3) = 0.0D0
+      if (v .gt. 0.0D0) h1(3) = tau*v
 C     mean_T_contact
-      h1(4) = h(4) + t*dt
+      h1(4) = h(4)
+      if (dt .gt. 0.0D0) h1(4) = h(4) + t*dt
 C     mean_sigma_n
-      h1(5) = h(5) + p*dt
+      h1(5) = h(5)
+      if (dt .gt. 0.0D0) h1(5) = h(5) + p*dt
 C     mean_v_rel
-      h1(6) = h(6) + v*dt
+      h1(6) = h(6)
+      if (dt .gt. 0.0D0) h1(6) = h(6) + v*dt
 C     peak_T_contact
       h1(7) = ftmost(h(7), t + 273.15D0)
 C     peak_v_rel
@@ -484,13 +491,15 @@ C     The larger of both; NaN where one is.
       return
       end
 C
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

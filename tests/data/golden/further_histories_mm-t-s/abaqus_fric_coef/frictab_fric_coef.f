@@ -23,24 +23,28 @@ C       "2020".
 C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: pressure; no axis, any value
-C     in_dwell: state variable 6, time so far at no less than half the
-C       peak stress; 100 .. 1000 s (no axis: any value, verified there)
-C     in_energy: state variable 7, load times sliding distance so far,
-C       integral of sigma_N ds; 0 .. 2000 MPa mm
-C     in_friction_power: state variable 8, friction power per area,
-C       tau v; 100 .. 1000 MPa mm/s (no axis: any value, verified there)
-C     in_mean_T_contact: state variable 9, mean contact temperature so
-C       far; 100 .. 1000 degC (no axis: any value, verified there)
-C     in_mean_sigma_n: state variable 10, mean contact normal stress
-C       so far; 100 .. 1000 MPa (no axis: any value, verified there)
-C     in_mean_v_rel: state variable 11, mean sliding speed so far; 100
-C       .. 1000 mm/s (no axis: any value, verified there)
-C     in_peak_T_contact: state variable 12, highest contact
+C     in_dwell: from state variable 6, time so far at no less than
+C       half the peak stress; 100 .. 1000 s (no axis: any value,
+C       verified there)
+C     in_energy: from state variable 7, load times sliding distance so
+C       far, integral of sigma_N ds; 0 .. 2000 MPa mm
+C     in_friction_power: from state variable 8, friction power per
+C       area, tau v; 100 .. 1000 MPa mm/s (no axis: any value, verified
+C       there)
+C     in_mean_T_contact: from state variable 9, mean contact
 C       temperature so far; 100 .. 1000 degC (no axis: any value,
 C       verified there)
-C     in_peak_v_rel: state variable 13, highest sliding speed so far;
-C       100 .. 1000 mm/s (no axis: any value, verified there)
-C     in_time_since_start: state variable 14, time since the
+C     in_mean_sigma_n: from state variable 10, mean contact normal
+C       stress so far; 100 .. 1000 MPa (no axis: any value, verified
+C       there)
+C     in_mean_v_rel: from state variable 11, mean sliding speed so
+C       far; 100 .. 1000 mm/s (no axis: any value, verified there)
+C     in_peak_T_contact: from state variable 12, highest contact
+C       temperature so far; 100 .. 1000 degC (no axis: any value,
+C       verified there)
+C     in_peak_v_rel: from state variable 13, highest sliding speed so
+C       far; 100 .. 1000 mm/s (no axis: any value, verified there)
+C     in_time_since_start: from state variable 14, time since the
 C       experiment's first row; 100 .. 1000 s (no axis: any value,
 C       verified there)
 C     T_contact_C: tempAvg; property 1 where nTemp = 0; no axis, any
@@ -65,7 +69,8 @@ C     more than one point in a call, there is no history: friction
 C     work is 0 and the peak pressure is the pressure.
 C     6 time at no less than half of the peak pressure (s)
 C     7 pressure times slip, summed (MPa mm)
-C     8 friction power per area in the last increment (MPa mm/s)
+C     8 friction power per area in the last increment under pressure
+C       (MPa mm/s)
 C     9 temperature (degC) times time under pressure (degC s)
 C     10 pressure times time under pressure (MPa s)
 C     11 sliding speed times time under pressure (mm)
@@ -121,7 +126,8 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       logical ftout
       external ftout
 C     What histories add to the derivatives by speed and temperature
-      double precision hv, ht
+      double precision hv, ht, dtime
+      parameter (i_rfc_DTimCur = 3)
       parameter (zero = 0.0D0)
 C
 C     The state variables lie in rData; they are those of one point.
@@ -145,6 +151,8 @@ C       than 1D30 is as good as infinite.
         peval = 1.0D0
         if (ftnan(p)) y = p
         if (ftnan(rate)) y = rate
+        dtime = rData(i_rfc_DTimCur)
+        if (ftnan(dtime)) y = dtime
         if (ftnan(s)) y = s
         do i = 1, 14
           if (ftnan(s0(i))) y = s0(i)
@@ -199,9 +207,8 @@ C         T_contact_C: tempAvg; property 1 where nTemp = 0
             end if
             if (p .gt. zero)
      &        s1(1) = s0(1) + amu*p*max(s - s0(5), zero)
-C           rData(3): time increment
             if (p .gt. zero) call ftnext(s0(6), p, rate, x(11),
-     &        s1(2), amu*p, max(s - s0(5), zero), rData(3), s1(6))
+     &        s1(2), amu*p, max(s - s0(5), zero), dtime, s1(6))
             call ftkeep(rData(i_rfc_StateV), iData(i_ifc_KStep),
      &        iData(i_ifc_KInc), s0, s1)
           end if
@@ -308,15 +315,20 @@ C     dwell
         h1(1) = h(1) + dt
       end if
 C     energy
-      h1(2) = h(2) + p*ds
+      h1(2) = h(2)
+      if (ds .gt. 0.0D0) h1(2) = h(2) + p*ds
 C     friction_power
-      h1(3) = tau*v
+      h1(3) = 0.0D0
+      if (v .gt. 0.0D0) h1(3) = tau*v
 C     mean_T_contact
-      h1(4) = h(4) + t*dt
+      h1(4) = h(4)
+      if (dt .gt. 0.0D0) h1(4) = h(4) + t*dt
 C     mean_sigma_n
-      h1(5) = h(5) + p*dt
+      h1(5) = h(5)
+      if (dt .gt. 0.0D0) h1(5) = h(5) + p*dt
 C     mean_v_rel
-      h1(6) = h(6) + v*dt
+      h1(6) = h(6)
+      if (dt .gt. 0.0D0) h1(6) = h(6) + v*dt
 C     peak_T_contact
       h1(7) = ftmost(h(7), t + 273.15D0)
 C     peak_v_rel
@@ -353,13 +365,15 @@ C     The larger of both; NaN where one is.
       return
       end
 C
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

@@ -15,24 +15,25 @@ C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: fNormal/areaSec of the surface node; no axis, any
 C       value
-C     in_dwell: STATEV(7), time so far at no less than half the peak
-C       stress; 100 .. 1000 s (no axis: any value, verified there)
-C     in_energy: STATEV(8), load times sliding distance so far,
+C     in_dwell: from STATEV(7), time so far at no less than half the
+C       peak stress; 100 .. 1000 s (no axis: any value, verified there)
+C     in_energy: from STATEV(8), load times sliding distance so far,
 C       integral of sigma_N ds; 0 .. 2000 MPa mm
-C     in_friction_power: STATEV(9), friction power per area, tau v;
-C       100 .. 1000 MPa mm/s (no axis: any value, verified there)
-C     in_mean_T_contact: STATEV(10), mean contact temperature so far;
-C       100 .. 1000 degC (no axis: any value, verified there)
-C     in_mean_sigma_n: STATEV(11), mean contact normal stress so far;
-C       100 .. 1000 MPa (no axis: any value, verified there)
-C     in_mean_v_rel: STATEV(12), mean sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_peak_T_contact: STATEV(13), highest contact temperature so
+C     in_friction_power: from STATEV(9), friction power per area, tau
+C       v; 100 .. 1000 MPa mm/s (no axis: any value, verified there)
+C     in_mean_T_contact: from STATEV(10), mean contact temperature so
 C       far; 100 .. 1000 degC (no axis: any value, verified there)
-C     in_peak_v_rel: STATEV(14), highest sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_time_since_start: STATEV(15), time since the experiment's
-C       first row; 100 .. 1000 s (no axis: any value, verified there)
+C     in_mean_sigma_n: from STATEV(11), mean contact normal stress so
+C       far; 100 .. 1000 MPa (no axis: any value, verified there)
+C     in_mean_v_rel: from STATEV(12), mean sliding speed so far; 100
+C       .. 1000 mm/s (no axis: any value, verified there)
+C     in_peak_T_contact: from STATEV(13), highest contact temperature
+C       so far; 100 .. 1000 degC (no axis: any value, verified there)
+C     in_peak_v_rel: from STATEV(14), highest sliding speed so far;
+C       100 .. 1000 mm/s (no axis: any value, verified there)
+C     in_time_since_start: from STATEV(15), time since the
+C       experiment's first row; 100 .. 1000 s (no axis: any value,
+C       verified there)
 C     T_contact_C: mean of both surfaces; property 1 where nTemp = 0;
 C       no axis, any value
 C     Outside the range the table's value at the nearest edge is used;
@@ -51,7 +52,8 @@ C     5 what the solver's precision rounds off 1 (mm)
 C     6 what the solver's precision rounds off 2 (MPa*mm)
 C     7 time at no less than half of the peak pressure (s)
 C     8 pressure times slip, summed (MPa mm)
-C     9 friction power per area in the last increment (MPa mm/s)
+C     9 friction power per area in the last increment under pressure
+C       (MPa mm/s)
 C     10 temperature (degC) times time under pressure (degC s)
 C     11 pressure times time under pressure (MPa s)
 C     12 sliding speed times time under pressure (mm)
@@ -68,9 +70,8 @@ C     22 what the solver's precision rounds off 13 (K)
 C     23 what the solver's precision rounds off 14 (mm/s)
 C     24 what the solver's precision rounds off 15 (s)
 C     With a smaller DEPVAR those that it leaves out are not kept.
-C     The law needs STATEV(7) and on: with a smaller DEPVAR it is
-C       taken as nothing so far: integrals 0, peaks and means what they
-C       are of now.
+C     The law needs STATEV(7) and on: with a smaller DEPVAR integrals
+C       are 0, peaks and means the present value.
 C     NaN in gives NaN out; such a point's STATEV stay as they were. A
 C       point without area has no pressure to look up, and no friction.
 C
@@ -185,7 +186,7 @@ C     is no sum add is the value itself.
       external fttau, ftnan
       logical ftout
       external ftout
-      double precision pmax
+      double precision pmax, from(9)
       lkeep = .false.
       do i = 1, 13
         add(i) = 0.0D0
@@ -225,14 +226,17 @@ C       and the force now, times its slip.
         if (ftout(x)) add(4) = 1.0D0
         pmax = hist(3)
         if (.not. ftnan(pmax)) pmax = max(pmax, press)
-        call ftnext(hist(4), press, speed, x(11), pmax, fric/area,
+        do i = 1, 9
+          from(i) = hist(3+i)
+        end do
+        from(1) = 0.0D0
+        from(2) = 0.0D0
+        from(4) = 0.0D0
+        from(5) = 0.0D0
+        from(6) = 0.0D0
+        from(9) = 0.0D0
+        call ftnext(from, press, speed, x(11), pmax, fric/area,
      &    slip, dtime, add(5))
-        add(5) = add(5) - hist(4)
-        add(6) = add(6) - hist(5)
-        add(8) = add(8) - hist(7)
-        add(9) = add(9) - hist(8)
-        add(10) = add(10) - hist(9)
-        add(13) = add(13) - hist(12)
       end if
       return
       end
@@ -379,15 +383,20 @@ C     dwell
         h1(1) = h(1) + dt
       end if
 C     energy
-      h1(2) = h(2) + p*ds
+      h1(2) = h(2)
+      if (ds .gt. 0.0D0) h1(2) = h(2) + p*ds
 C     friction_power
-      h1(3) = tau*v
+      h1(3) = 0.0D0
+      if (v .gt. 0.0D0) h1(3) = tau*v
 C     mean_T_contact
-      h1(4) = h(4) + t*dt
+      h1(4) = h(4)
+      if (dt .gt. 0.0D0) h1(4) = h(4) + t*dt
 C     mean_sigma_n
-      h1(5) = h(5) + p*dt
+      h1(5) = h(5)
+      if (dt .gt. 0.0D0) h1(5) = h(5) + p*dt
 C     mean_v_rel
-      h1(6) = h(6) + v*dt
+      h1(6) = h(6)
+      if (dt .gt. 0.0D0) h1(6) = h(6) + v*dt
 C     peak_T_contact
       h1(7) = ftmost(h(7), t + 273.15D0)
 C     peak_v_rel
@@ -411,13 +420,15 @@ C     The larger of both; NaN where one is.
       return
       end
 C
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

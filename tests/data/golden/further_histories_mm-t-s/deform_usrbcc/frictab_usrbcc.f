@@ -14,33 +14,33 @@ C       0.0002*peak_T_contact)
 C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: |PRESS| of COMMON /UFHCOM/; no axis, any value
-C     in_dwell: USRNOD(4), mean of NODE1 and NODE2, kept by FTUPD,
-C       time so far at no less than half the peak stress; 100 .. 1000 s
+C     in_dwell: from USRNOD(4), mean of NODE1 and NODE2, kept by
+C       FTUPD, time so far at no less than half the peak stress; 100 ..
+C       1000 s (no axis: any value, verified there)
+C     in_energy: from USRNOD(5), mean of NODE1 and NODE2, kept by
+C       FTUPD, load times sliding distance so far, integral of sigma_N
+C       ds; 0 .. 2000 MPa mm
+C     in_friction_power: from USRNOD(6), mean of NODE1 and NODE2, kept
+C       by FTUPD, friction power per area, tau v; 100 .. 1000 MPa mm/s
 C       (no axis: any value, verified there)
-C     in_energy: USRNOD(5), mean of NODE1 and NODE2, kept by FTUPD,
-C       load times sliding distance so far, integral of sigma_N ds; 0 ..
-C       2000 MPa mm
-C     in_friction_power: USRNOD(6), mean of NODE1 and NODE2, kept by
-C       FTUPD, friction power per area, tau v; 100 .. 1000 MPa mm/s (no
+C     in_mean_T_contact: from USRNOD(7), mean of NODE1 and NODE2, kept
+C       by FTUPD, mean contact temperature so far; 100 .. 1000 degC (no
 C       axis: any value, verified there)
-C     in_mean_T_contact: USRNOD(7), mean of NODE1 and NODE2, kept by
-C       FTUPD, mean contact temperature so far; 100 .. 1000 degC (no
+C     in_mean_sigma_n: from USRNOD(8), mean of NODE1 and NODE2, kept
+C       by FTUPD, mean contact normal stress so far; 100 .. 1000 MPa (no
 C       axis: any value, verified there)
-C     in_mean_sigma_n: USRNOD(8), mean of NODE1 and NODE2, kept by
-C       FTUPD, mean contact normal stress so far; 100 .. 1000 MPa (no
-C       axis: any value, verified there)
-C     in_mean_v_rel: USRNOD(9), mean of NODE1 and NODE2, kept by
+C     in_mean_v_rel: from USRNOD(9), mean of NODE1 and NODE2, kept by
 C       FTUPD, mean sliding speed so far; 100 .. 1000 mm/s (no axis: any
 C       value, verified there)
-C     in_peak_T_contact: USRNOD(10), mean of NODE1 and NODE2, kept by
-C       FTUPD, highest contact temperature so far; 100 .. 1000 degC (no
-C       axis: any value, verified there)
-C     in_peak_v_rel: USRNOD(11), mean of NODE1 and NODE2, kept by
+C     in_peak_T_contact: from USRNOD(10), mean of NODE1 and NODE2,
+C       kept by FTUPD, highest contact temperature so far; 100 .. 1000
+C       degC (no axis: any value, verified there)
+C     in_peak_v_rel: from USRNOD(11), mean of NODE1 and NODE2, kept by
 C       FTUPD, highest sliding speed so far; 100 .. 1000 mm/s (no axis:
 C       any value, verified there)
-C     in_time_since_start: USRNOD(12), mean of NODE1 and NODE2, kept
-C       by FTUPD, time since the experiment's first row; 100 .. 1000 s
-C       (no axis: any value, verified there)
+C     in_time_since_start: from USRNOD(12), mean of NODE1 and NODE2,
+C       kept by FTUPD, time since the experiment's first row; 100 ..
+C       1000 s (no axis: any value, verified there)
 C     T_contact_C: mean of TEMC(1) and TEMC(2); no axis, any value
 C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
@@ -54,18 +54,19 @@ C     SLDVEL and PRESS are computed for ELASTIC (meshed) dies only:
 C     with rigid dies both are not what the law needs.
 C     USRNOD(1..3) of a node: accumulated slip (mm), friction
 C     work per area (MPa*mm), peak pressure (MPa),
+C     USRNOD(4) time at no less than half of the peak pressure (s),
+C     USRNOD(5) pressure times slip, summed (MPa mm),
+C     USRNOD(6) friction power per area in the last increment under,
+C       pressure (MPa mm/s),
+C     USRNOD(7) temperature (degC) times time under pressure (degC s),
+C     USRNOD(8) pressure times time under pressure (MPa s),
+C     USRNOD(9) sliding speed times time under pressure (mm),
+C     USRNOD(10) peak temperature; 0: none yet (K),
+C     USRNOD(11) peak sliding speed (mm/s),
+C     USRNOD(12) time under pressure (s),
 C     kept by FTUPD (frictab_usrupd.f), which USRUPD has to call once
 C     per converged step: the law sees them one step late. With fewer
 C     than 12 user variables per node they count as 0.
-C     4 time at no less than half of the peak pressure (s)
-C     5 pressure times slip, summed (MPa mm)
-C     6 friction power per area in the last increment (MPa mm/s)
-C     7 temperature (degC) times time under pressure (degC s)
-C     8 pressure times time under pressure (MPa s)
-C     9 sliding speed times time under pressure (mm)
-C     10 peak temperature; 0: none yet (K)
-C     11 peak sliding speed (mm/s)
-C     12 time under pressure (s)
 C     What DEFORM does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Nothing is read from files
 C     or from USRDEF.
@@ -97,8 +98,10 @@ C
       external ftcoef
       double precision cst(11)
       common /ftcons/ cst
-      double precision h(9)
+      double precision h(9), h2(9)
       integer i
+      double precision ftmost
+      external ftmost
 C
       if (imode .ne. 1) return
       if (itype .ne. 2) return
@@ -108,21 +111,30 @@ C     Magnitudes: the signs of PRESS and SLDVEL are not relied upon.
       speed = abs(sldvel)
 C     sigma_n_MPa: |PRESS| of COMMON /UFHCOM/
       x(1) = p
-C     dwell: USRNOD(4), mean of NODE1 and NODE2, kept by FTUPD, time
-C     energy: USRNOD(5), mean of NODE1 and NODE2, kept by FTUPD,
-C     friction_power: USRNOD(6), mean of NODE1 and NODE2, kept by
-C     mean_T_contact: USRNOD(7), mean of NODE1 and NODE2, kept by
-C     mean_sigma_n: USRNOD(8), mean of NODE1 and NODE2, kept by
-C     mean_v_rel: USRNOD(9), mean of NODE1 and NODE2, kept by FTUPD,
-C     peak_T_contact: USRNOD(10), mean of NODE1 and NODE2, kept by
-C     peak_v_rel: USRNOD(11), mean of NODE1 and NODE2, kept by
-C     time_since_start: USRNOD(12), mean of NODE1 and NODE2, kept by
+C     dwell: from USRNOD(4), mean of NODE1 and NODE2, kept by FTUPD,
+C     energy: from USRNOD(5), mean of NODE1 and NODE2, kept by
+C     friction_power: from USRNOD(6), mean of NODE1 and NODE2, kept
+C     mean_T_contact: from USRNOD(7), mean of NODE1 and NODE2, kept
+C     mean_sigma_n: from USRNOD(8), mean of NODE1 and NODE2, kept by
+C     mean_v_rel: from USRNOD(9), mean of NODE1 and NODE2, kept by
+C     peak_T_contact: from USRNOD(10), mean of NODE1 and NODE2, kept
+C     peak_v_rel: from USRNOD(11), mean of NODE1 and NODE2, kept by
+C     time_since_start: from USRNOD(12), mean of NODE1 and NODE2,
 C     T_contact_C: mean of TEMC(1) and TEMC(2)
       x(11) = 0.5D0*(temc(1) + temc(2))
       do i = 1, 9
         h(i) = 0.0D0
-        if (nusrn .ge. 12)
-     &    h(i) = 0.5D0*(usrnod(3+i,node1) + usrnod(3+i,node2))
+        h2(i) = 0.0D0
+        if (nusrn .ge. 12) then
+          h(i) = usrnod(3+i,node1)
+          h2(i) = usrnod(3+i,node2)
+        end if
+      end do
+C     K; a node that was never in contact is as warm as now.
+      h(7) = ftmost(h(7), x(11) + 273.15D0)
+      h2(7) = ftmost(h2(7), x(11) + 273.15D0)
+      do i = 1, 9
+        h(i) = 0.5D0*(h(i) + h2(i))
       end do
       call ftpast(h, abs(press), speed, x(11), x)
       variable = ftcoef(x, p, flow)
@@ -178,15 +190,20 @@ C     dwell
         h1(1) = h(1) + dt
       end if
 C     energy
-      h1(2) = h(2) + p*ds
+      h1(2) = h(2)
+      if (ds .gt. 0.0D0) h1(2) = h(2) + p*ds
 C     friction_power
-      h1(3) = tau*v
+      h1(3) = 0.0D0
+      if (v .gt. 0.0D0) h1(3) = tau*v
 C     mean_T_contact
-      h1(4) = h(4) + t*dt
+      h1(4) = h(4)
+      if (dt .gt. 0.0D0) h1(4) = h(4) + t*dt
 C     mean_sigma_n
-      h1(5) = h(5) + p*dt
+      h1(5) = h(5)
+      if (dt .gt. 0.0D0) h1(5) = h(5) + p*dt
 C     mean_v_rel
-      h1(6) = h(6) + v*dt
+      h1(6) = h(6)
+      if (dt .gt. 0.0D0) h1(6) = h(6) + v*dt
 C     peak_T_contact
       h1(7) = ftmost(h(7), t + 273.15D0)
 C     peak_v_rel
@@ -210,13 +227,15 @@ C     The larger of both; NaN where one is.
       return
       end
 C
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

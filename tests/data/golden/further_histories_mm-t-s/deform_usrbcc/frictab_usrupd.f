@@ -6,15 +6,16 @@ C         CALL FTUPD
 C     USRN2(1) accumulated slip while under pressure (mm)
 C     USRN2(2) friction work per area (MPa*mm)
 C     USRN2(3) peak pressure (MPa)
-C     USRN2: 4 time at no less than half of the peak pressure (s)
-C     USRN2: 5 pressure times slip, summed (MPa mm)
-C     USRN2: 6 friction power per area in the last increment (MPa mm/s)
-C     USRN2: 7 temperature (degC) times time under pressure (degC s)
-C     USRN2: 8 pressure times time under pressure (MPa s)
-C     USRN2: 9 sliding speed times time under pressure (mm)
-C     USRN2: 10 peak temperature; 0: none yet (K)
-C     USRN2: 11 peak sliding speed (mm/s)
-C     USRN2: 12 time under pressure (s)
+C     USRNOD(4) time at no less than half of the peak pressure (s)
+C     USRNOD(5) pressure times slip, summed (MPa mm)
+C     USRNOD(6) friction power per area in the last increment under
+C       pressure (MPa mm/s)
+C     USRNOD(7) temperature (degC) times time under pressure (degC s)
+C     USRNOD(8) pressure times time under pressure (MPa s)
+C     USRNOD(9) sliding speed times time under pressure (mm)
+C     USRNOD(10) peak temperature; 0: none yet (K)
+C     USRNOD(11) peak sliding speed (mm/s)
+C     USRNOD(12) time under pressure (s)
 C     It acts at the end of a converged step (ISTATUS=1), so friction
 C     sees these values one step late. PRESR(1) is the tangential and
 C     PRESR(2) the normal traction; of both only the magnitude is used.
@@ -39,6 +40,8 @@ C
       double precision slip, p
       double precision speed
       integer i
+      double precision cst(11)
+      common /ftcons/ cst
       logical ftnan
       external ftnan
       if (istatus .ne. 1) return
@@ -62,9 +65,8 @@ C
       else if (.not. ftnan(usrn1(3))) then
         if (p .gt. usrn1(3)) usrn2(3) = p
       end if
-C     TEMPN: the node's temperature
       speed = abs(sldvel)
-      call ftnext(usrn1(4), p, speed, tempn, usrn2(3), abs(presr(1)),
-     &  slip, dtmaxc, usrn2(4))
+      call ftnext(usrn1(4), p, speed, tempn, usrn2(3),
+     &  abs(presr(1)), slip, dtmaxc, usrn2(4))
       return
       end

@@ -14,24 +14,25 @@ C       0.0002*peak_T_contact)
 C
 C     States, where they come from and the table's range:
 C     sigma_n_MPa: -FNI/AREAS of the node; no axis, any value
-C     in_dwell: UFHIST(5), time so far at no less than half the peak
-C       stress; 100 .. 1000 s (no axis: any value, verified there)
-C     in_energy: UFHIST(6), load times sliding distance so far,
+C     in_dwell: from UFHIST(5), time so far at no less than half the
+C       peak stress; 100 .. 1000 s (no axis: any value, verified there)
+C     in_energy: from UFHIST(6), load times sliding distance so far,
 C       integral of sigma_N ds; 0 .. 2000 MPa mm
-C     in_friction_power: UFHIST(7), friction power per area, tau v;
-C       100 .. 1000 MPa mm/s (no axis: any value, verified there)
-C     in_mean_T_contact: UFHIST(8), mean contact temperature so far;
-C       100 .. 1000 degC (no axis: any value, verified there)
-C     in_mean_sigma_n: UFHIST(9), mean contact normal stress so far;
-C       100 .. 1000 MPa (no axis: any value, verified there)
-C     in_mean_v_rel: UFHIST(10), mean sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_peak_T_contact: UFHIST(11), highest contact temperature so
+C     in_friction_power: from UFHIST(7), friction power per area, tau
+C       v; 100 .. 1000 MPa mm/s (no axis: any value, verified there)
+C     in_mean_T_contact: from UFHIST(8), mean contact temperature so
 C       far; 100 .. 1000 degC (no axis: any value, verified there)
-C     in_peak_v_rel: UFHIST(12), highest sliding speed so far; 100 ..
-C       1000 mm/s (no axis: any value, verified there)
-C     in_time_since_start: UFHIST(13), time since the experiment's
-C       first row; 100 .. 1000 s (no axis: any value, verified there)
+C     in_mean_sigma_n: from UFHIST(9), mean contact normal stress so
+C       far; 100 .. 1000 MPa (no axis: any value, verified there)
+C     in_mean_v_rel: from UFHIST(10), mean sliding speed so far; 100
+C       .. 1000 mm/s (no axis: any value, verified there)
+C     in_peak_T_contact: from UFHIST(11), highest contact temperature
+C       so far; 100 .. 1000 degC (no axis: any value, verified there)
+C     in_peak_v_rel: from UFHIST(12), highest sliding speed so far;
+C       100 .. 1000 mm/s (no axis: any value, verified there)
+C     in_time_since_start: from UFHIST(13), time since the
+C       experiment's first row; 100 .. 1000 s (no axis: any value,
+C       verified there)
 C     T_contact_C: mean of the node and the segment where it touches;
 C       UA(1) where no temperatures are computed; no axis, any value
 C     Outside the range the table's value at the nearest edge is used;
@@ -48,7 +49,8 @@ C     (MPa*mm), 3 peak pressure (MPa), 4 cycles in
 C     which the state was outside the range.
 C     5 time at no less than half of the peak pressure (s)
 C     6 pressure times slip, summed (MPa mm)
-C     7 friction power per area in the last increment (MPa mm/s)
+C     7 friction power per area in the last increment under pressure
+C       (MPa mm/s)
 C     8 temperature (degC) times time under pressure (degC s)
 C     9 pressure times time under pressure (MPa s)
 C     10 sliding speed times time under pressure (mm)
@@ -56,7 +58,8 @@ C     11 peak temperature; 0: none yet (K)
 C     12 peak sliding speed (mm/s)
 C     13 time under pressure (s)
 C     from 14 on: what the solver's precision rounds off them.
-C     With fewer the missing ones count as 0.
+C     With fewer the missing ones of 1 to 3 count as 0, and of those
+C     behind them integrals as 0, peaks and means as the present value.
 C
 C     LS-DYNA leaves the friction force to this routine: the force
 C     that would hold the node (old force and stiffness times relative
@@ -106,6 +109,7 @@ C
       logical ftout
       external ftout
       double precision past(9), next(9), dtime
+      double precision part, lost
       integer i, ii, j, kk
 C
       rate = fdt2
@@ -219,9 +223,12 @@ C             Work: mean of the force before and the force now.
      &            fric/area, slip, dtime, next)
                 do i = 1, 9
                   ufhist(4+i,j) = real(next(i), kind(ufhist))
-                  if (.not. ftnan(next(i)))
-     &              next(i) = next(i) - ufhist(4+i,j)
-                  ufhist(13+i,j) = real(next(i), kind(ufhist))
+                  part = ufhist(4+i,j)
+                  lost = 0.0D0
+                  if (.not. ftnan(part)) then
+                    if (abs(part) .lt. 1.0D300) lost = next(i) - part
+                  end if
+                  ufhist(13+i,j) = real(lost, kind(ufhist))
                 end do
               end if
             end if
@@ -308,15 +315,20 @@ C     dwell
         h1(1) = h(1) + dt
       end if
 C     energy
-      h1(2) = h(2) + p*ds
+      h1(2) = h(2)
+      if (ds .gt. 0.0D0) h1(2) = h(2) + p*ds
 C     friction_power
-      h1(3) = tau*v
+      h1(3) = 0.0D0
+      if (v .gt. 0.0D0) h1(3) = tau*v
 C     mean_T_contact
-      h1(4) = h(4) + t*dt
+      h1(4) = h(4)
+      if (dt .gt. 0.0D0) h1(4) = h(4) + t*dt
 C     mean_sigma_n
-      h1(5) = h(5) + p*dt
+      h1(5) = h(5)
+      if (dt .gt. 0.0D0) h1(5) = h(5) + p*dt
 C     mean_v_rel
-      h1(6) = h(6) + v*dt
+      h1(6) = h(6)
+      if (dt .gt. 0.0D0) h1(6) = h(6) + v*dt
 C     peak_T_contact
       h1(7) = ftmost(h(7), t + 273.15D0)
 C     peak_v_rel
@@ -340,13 +352,15 @@ C     The larger of both; NaN where one is.
       return
       end
 C
-C     A mean over no time yet is the value now.
+C     A mean over no time yet is the value now; NaN where that is one,
+C     so that a state with it is never kept.
       double precision function ftmean(total, time, now)
       implicit none
       double precision total, time, now
       logical ftnan
       external ftnan
       ftmean = now
+      if (ftnan(now)) return
       if (ftnan(time)) then
         ftmean = time
       else if (time .gt. 0.0D0) then

@@ -58,12 +58,12 @@ C       solver. Recalled, check against your release: STATEV hold the
 C       start of the increment in every iteration (the routine is right
 C       either way, as long as KSTEP and KINC number increments and a
 C       cutback keeps the number); TAU comes in as of the start of the
-C       increment (used only with DEPVAR below 15); DROT turns the
-C       components of state variables; TEMP(1), TEMP(2) and PREDEF(1,i),
-C       PREDEF(2,i) are those of the two surfaces; SFD is the work of
-C       the increment, SED the elastic energy; 0.005*CHRLNGTH is the
-C       solver's own slip tolerance. STDB_ABQERR (only where outside =
-C       error) is called as public routines do
+C       increment (used only where there are fewer state variables);
+C       DROT turns the components of state variables; TEMP(1), TEMP(2)
+C       and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD
+C       is the work of the increment, SED the elastic energy;
+C       0.005*CHRLNGTH is the solver's own slip tolerance. STDB_ABQERR
+C       (only where outside = error) is called as public routines do
 C
       subroutine fric(lm,tau,ddtddg,ddtddp,dslip,sed,sfd,
      1 ddtddt,pnewdt,statev,dgam,taulm,press,dpress,ddpddh,slip,
