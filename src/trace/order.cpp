@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::uint64_t order_stream = 72;
 constexpr int slow_waves = 4;
+constexpr Index neighbourhood = 6; // tests that may be alike, as in a batch; nearer ones weigh more
 
 double wave(std::size_t rank, int number, std::size_t count) {
   return std::cos(std::numbers::pi * number * (static_cast<double>(rank) + 0.5) /
@@ -30,7 +31,8 @@ std::array<double, 3> structure(const VectorXd& z, const MatrixXd& waves) {
   std::array<double, 3> s{};
   double sum = 0, most = 0;
   for (Index i = 0; i < z.size(); ++i) {
-    if (i > 0) s[0] += z(i) * z(i - 1);
+    for (Index lag = 1; lag <= std::min(i, neighbourhood); ++lag)
+      s[0] += z(i) * z(i - lag) * static_cast<double>(neighbourhood + 1 - lag);
     sum += z(i);
     most = std::max(most, std::abs(sum));
   }

@@ -17,9 +17,9 @@ Eigen::VectorXd experiment_scores(const Eigen::VectorXd& residual,
                                   const Eigen::VectorXd& sensitivity, const Eigen::MatrixXd& fitted,
                                   const Whitener& whitener, std::span<const std::size_t> first);
 
-// "The scores have no structure along the order": neighbours alike, a cumulated sum that strays, or
-// slow waves; the smallest of the three and of all columns of scores (experiments x ways in which
-// friction may differ), its distribution by permutation.
+// "The scores have no structure along the order": neighbours up to six places apart alike, a
+// cumulated sum that strays, or slow waves; the smallest of the three and of all columns of scores
+// (experiments x ways in which friction may differ), its distribution by permutation.
 struct OrderTest {
   double p_value = 1;
   Eigen::Index column = 0; // of the scores, in which slow waves are the largest

@@ -194,6 +194,23 @@ TEST(OrderOfTests, DriftAndBatchesAreSeenInAnyFileOrder) {
   }
 }
 
+TEST(OrderOfTests, BatchesOfNineAreSeenInMostCampaigns) {
+  int seen = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Random random(seed, 4);
+    VectorXd scores(81);
+    std::vector<double> order;
+    double batch = 0;
+    for (Index e = 0; e < 81; ++e) {
+      if (e % 9 == 0) batch = 1.0 * random.normal();
+      scores(e) = batch + random.normal();
+      order.push_back(static_cast<double>(e));
+    }
+    if (test_order(scores, order, 199, seed).p_value <= 0.01) ++seen;
+  }
+  EXPECT_GE(seen, 60);
+}
+
 TEST(OrderOfTests, SaysWhichOfSeveralScoresFollowsTheOrder) {
   Random random(9, 1);
   MatrixXd scores(81, 3);
