@@ -61,6 +61,7 @@ MatrixXf signs(std::size_t flips, std::span<const std::size_t> units, std::uint6
 struct CauseScores {
   std::vector<Direction> directions;
   MatrixXf scores; // experiments x directions
+  MatrixXf shares; // of each experiment in a direction's squared size
   VectorXf maxima; // per flip
   bool absorbed = false;
 };
@@ -90,10 +91,9 @@ public:
     in_.whitener.apply(x);
     const VectorXf before = x.colwise().norm();
     x -= q_ * (q_.transpose() * x).eval();
-    VectorXf size = x.colwise().norm();
+    const MatrixXf squares = sums(x.cwiseAbs2());
     x.array().colwise() *= residual_.array();
-    MatrixXf scores = sums(x);
-    keep_identifiable(before, size, scores, found);
+    keep_identifiable(before, squares, sums(x), found);
     if (found.directions.empty()) {
       found.absorbed = true;
       return found;
@@ -130,19 +130,24 @@ private:
 
   // Scores are divided by the direction's size (statistics in units of their standard deviation
   // under the noise model) and kept where enough is left of the direction.
-  void keep_identifiable(const VectorXf& before, const VectorXf& size, const MatrixXf& scores,
+  void keep_identifiable(const VectorXf& before, const MatrixXf& squares, const MatrixXf& scores,
                          CauseScores& found) const {
     std::vector<Direction> kept;
+    const VectorXf size = squares.colwise().sum().cwiseSqrt();
     found.scores.resize(scores.rows(), scores.cols());
+    found.shares.resize(scores.rows(), scores.cols());
     for (Index c = 0; c < scores.cols(); ++c) {
       if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
         continue;
       Direction direction = found.directions[static_cast<std::size_t>(c)];
       direction.size = size(c);
-      found.scores.col(static_cast<Index>(kept.size())) = scores.col(c) / size(c);
+      const auto next = static_cast<Index>(kept.size());
+      found.scores.col(next) = scores.col(c) / size(c);
+      found.shares.col(next) = squares.col(c) / (size(c) * size(c));
       kept.push_back(direction);
     }
     found.scores.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
+    found.shares.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
     found.directions = std::move(kept);
   }
 
@@ -156,19 +161,26 @@ private:
 
 // A sum of scores over the larger of what the noise model and what the experiments themselves say
 // of its standard deviation: where some experiments scatter more than others, directions that live
-// on them do not win by that. What the sum itself explains is no scatter, in the flips as in the
-// truth.
+// on them do not win by that. What the sum itself explains of each score is no scatter, in the
+// flips as in the truth: an effect does not hide behind what it makes itself.
 void Screening::studentise(CauseScores& found) const {
-  const auto experiments = static_cast<float>(found.scores.rows());
+  const MatrixXf shared = found.scores.cwiseProduct(found.shares);
+  const MatrixXf sums = signs_ * found.scores, shared_sums = signs_ * shared;
   found.maxima = VectorXf::Zero(signs_.rows());
-  const MatrixXf sums = signs_ * found.scores;
   for (Index c = 0; c < sums.cols(); ++c) {
-    const float total = found.scores.col(c).squaredNorm(), sum = found.scores.col(c).sum();
+    const float total = found.scores.col(c).squaredNorm(),
+                shares = found.shares.col(c).squaredNorm();
+    // Sum over experiments of (score - sum * share)^2.
+    const auto variance = [&](const auto& sum, const auto& with_shares) {
+      return total - 2 * sum * with_shares + sum * sum * shares;
+    };
+    const float sum = found.scores.col(c).sum();
     found.directions[static_cast<std::size_t>(c)].statistic =
-        sum / std::sqrt(std::max(total - sum * sum / experiments, least_variance));
-    const auto squares = sums.col(c).array().square();
+        sum / std::sqrt(std::max(variance(sum, shared.col(c).sum()), least_variance));
+    const auto flipped = sums.col(c).array();
     found.maxima = found.maxima.cwiseMax(
-        (squares / (total - squares / experiments).max(least_variance)).matrix());
+        (flipped.square() / variance(flipped, shared_sums.col(c).array()).max(least_variance))
+            .matrix());
   }
   found.maxima = found.maxima.cwiseSqrt();
 }

@@ -1,0 +1,143 @@
+// The screening test by itself: how often noise passes it, whatever its shape, and what it finds.
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "trace/screen.h"
+
+namespace frictab {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Eigen::VectorXf;
+
+constexpr std::size_t blocks = 8; // per experiment
+constexpr double level = 0.05;
+
+// Causes that are constant within experiments or vary at random, one shape each, acting on mu.
+struct Campaign {
+  std::vector<std::vector<GridShape>> shapes;
+  VectorXd predicted, residual;
+  MatrixXd fitted;
+  std::vector<std::size_t> first{0}, units;
+  NoiseModel noise;
+
+  Campaign(std::size_t experiments, std::size_t causes, std::uint64_t seed) {
+    Random random(seed, 11);
+    const auto rows = static_cast<Index>(experiments * blocks);
+    predicted = VectorXd::Constant(rows, 100);
+    for (std::size_t e = 0; e < experiments; ++e)
+      first.push_back(first.back() + blocks);
+    units.resize(experiments);
+    std::iota(units.begin(), units.end(), 0);
+    fitted = predicted;
+    noise.multiplicative = 0.04;
+    noise.slow = 2;
+    noise.rho = 0.6;
+    noise.white = 1;
+    noise.scale = 100;
+    for (std::size_t c = 0; c < causes; ++c) {
+      GridShape shape;
+      shape.direction.resize(rows);
+      float held = 0;
+      for (Index b = 0; b < rows; ++b) {
+        if (c % 2 == 1 || b % static_cast<Index>(blocks) == 0)
+          held = static_cast<float>(random.normal());
+        shape.direction(b) = held;
+      }
+      shapes.push_back({shape});
+    }
+    draw(random, [](std::size_t) { return 1.0; });
+  }
+
+  // Of the noise model; experiment e scatters `times(e)` as much.
+  void draw(Random& random, const std::function<double(std::size_t)>& times) {
+    residual.resize(predicted.size());
+    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+      const double of_test = noise.multiplicative * random.normal(), by = times(e);
+      double slow = noise.slow * random.normal();
+      for (std::size_t b = first[e]; b < first[e + 1]; ++b) {
+        const auto i = static_cast<Index>(b);
+        residual(i) = by * (of_test * predicted(i) + slow + noise.white * random.normal());
+        slow =
+            noise.rho * slow + noise.slow * std::sqrt(1 - noise.rho * noise.rho) * random.normal();
+      }
+    }
+  }
+
+  ScreenResult run(std::size_t flips = 199) const {
+    const Sensitivities sensitivities = {predicted, VectorXd(), VectorXd()};
+    const Whitener whitener(noise, predicted, first);
+    return screen({shapes, sensitivities, whitener, first, residual, fitted, units, flips, 1});
+  }
+};
+
+// Of 300 campaigns of 40 experiments and 24 causes without any effect.
+int false_alarms(const std::function<double(std::size_t)>& times) {
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Campaign campaign(40, 24, seed);
+    Random random(seed, 12);
+    campaign.draw(random, times);
+    if (campaign.run().p_value <= level) ++alarms;
+  }
+  return alarms;
+}
+
+// Binomial, 300 trials at 0.05: 99.9 % lie from 4 to 28.
+TEST(Screen, PassesNoiseAsOftenAsAsked) {
+  const int alarms = false_alarms([](std::size_t) { return 1.0; });
+  EXPECT_GE(alarms, 4);
+  EXPECT_LE(alarms, 28);
+}
+
+TEST(Screen, PassesNoiseNoMoreOftenWhereSomeExperimentsScatterFiveTimesAsMuch) {
+  EXPECT_LE(false_alarms([](std::size_t e) { return e % 10 == 0 ? 5.0 : 1.0; }), 28);
+}
+
+TEST(Screen, FindsACauseAmongOthersAndSaysHowLarge) {
+  for (const std::size_t cause : {4u, 7u}) { // constant within experiments, and not
+    Campaign campaign(40, 24, 5);
+    campaign.residual +=
+        0.08 * campaign.predicted.cwiseProduct(campaign.shapes[cause][0].direction.cast<double>());
+    const ScreenResult found = campaign.run(999);
+    EXPECT_EQ(found.directions[found.best].cause, cause);
+    EXPECT_EQ(found.p_value, 0.001);
+    const Direction& best = found.directions[found.best];
+    EXPECT_NEAR(best.statistic / best.size, 0.08, 0.03);
+  }
+}
+
+TEST(Screen, NeverGivesASmallerProbabilityThanSoFewExperimentsCan) {
+  Campaign campaign(5, 4, 3);
+  campaign.residual +=
+      campaign.predicted.cwiseProduct(campaign.shapes[1][0].direction.cast<double>());
+  EXPECT_GE(campaign.run(999).p_value, 1.0 / 16);
+}
+
+TEST(Screen, LeavesOutWhatFittedParametersImitate) {
+  Campaign campaign(40, 3, 2);
+  campaign.shapes[2][0].direction.setOnes(); // the law's own factor
+  const ScreenResult result = campaign.run();
+  EXPECT_EQ(result.absorbed, (std::vector<std::size_t>{2}));
+}
+
+// Half of the experiments one way, half the other: flips and the truth are measured alike, so that
+// an effect that fills the residual does not hide behind the scatter that it makes itself.
+TEST(Screen, ScatterThatTheEffectItselfMakesDoesNotCount) {
+  Campaign campaign(40, 1, 9);
+  auto& direction = campaign.shapes[0][0].direction;
+  for (Index b = 0; b < direction.size(); ++b)
+    direction(b) = (b / static_cast<Index>(blocks)) % 2 ? 1.0f : -1.0f;
+  const double small = std::abs(campaign.run().directions[0].statistic);
+  campaign.residual +=
+      0.2 * campaign.predicted.cwiseProduct(direction.cast<double>()); // five times the scatter
+  const double large = std::abs(campaign.run().directions[0].statistic);
+  EXPECT_GT(large, 25 + small) << "sqrt(40) is the most that scores over their own norm reach";
+}
+
+} // namespace
+} // namespace frictab
