@@ -36,6 +36,26 @@ double within_blocks(const Dataset& training, const Blocks& blocks) {
   return sum / static_cast<double>(training.rows());
 }
 
+// Of each experiment, relative to the law.
+VectorXd levels(const VectorXd& residual, const VectorXd& predicted, const Campaign& campaign) {
+  const auto& first = campaign.blocks.first;
+  VectorXd level(static_cast<Index>(first.size() - 1));
+  for (Index e = 0; e < level.size(); ++e) {
+    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
+    const auto count = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]) - begin;
+    const auto law = predicted.segment(begin, count);
+    level(e) = law.dot(residual.segment(begin, count)) / law.squaredNorm();
+  }
+  return level;
+}
+
+// Not below 0. A variance of heavy-tailed values is known less well, as if there were fewer.
+double excess_kurtosis(const VectorXd& values) {
+  const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
+  const double variance = squares.mean();
+  return variance > 0 ? std::max(0.0, squares.square().mean() / (variance * variance) - 3) : 0;
+}
+
 } // namespace
 
 void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
@@ -63,12 +83,14 @@ void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
   trace.noise_floor.n_experiments = training.experiments.size();
   const double share = noise.between(last.predicted);
   trace.scatter_between = share;
-  const double degrees = std::max(1.0, static_cast<double>(training.experiments.size()) -
-                                           static_cast<double>(last.parameters.size()));
+  const double degrees =
+      std::max(1.0, (experiments - static_cast<double>(last.parameters.size())) /
+                        (1 + 0.5 * excess_kurtosis(levels(residual, last.predicted, campaign))));
   const auto bound = [&](double probability) {
     return share * std::sqrt(degrees / gsl_cdf_chisq_Pinv(probability, degrees));
   };
   trace.scatter_interval = {bound(0.975), bound(0.025)};
+  trace.scatter_at_least = bound(0.95);
 }
 
 } // namespace frictab

@@ -6,8 +6,8 @@
 
 namespace frictab {
 
-// Fills noise_floor, scatter_between and its interval. The floor is the error that the noise model
-// leaves to a law of the state, with the shape that the residuals have.
+// Fills noise_floor, scatter_between, its interval and its lower bound. The floor is the error that
+// the noise model leaves to a law of the state, with the shape that the residuals have.
 void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
                  const Dataset& training);
 

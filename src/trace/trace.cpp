@@ -268,7 +268,7 @@ private:
   void add_verdict(Trace& trace) const {
     const double p = std::min(search_.last_p_value, search_.order.p_value);
     trace.remaining.p_value = search_.last_p_value;
-    const bool excess = trace.repeatability && trace.scatter_interval.low > *trace.repeatability;
+    const bool excess = trace.repeatability && trace.scatter_at_least > *trace.repeatability;
     const bool left = search_.last_p_value <= trace.alpha;
     trace.remaining.structure = search_.order.found || excess || left;
     std::vector<std::string> notes;
@@ -280,10 +280,10 @@ private:
           search_.order.size_MPa, 100 * search_.order.share, search_.order.reference));
     if (excess)
       notes.push_back(fmt::format(
-          "experiments scatter by {:.1f} % (95 %: {:.1f} to {:.1f} %), more than the repeatability "
-          "of {:.1f} %: something that no column recorded differs between them",
-          100 * trace.scatter_between, 100 * trace.scatter_interval.low,
-          100 * trace.scatter_interval.high, 100 * *trace.repeatability));
+          "experiments scatter by {:.1f} % (at least {:.1f} %, with 95 % confidence), more than "
+          "the "
+          "repeatability of {:.1f} %: something that no column recorded differs between them",
+          100 * trace.scatter_between, 100 * trace.scatter_at_least, 100 * *trace.repeatability));
     if (left)
       notes.push_back("more structure is left than the tool adds effects for, or than pays in "
                       "cross-validation");

@@ -95,6 +95,7 @@ struct Trace {
   NoiseFloor noise_floor;              // from the noise model
   double scatter_between = 0;          // relative scatter between experiments, standard deviation
   Interval scatter_interval;           // 95 %
+  double scatter_at_least = 0;         // with 95 % confidence; what repeatability is judged by
   std::optional<double> repeatability; // what the user gave
   OrderStructure order;
   Remaining remaining;

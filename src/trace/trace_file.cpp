@@ -192,6 +192,7 @@ Json one_json(const Trace& t) {
           {"scatter_between_experiments",
            {{"share", t.scatter_between},
             {"interval_95", {t.scatter_interval.low, t.scatter_interval.high}},
+            {"at_least", t.scatter_at_least},
             {"repeatability", t.repeatability ? Json(*t.repeatability) : Json()}}},
           {"order_of_tests", order_json(t.order)},
           {"remaining",
@@ -236,6 +237,7 @@ Trace parse_one(const Json& j) {
   t.scatter_between = number(scatter.at("share"));
   t.scatter_interval = {number(scatter.at("interval_95").at(0)),
                         number(scatter.at("interval_95").at(1))};
+  t.scatter_at_least = number(scatter.at("at_least"));
   if (!scatter.at("repeatability").is_null()) t.repeatability = scatter.at("repeatability");
   t.order = parse_order(j.at("order_of_tests"));
   t.remaining = {j.at("remaining").at("structure"), number(j.at("remaining").at("p_value")),

@@ -280,7 +280,7 @@ struct Score {
   double scatter = 0;
   bool excess = false; // more than a given repeatability of what the twin scatters by
   double seconds = 0;
-  double p_value = 1;   // of the first effect
+  double p_value = 1;   // of the first effect, or of what is left where there is none
   double order_p = 1;   // of no structure along the order of tests
   std::string found;    // "saturation of s_mm on mu"
   std::string rejected; // what was turned down, and why
@@ -310,7 +310,8 @@ public:
       if (recorded(spec)) judge_planted(spec);
     for (const TracedEffect& effect : trace_.effects)
       judge_added(effect);
-    if (!trace_.effects.empty()) score_.p_value = trace_.effects.front().p_value;
+    score_.p_value =
+        trace_.effects.empty() ? trace_.remaining.p_value : trace_.effects.front().p_value;
     score_.order_p = trace_.order.p_value;
     score_.rejected = join(trace_.rejected, "; ");
     errors();
@@ -380,7 +381,7 @@ private:
     score_.floor_ratio =
         trace_.noise_floor.mae_MPa / (unseen ? score_.oracle : mae(twin_.training));
     score_.scatter = trace_.scatter_between;
-    score_.excess = trace_.scatter_interval.low > twin_.options.scatter.test;
+    score_.excess = trace_.scatter_at_least > twin_.options.scatter.test;
   }
 
   const Twin& twin_;
@@ -590,7 +591,7 @@ void print_null_row(const Results& some, const std::string& name) {
   fmt::print(
       "| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} % | {:.3f} | {:.1f} | {:.1f} |\n",
       name, some.size(), mean(some, [](const Score& s) { return s.detected ? 1.0 : 0.0; }),
-      mean(some, [](const Score& s) { return s.p_value <= 0.02 ? 1.0 : 0.0; }),
+      mean(some, [](const Score& s) { return s.detected && s.p_value <= 0.02 ? 1.0 : 0.0; }),
       mean(some, [](const Score& s) { return s.order ? 1.0 : 0.0; }),
       average(some, &Score::floor_ratio), 100 * average(some, &Score::scatter),
       mean(some, [](const Score& s) { return s.excess ? 1.0 : 0.0; }),
