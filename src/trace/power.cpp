@@ -18,9 +18,9 @@ constexpr std::size_t plants = 400;
 constexpr double wanted = 0.8;
 constexpr std::uint64_t power_stream = 73;
 
-// Amplitude (in units of the statistic) that lifts the statistic above the threshold in 80 % of
-// residuals that are as likely as these.
-double amplitude_to_detect(const VectorXf& scores, double threshold, std::uint64_t seed) {
+// Sum of scores that lifts the statistic above the threshold in 80 % of residuals that are as
+// likely as these; where the experiments scatter more than the noise model says, it takes more.
+double sum_to_detect(const VectorXf& scores, double threshold, std::uint64_t seed) {
   std::vector<double> noise(plants);
   for (std::size_t b = 0; b < plants; ++b) {
     Random random(seed, power_stream + 1000 * b);
@@ -30,7 +30,8 @@ double amplitude_to_detect(const VectorXf& scores, double threshold, std::uint64
     noise[b] = sum;
   }
   std::sort(noise.begin(), noise.end());
-  return threshold - noise[static_cast<std::size_t>((1 - wanted) * plants)];
+  const double scatter = std::sqrt(std::max(1.0f, scores.squaredNorm()));
+  return threshold * scatter - noise[static_cast<std::size_t>((1 - wanted) * plants)];
 }
 
 } // namespace
@@ -47,13 +48,12 @@ void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
       if (direction.cause != s || direction.place != 0) continue;
       const GridShape& shape = search.shapes[s][direction.shape];
       if (fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical) continue;
-      const double statistic =
-          amplitude_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);
+      const double sum = sum_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);
       VectorXd change = shape.direction.cast<double>();
       change.array() -= change.mean();
       change = change.cwiseProduct(search.sensitivities()[0]);
-      const double size = statistic / direction.size * change.norm() /
-                          std::sqrt(static_cast<double>(change.size()));
+      const double size =
+          sum / direction.size * change.norm() / std::sqrt(static_cast<double>(change.size()));
       if (entry.identifiable && size >= entry.size_MPa) continue;
       entry.identifiable = true;
       entry.size_MPa = size;
