@@ -36,7 +36,7 @@ std::vector<std::string> lacks(const DerivedQuantity& derived, const Dataset& da
   return names;
 }
 
-bool follows_tau(const std::string& name, const Dataset& data) {
+bool follows_tau(const std::string& name) {
   const DerivedQuantity* derived = find_derived(name);
   return derived && std::count(derived->needs.begin(), derived->needs.end(), "tau") > 0;
 }
@@ -93,7 +93,7 @@ InputColumns::InputColumns(const Law& law, std::vector<std::string> names, const
         "record it, map it in [data.columns], or give a constant in "
         "[data.constants]");
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    follows_[i] = follows_tau(names_[i], data);
+    follows_[i] = follows_tau(names_[i]);
     pointers_.push_back(find(law, i));
   }
 }
