@@ -2,13 +2,11 @@
 #include "codegen/histories.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
 #include "data/derived.h"
-#include "data/quantity.h"
 
 namespace frictab {
 
