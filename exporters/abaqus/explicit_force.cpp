@@ -36,12 +36,9 @@ std::vector<StateVariable> state_variables(const ExportRequest& request,
                                     {"1", "increments in which the state was outside the range"},
                                     {length, "what the solver's precision rounds off 1"},
                                     {work, "what the solver's precision rounds off 2"}};
-  const std::vector<HistoryState> further = history_states(inputs, request.units);
-  for (const HistoryState& state : further)
+  for (const HistoryState& state :
+       with_remainders(history_states(inputs, request.units), explicit_states))
     all.push_back({state.unit, state.meaning});
-  for (std::size_t i = 0; i < further.size(); ++i)
-    all.push_back({further[i].unit, fmt::format("what the solver's precision rounds off {}",
-                                                explicit_states + i + 1)});
   return all;
 }
 

@@ -51,12 +51,9 @@ json history(const Table& table, std::string_view units, const std::vector<Solve
     out.push_back(
         one(4, "1",
             table.axes.empty() ? "not used" : "cycles in which the state was outside the range"));
-  const std::vector<HistoryState> further = history_states(inputs, units);
-  for (const HistoryState& state : further)
+  for (const HistoryState& state :
+       with_remainders(history_states(inputs, units), gives().before_histories))
     out.push_back(one(out.size() + 1, state.unit, state.meaning));
-  for (std::size_t i = 0; i < further.size(); ++i)
-    out.push_back(one(out.size() + 1, further[i].unit,
-                      fmt::format("what the solver's precision rounds off {}", 5 + i)));
   return out;
 }
 

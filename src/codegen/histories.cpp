@@ -132,6 +132,14 @@ std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
   return states;
 }
 
+std::vector<HistoryState> with_remainders(std::vector<HistoryState> states, std::size_t before) {
+  const std::size_t count = states.size();
+  for (std::size_t i = 0; i < count; ++i)
+    states.push_back(
+        {states[i].unit, fmt::format("what the solver's precision rounds off {}", before + i + 1)});
+  return states;
+}
+
 std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first,
                                   const std::string& pattern) {
   std::vector<std::string> lines;

@@ -28,6 +28,9 @@ std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
                                          std::string_view units);
 std::size_t history_count(const std::vector<SolverInput>& inputs);
 
+// Behind them what the solver's precision rounds off each; `before`: state variables in front.
+std::vector<HistoryState> with_remainders(std::vector<HistoryState> states, std::size_t before);
+
 // "8 pressure times slip, summed (MPa mm)", the first with that number; `pattern` writes it.
 std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::size_t first,
                                   const std::string& pattern = "{}");
