@@ -75,12 +75,16 @@ Explanation about(const Law& law) {
   return out;
 }
 
+std::string what_it_takes(const EffectForm& effect) {
+  const std::string count = effect.columns == 2 ? "two columns" : "three columns";
+  if (!effect.categorical) return effect.columns == 1 ? "one column" : count;
+  return effect.columns == 1 ? "a text column: one factor per level"
+                             : count + ", the first of text";
+}
+
 Explanation about(const EffectForm& effect) {
   Explanation out{effect.name, "effect", effect.title, {}, "parameters", {}};
-  out.fields = {{"formula", effect.formula},
-                {"acts on", effect.categorical   ? "a text column: one factor per level"
-                            : effect.two_columns ? "two columns"
-                                                 : "one column"}};
+  out.fields = {{"formula", effect.formula}, {"acts on", what_it_takes(effect)}};
   out.items = parameter_items(effect.parameters, false);
   return out;
 }

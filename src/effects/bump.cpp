@@ -13,7 +13,8 @@ Expr factor() {
   return 1.0 + a * exp(-0.5 * (u * u));
 }
 
-std::vector<std::vector<double>> grid(const Spread& s) {
+std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
+  const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
   for (const double place : places_to_try(s, 8))
     for (const double share : {0.06, 0.15})

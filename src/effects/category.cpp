@@ -1,8 +1,41 @@
 // One factor per level of a text column: tool, batch, operator.
+#include <fmt/format.h>
+
 #include "effects/effect.h"
 
 namespace frictab {
 namespace {
+
+// 1 + a1, 1 + a2, ...; the first level is the reference.
+std::vector<Parameter> parameters(const PlacedEffect& effect) {
+  const auto& levels = effect.inputs[0].levels;
+  std::vector<Parameter> all;
+  for (std::size_t level = 1; level < levels.size(); ++level)
+    all.push_back({fmt::format("a{}", level), "1",
+                   fmt::format("relative change of {} against {}", levels[level], levels[0]), 0,
+                   -10, 10});
+  return all;
+}
+
+Expr factor(const PlacedEffect& effect) {
+  const std::size_t last = effect.inputs[0].levels.size() - 1;
+  const auto change_of = [](std::size_t level) {
+    return level == 0 ? Expr(0.0) : Expr::symbol(fmt::format("a{}", level));
+  };
+  Expr change = change_of(last);
+  for (std::size_t level = last; level-- > 0;)
+    change =
+        where_le(Expr::symbol("x"), static_cast<double>(level) + 0.5, change_of(level), change);
+  return 1.0 + change;
+}
+
+std::string text(const PlacedEffect& effect) {
+  const EffectInput& x = effect.inputs[0];
+  std::string text = "factors of " + x.column + ": " + x.levels[0] + " 1";
+  for (std::size_t level = 1; level < x.levels.size(); ++level)
+    text += fmt::format(", {} {:.4g}", x.levels[level], 1 + effect.parameters[level - 1]);
+  return text;
+}
 
 EffectForm make() {
   EffectForm form;
@@ -12,8 +45,10 @@ EffectForm make() {
   form.formula = "1 + a_level";
   form.parameters = {
       {"a", "1", "relative change between the first and the last level", 0, -10, 10}};
-  form.shapes = {};
   form.categorical = true;
+  form.parameters_of = parameters;
+  form.build = factor;
+  form.text = text;
   return form;
 }
 

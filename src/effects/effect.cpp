@@ -29,10 +29,29 @@ Spread spread_of(std::span<const double> values) {
   return {sorted.front(), quantile(0.1), quantile(0.5), quantile(0.9), sorted.back()};
 }
 
-std::vector<double> start_values(const EffectForm& form, const Spread& x, const Spread& x2) {
+std::vector<Parameter> parameters_of(const PlacedEffect& effect) {
+  const EffectForm& form = *effect.form;
+  return form.parameters_of ? form.parameters_of(effect) : form.parameters;
+}
+
+std::size_t amplitudes_of(const PlacedEffect& effect) {
+  return effect.form->parameters_of ? parameters_of(effect).size() : effect.form->amplitudes;
+}
+
+Expr formula_of(const PlacedEffect& effect) {
+  return effect.form->build ? effect.form->build(effect) : effect.form->factor();
+}
+
+std::vector<std::string> input_symbols(const EffectForm& form) {
+  std::vector<std::string> names = {"x", "x2", "x3"};
+  names.resize(form.columns);
+  return names;
+}
+
+std::vector<double> start_values(const EffectForm& form, const std::vector<Spread>& spreads) {
   std::vector<double> values(form.parameters.size(), 0.0);
   for (std::size_t i = 0; i < form.shapes.size(); ++i)
-    values[i + 1] = form.shapes[i].start(form.shapes[i].column == 0 ? x : x2);
+    values[i + 1] = form.shapes[i].start(spreads.at(form.shapes[i].input));
   return values;
 }
 

@@ -1,4 +1,5 @@
-// The form of an effect that a law may lack: a factor of one quantity, neutral parameters give 1.
+// The form of an effect that a law may lack: a factor of one to three quantities, neutral
+// parameters give 1.
 #pragma once
 
 #include <span>
@@ -30,33 +31,70 @@ Spread spread_of(std::span<const double> values);
 // How one shape parameter (a parameter behind the amplitude) is started from the data.
 struct Shape {
   double (*start)(const Spread&) = nullptr;
-  bool fitted = true; // false: a reference point or scale, set once from the data and kept
-  int column = 0;     // 0: from the spread of x, 1: of x2
+  bool fitted = true;    // false: a reference point or scale, set once from the data and kept
+  std::size_t input = 0; // from the spread of x (0), x2 (1) or x3 (2)
 };
 
-// One file per form in src/effects/. The factor is a formula of "x" (and "x2" for a product of two
-// quantities) and of the parameters; the amplitude scales the whole effect: 0 is neutral, bit for
-// bit. A form may have several amplitudes (spline): it is linear in them, all 0 is neutral.
+struct EffectForm;
+
+struct EffectInput {
+  std::string column;              // recorded column or derived quantity (data/derived.h)
+  std::vector<std::string> levels; // of a text column; the first is the reference
+  // Where it was learned; beyond, the factor is held at its value at the end.
+  double low = 0, high = 1;
+};
+
+// One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
+// after interpolation: a table needs no axis for it, and its drift does not grow.
+struct PlacedEffect {
+  const EffectForm* form = nullptr;
+  std::vector<EffectInput> inputs; // as many as the form takes: x, x2, x3
+  // mu: the tabulated piece, before any limit | m: the limit | tau: added, in units of tau_scale
+  std::string acts_on = "mu";
+  std::vector<double> parameters; // as parameters_of lists them
+  std::vector<double> knots;      // of smooth forms: where their curves are given, ascending
+  double tau_scale_MPa = 1;
+  // What is added fades below this contact pressure: without pressure there is no friction. 0: not.
+  double pressure_MPa = 0;
+  double stiffness = 0; // of a penalised fit: weight of the form's roughness; 0: none
+};
+
+// One file per form in src/effects/. The factor is a formula of "x" (and "x2", "x3" for forms of
+// several quantities) and of the parameters; the amplitude scales the whole effect: 0 is neutral,
+// bit for bit. A form may have several amplitudes: it is linear in them, all 0 is neutral.
 struct EffectForm {
   std::string name;
   int order = 0;
   std::string title;
   std::string formula;               // for people
-  std::vector<Parameter> parameters; // amplitudes first; the others have units of x
+  std::vector<Parameter> parameters; // the amplitude first; the others have units of x, x2 or x3
   std::vector<Shape> shapes;         // one per parameter behind the amplitude
-  // For a text column: one factor per level instead of a formula of x (form "category").
-  bool categorical = false;
-  bool two_columns = false;
-  std::size_t amplitudes = 1;
-  Expr (*factor)() = nullptr; // nullptr where categorical
-  // Shape parameters (behind the amplitude) that a search over a column should try: near enough to
-  // each other that one of them finds what a fit would; nullptr: the start values alone.
-  std::vector<std::vector<double>> (*grid)(const Spread&) = nullptr;
+  std::size_t columns = 1;
+  std::size_t amplitudes = 1; // of `parameters`, in front: the form is linear in them
+  bool categorical = false;   // the first input is a text column: numbers of its levels
+  Expr (*factor)() = nullptr; // nullptr where `build` stands for it
+  // Forms whose parameters depend on levels or knots: all of them are amplitudes, `parameters`
+  // above holds one that stands for them.
+  std::vector<Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
+  Expr (*build)(const PlacedEffect&) = nullptr; // of x, x2, x3 and their names
+  // For people, with numbers; nullptr: the formula and its parameters.
+  std::string (*text)(const PlacedEffect&) = nullptr;
+  // Shape parameters (behind the amplitude) that a search over columns with these spreads should
+  // try: near enough to each other that one of them finds what a fit would; nullptr: the start
+  // values alone.
+  std::vector<std::vector<double>> (*grid)(const std::vector<Spread>&) = nullptr;
 };
 
-// Start values of all parameters but the amplitude, which is 0. `x2` is used by forms of two
-// columns only.
-std::vector<double> start_values(const EffectForm& form, const Spread& x, const Spread& x2 = {});
+// All parameters of a form that is placed, and how many of them, in front, it is linear in.
+std::vector<Parameter> parameters_of(const PlacedEffect& effect);
+std::size_t amplitudes_of(const PlacedEffect& effect);
+// 1 + ..., of x, x2, x3 and the names of the parameters.
+Expr formula_of(const PlacedEffect& effect);
+// x, x2, x3: as many as the form takes.
+std::vector<std::string> input_symbols(const EffectForm& form);
+
+// Start values of all parameters but the amplitude, which is 0; one spread per column.
+std::vector<double> start_values(const EffectForm& form, const std::vector<Spread>& spreads);
 
 // Evenly spaced inside the 5 % .. 95 % part of a column's range: places that a grid tries.
 std::vector<double> places_to_try(const Spread& spread, int count);

@@ -20,32 +20,26 @@ std::string prefix_of(std::size_t effect) {
   return fmt::format("e{}_", effect + 1);
 }
 
-Parameter level_parameter(const PlacedEffect& effect, std::size_t level) {
-  Parameter parameter = effect.form->parameters.front();
-  parameter.name = fmt::format("a{}", level);
-  parameter.meaning =
-      fmt::format("relative change of {} against {}", effect.levels[level], effect.levels[0]);
-  return parameter;
-}
-
 bool is_fitted(const EffectForm& form, std::size_t parameter) {
-  return parameter == 0 || form.shapes[parameter - 1].fitted;
+  return form.parameters_of || parameter == 0 || form.shapes[parameter - 1].fitted;
 }
 
-// One factor per level: 1, 1 + a1, 1 + a2, ...
-Expr category_factor(const PlacedEffect& effect, const std::string& prefix) {
-  const Expr x = Expr::symbol(symbol_of(effect.column));
-  const std::size_t last = effect.levels.size() - 1;
-  Expr change = Expr::symbol(prefix + fmt::format("a{}", last));
-  for (std::size_t level = last; level-- > 0;) {
-    const Expr here = level == 0 ? Expr(0.0) : Expr::symbol(prefix + fmt::format("a{}", level));
-    change = where_le(x, static_cast<double>(level) + 0.5, here, change);
-  }
-  return 1.0 + change;
+// Numbers of levels need no holding: each is one that was seen.
+Expr held(const EffectInput& input) {
+  const Expr x = Expr::symbol(symbol_of(input.column));
+  return input.levels.empty() ? minimum(maximum(x, input.low), input.high) : x;
 }
 
-Expr held(const std::string& column, double low, double high) {
-  return minimum(maximum(Expr::symbol(symbol_of(column)), low), high);
+// Below that pressure what is added fades with it.
+Expr fading(const PlacedEffect& effect) {
+  return effect.pressure_MPa > 0
+             ? minimum(Expr(1.0), Expr::symbol("sigma_n_MPa") / effect.pressure_MPa)
+             : Expr(1.0);
+}
+
+std::string held_text(const EffectInput& input) {
+  return input.levels.empty() ? fmt::format(", held at {:.4g} and {:.4g}", input.low, input.high)
+                              : "";
 }
 
 bool uses_parameter(const Expr& formula, const std::string& name) {
@@ -75,7 +69,7 @@ Factors collect(std::span<const PlacedEffect> effects) {
       all.m = all.on_m ? all.m * factor : factor;
       all.on_m = true;
     } else {
-      const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0);
+      const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * fading(effects[i]);
       all.tau = all.on_tau ? all.tau + shift : shift;
       all.on_tau = true;
     }
@@ -132,19 +126,14 @@ std::string symbol_of(const std::string& column) {
 }
 
 std::vector<Parameter> fitted_parameters(const PlacedEffect& effect) {
+  const std::vector<Parameter> all = parameters_of(effect);
   std::vector<Parameter> fitted;
-  if (effect.form->categorical) {
-    for (std::size_t level = 1; level < effect.levels.size(); ++level)
-      fitted.push_back(level_parameter(effect, level));
-    return fitted;
-  }
-  for (std::size_t i = 0; i < effect.form->parameters.size(); ++i)
-    if (is_fitted(*effect.form, i)) fitted.push_back(effect.form->parameters[i]);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (is_fitted(*effect.form, i)) fitted.push_back(all[i]);
   return fitted;
 }
 
 std::vector<double> fitted_values(const PlacedEffect& effect) {
-  if (effect.form->categorical) return effect.parameters;
   std::vector<double> values;
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     if (is_fitted(*effect.form, i)) values.push_back(effect.parameters[i]);
@@ -154,52 +143,71 @@ std::vector<double> fitted_values(const PlacedEffect& effect) {
 void set_fitted(PlacedEffect& effect, std::span<const double> values) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
-    if (effect.form->categorical || is_fitted(*effect.form, i))
-      effect.parameters[i] = values[next++];
+    if (is_fitted(*effect.form, i)) effect.parameters[i] = values[next++];
 }
 
 Expr factor_of(const PlacedEffect& effect, const std::string& prefix) {
-  const std::size_t takes =
-      effect.form->categorical ? effect.levels.size() - 1 : effect.form->parameters.size();
-  if (effect.parameters.size() != takes)
-    throw std::logic_error(fmt::format("{} takes {} parameters, not {}", effect.form->name, takes,
-                                       effect.parameters.size()));
-  if (effect.form->categorical) return category_factor(effect, prefix);
-  std::map<std::string, Expr> replacements = {{"x", held(effect.column, effect.low, effect.high)}};
-  if (effect.form->two_columns)
-    replacements.emplace("x2", held(effect.column2, effect.low2, effect.high2));
-  for (std::size_t i = 0; i < effect.form->parameters.size(); ++i) {
-    const std::string& name = effect.form->parameters[i].name;
+  const std::vector<Parameter> parameters = parameters_of(effect);
+  if (effect.parameters.size() != parameters.size())
+    throw std::logic_error(fmt::format("{} takes {} parameters, not {}", effect.form->name,
+                                       parameters.size(), effect.parameters.size()));
+  const auto symbols = input_symbols(*effect.form);
+  if (effect.inputs.size() != symbols.size())
+    throw std::logic_error(fmt::format("{} takes {} columns, not {}", effect.form->name,
+                                       symbols.size(), effect.inputs.size()));
+  std::map<std::string, Expr> replacements;
+  for (std::size_t i = 0; i < symbols.size(); ++i)
+    replacements.emplace(symbols[i], held(effect.inputs[i]));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string& name = parameters[i].name;
     replacements.emplace(name, is_fitted(*effect.form, i) ? Expr::symbol(prefix + name)
                                                           : Expr(effect.parameters[i]));
   }
-  return substitute(effect.form->factor(), replacements);
+  return substitute(formula_of(effect), replacements);
 }
 
 Program factor_program(const PlacedEffect& effect) {
   const std::string prefix = "e_";
-  std::vector<std::string> symbols{symbol_of(effect.column)}, names;
-  if (effect.form->two_columns) symbols.push_back(symbol_of(effect.column2));
+  std::vector<std::string> symbols, names;
+  for (const EffectInput& input : effect.inputs)
+    symbols.push_back(symbol_of(input.column));
   for (const Parameter& p : fitted_parameters(effect))
     names.push_back(prefix + p.name);
   return Program(factor_of(effect, prefix), symbols, names);
 }
 
+std::string formula_text(const PlacedEffect& effect) {
+  const std::string& factor = effect.form->formula;
+  if (effect.acts_on != "tau") return factor;
+  const bool is_sum = factor.starts_with("1 + ");
+  std::string text = fmt::format("tau_R + {:.4g} MPa ", effect.tau_scale_MPa);
+  if (effect.pressure_MPa > 0)
+    text += fmt::format("min(1, sigma_n_MPa/{:.4g}) ", effect.pressure_MPa);
+  return text + "(" + (is_sum ? factor.substr(4) : factor + " - 1") + ")";
+}
+
 std::string effect_text(const PlacedEffect& effect) {
-  std::string text = effect.form->formula + " with x = " + effect.column;
-  if (!effect.column2.empty()) text += ", x2 = " + effect.column2;
-  if (effect.form->categorical) {
-    text = "factors of " + effect.column + ": " + effect.levels[0] + " 1";
-    for (std::size_t level = 1; level < effect.levels.size(); ++level)
-      text += fmt::format(", {} {:.4g}", effect.levels[level], 1 + effect.parameters[level - 1]);
+  std::string text = formula_text(effect);
+  if (effect.form->text) {
+    text = effect.form->text(effect);
+    if (effect.acts_on == "tau") text = formula_text(effect) + ", " + text;
   } else {
-    text += fmt::format(", held at {:.4g} and {:.4g}", effect.low, effect.high);
-    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
-      text += fmt::format("; {} = {:.4g}", effect.form->parameters[i].name, effect.parameters[i]);
+    const auto symbols = input_symbols(*effect.form);
+    const auto parameters = parameters_of(effect);
+    for (std::size_t i = 0; i < symbols.size(); ++i)
+      text += fmt::format("{} {} = {}{}", i == 0 ? " with" : ";", symbols[i],
+                          effect.inputs[i].column, held_text(effect.inputs[i]));
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      text += fmt::format("; {} = {:.4g}", parameters[i].name, effect.parameters[i]);
   }
-  return text + "; acts on " + effect.acts_on +
-         (effect.acts_on == "tau" ? fmt::format(" in units of {:.4g} MPa", effect.tau_scale_MPa)
-                                  : "");
+  return effect.acts_on == "tau" ? text : text + "; acts on " + effect.acts_on;
+}
+
+std::string columns_text(const PlacedEffect& effect) {
+  std::string text;
+  for (const EffectInput& input : effect.inputs)
+    text += (text.empty() ? "" : " x ") + input.column;
+  return text;
 }
 
 bool has_limit(const Law& law, const Conventions& conventions) {
@@ -219,8 +227,8 @@ Law extended_law(const Law& law, const Conventions& conventions, std::span<const
     extended.parameters[p].start = start[p];
   for (std::size_t i = 0; i < effects.size(); ++i) {
     extended.formula += " [" + effect_text(effects[i]) + "]";
-    if (effects[i].form->categorical)
-      extended.levels[symbol_of(effects[i].column)] = effects[i].levels;
+    for (const EffectInput& input : effects[i].inputs)
+      if (!input.levels.empty()) extended.levels[symbol_of(input.column)] = input.levels;
     const auto values = fitted_values(effects[i]);
     std::vector<Parameter> own = fitted_parameters(effects[i]);
     for (std::size_t p = 0; p < own.size(); ++p) {

@@ -10,22 +10,6 @@
 
 namespace frictab {
 
-// One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
-// after interpolation: a table needs no axis for it, and its drift does not grow.
-struct PlacedEffect {
-  const EffectForm* form = nullptr;
-  std::string column;              // recorded column or derived quantity (data/derived.h)
-  std::string column2;             // forms of two columns
-  std::vector<std::string> levels; // of a text column; the first is the reference
-  // mu: the tabulated piece, before any limit | m: the limit | tau: added, in units of tau_scale
-  std::string acts_on = "mu";
-  std::vector<double> parameters; // in the form's order; category: one per level but the first
-  // Where it was learned; beyond, the factor is held at its value at the end.
-  double low = 0, high = 1;
-  double low2 = 0, high2 = 1;
-  double tau_scale_MPa = 1;
-};
-
 // A column's name as a symbol of a formula: letters, digits and _; c_ before names that formulas
 // use themselves (value, exp, mu, ...).
 std::string symbol_of(const std::string& column);
@@ -39,19 +23,27 @@ void set_fitted(PlacedEffect& effect, std::span<const double> values);
 // prefix + its name.
 Expr factor_of(const PlacedEffect& effect, const std::string& prefix);
 
-// The same as a program: of its one or two columns, and of the fitted parameters.
+// The same as a program: of its columns, and of the fitted parameters.
 Program factor_program(const PlacedEffect& effect);
 
-// For people: "(x/x0)^a with x = humidity_pct held in [30, 60], a = ..., acting on mu".
+// For people: "1 + a (x - x0)/w" as it stands; of an effect that is added, "tau_R + 50 MPa
+// min(1, sigma_n_MPa/12) (a (x - x0)/w)".
+std::string formula_text(const PlacedEffect& effect);
+
+// For people: "(x/x0)^a with x = humidity_pct, held at 30 and 60; a = ...; acts on mu".
 std::string effect_text(const PlacedEffect& effect);
+
+// "s_mm x humidity_pct"
+std::string columns_text(const PlacedEffect& effect);
 
 // Whether an effect on the limit m is another one than on mu: not for laws that are m k themselves.
 bool has_limit(const Law& law, const Conventions& conventions);
 
 // The law with all effects, named `name`. Parameters: the law's own, then per effect its fitted
 // ones as e1_a, e1_x0, e2_a, ...; where an effect acts on a limit that the law does not have, the
-// shear limit k becomes m_limit k. Neutral effects (amplitude 0, m_limit 1) leave every bit.
-// `start` holds the law's own parameters; effects start at theirs.
+// shear limit k becomes m_limit k; where one is added, the pressure is an input. Neutral effects
+// (amplitude 0, m_limit 1) leave every bit. `start` holds the law's own parameters; effects start
+// at theirs.
 Law extended_law(const Law& law, const Conventions& conventions, std::span<const double> start,
                  std::span<const PlacedEffect> effects, const std::string& name);
 

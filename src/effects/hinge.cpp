@@ -12,7 +12,8 @@ Expr factor() {
   return 1.0 + a * (maximum(x - x0, 0.0) / w);
 }
 
-std::vector<std::vector<double>> grid(const Spread& s) {
+std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
+  const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
   for (const double place : places_to_try(s, 9))
     shapes.push_back({place, 0.5 * s.span()});

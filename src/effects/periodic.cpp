@@ -15,7 +15,8 @@ Expr factor() {
 }
 
 // Wavelengths from twice the range to a fifteenth of it, with two phases each.
-std::vector<std::vector<double>> grid(const Spread& s) {
+std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
+  const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
   for (int i = 0; i < 24; ++i) {
     const double wave = (s.maximum - s.minimum) / (0.5 + 0.6 * i);

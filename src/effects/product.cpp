@@ -30,7 +30,7 @@ EffectForm make() {
                  {[](const Spread& s) { return s.span(); }, false, 0},
                  {[](const Spread& s) { return s.median; }, false, 1},
                  {[](const Spread& s) { return s.span(); }, false, 1}};
-  form.two_columns = true;
+  form.columns = 2;
   form.factor = factor;
   return form;
 }

@@ -11,7 +11,8 @@ Expr factor() {
   return 1.0 + a * (1.0 - exp(-(maximum(x, 0.0) / x0)));
 }
 
-std::vector<std::vector<double>> grid(const Spread& s) {
+std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
+  const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
   for (const double share : {0.02, 0.05, 0.12, 0.3, 0.8})
     shapes.push_back({share * (s.maximum - s.minimum)});

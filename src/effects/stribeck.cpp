@@ -13,7 +13,8 @@ Expr factor() {
   return 1.0 + a * (exp(-(speed / x0)) + speed / x1);
 }
 
-std::vector<std::vector<double>> grid(const Spread& s) {
+std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
+  const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
   for (const double fall : {0.03, 0.1, 0.3})
     for (const double rise : {0.5, 2.0})

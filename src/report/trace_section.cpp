@@ -66,9 +66,11 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
         high = std::max(high, v);
       }
   const double margin = 0.6 * (high - low);
-  const std::string what = effect.placed.acts_on == "m"     ? "factor on the limit"
-                           : effect.placed.acts_on == "tau" ? "1 + change in units"
-                                                            : "factor on mu";
+  const PlacedEffect& placed = effect.placed;
+  const std::string what = placed.acts_on == "m" ? "factor on the limit"
+                           : placed.acts_on == "tau"
+                               ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
+                               : "factor on mu";
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
@@ -93,17 +95,18 @@ std::string effect_plots(const ReportInput& input, const Trace& trace, const Tra
   if (!extended || !fit_of(input, trace.model, before)) return "";
   const auto names = inputs(*extended->model.law, extended->model.conventions);
   const InputColumns columns = input_columns(extended->model, names, input.validation);
+  const EffectInput& input_of_effect = effect.placed.inputs[0];
   const auto column = static_cast<std::size_t>(
-      std::find(names.begin(), names.end(), symbol_of(effect.placed.column)) - names.begin());
+      std::find(names.begin(), names.end(), symbol_of(input_of_effect.column)) - names.begin());
   const Values x = columns[column], measured = input.validation.values("tau_R_MPa");
   const auto r0 = residuals(measured, input.predicted[before]);
   const auto r1 = residuals(measured, input.predicted[after]);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  std::string label = effect.placed.column;
+  std::string label = input_of_effect.column;
   if (effect.placed.form->categorical)
-    label += " (0 = " + join(effect.placed.levels, ", ...") + ")";
-  const svg::Axis x_axis = svg::nice_axis(std::min(*low, effect.placed.low),
-                                          std::max(*high, effect.placed.high), 5, label);
+    label += " (0 = " + join(input_of_effect.levels, ", ...") + ")";
+  const svg::Axis x_axis = svg::nice_axis(std::min(*low, input_of_effect.low),
+                                          std::max(*high, input_of_effect.high), 5, label);
   std::vector<double> sorted = r0;
   std::sort(sorted.begin(), sorted.end());
   const svg::Axis y_axis =
@@ -164,7 +167,7 @@ TemplateValues effect_values(const ReportInput& input, const Trace& trace,
   values.text = {{"cause", svg::escape(cause_text(effect))},
                  {"form", effect.placed.form->title},
                  {"place", place},
-                 {"formula", svg::escape(effect.placed.form->formula)},
+                 {"formula", svg::escape(formula_text(effect.placed))},
                  {"parameters", parameters_of(effect)},
                  {"p", p_text(effect.p_value)},
                  {"gain", fixed(effect.gain_MPa, decimals)},

@@ -237,6 +237,13 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
                            Rows predicted, const std::vector<std::string>& inputs,
                            const TraceOptions& options) {
   Candidates found = Finder(training, validation, blocks, predicted, inputs, options).run();
+  if (training.has("sigma_n_MPa")) { // which effects that are added fade with
+    const auto sigma = training.values("sigma_n_MPa");
+    found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
+    for (const double pressure : sigma)
+      if (pressure > 0 && (found.lowest_pressure_MPa == 0 || pressure < found.lowest_pressure_MPa))
+        found.lowest_pressure_MPa = pressure;
+  }
   for (const std::string& name : inputs)
     if (!found.by_symbol.count(name)) found.by_symbol[name] = blocks.mean(training.values(name));
   return found;

@@ -28,9 +28,10 @@ struct CandidateColumn {
 
 struct Candidates {
   std::vector<CandidateColumn> columns;
-  BlockColumns by_symbol;    // all of them, and the law's inputs
-  std::string order_column;  // column that gives the order of tests; empty: none
-  std::vector<double> order; // per experiment: by that column, else as in the file
+  BlockColumns by_symbol;         // all of them, and the law's inputs
+  std::string order_column;       // column that gives the order of tests; empty: none
+  double lowest_pressure_MPa = 0; // of contact in a training row; 0: not recorded
+  std::vector<double> order;      // per experiment: by that column, else as in the file
   std::vector<std::string> notes;
   std::vector<std::string> constant; // recorded, but never varied: nothing can be said
 };

@@ -17,40 +17,47 @@ using Eigen::VectorXd;
 constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
 
-double factor_at(const Program& program, const PlacedEffect& effect, double x, double x2) {
-  const double row[] = {x, x2};
-  return program({row, effect.form->two_columns ? 2u : 1u}, fitted_values(effect));
+// A row of inputs with the first at x; of the others, towards their upper ends.
+std::vector<double> row_at(const PlacedEffect& effect, double x) {
+  std::vector<double> row{x};
+  for (std::size_t i = 1; i < effect.inputs.size(); ++i)
+    row.push_back(0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
+  return row;
+}
+
+double factor_at(const Program& program, const PlacedEffect& effect, double x) {
+  return program(row_at(effect, x), fitted_values(effect));
 }
 
 // Of the factor at x, from the covariance of its parameters.
-double deviation(const Program& program, const PlacedEffect& effect, double x, double x2,
+double deviation(const Program& program, const PlacedEffect& effect, double x,
                  const MatrixXd& covariance) {
-  const double row[] = {x, x2};
+  const std::vector<double> row = row_at(effect, x);
   std::vector<double> at = fitted_values(effect);
   VectorXd slope(static_cast<Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) {
     const double step = 1e-5 * std::max(std::abs(at[p]), 1e-3), kept = at[p];
     at[p] = kept + step;
-    const double up = program({row, effect.form->two_columns ? 2u : 1u}, at);
+    const double up = program(row, at);
     at[p] = kept - step;
-    const double down = program({row, effect.form->two_columns ? 2u : 1u}, at);
+    const double down = program(row, at);
     at[p] = kept;
     slope(static_cast<Index>(p)) = (up - down) / (2 * step);
   }
   return std::sqrt(std::max(slope.dot(covariance * slope), 0.0));
 }
 
-// x of a plot: along the column; of a pair, with the second one at its middle.
+// x of a plot: along the first column.
 std::vector<double> places_of(const PlacedEffect& effect) {
   std::vector<double> x;
+  const EffectInput& input = effect.inputs[0];
   if (effect.form->categorical) {
-    for (std::size_t level = 0; level < effect.levels.size(); ++level)
+    for (std::size_t level = 0; level < input.levels.size(); ++level)
       x.push_back(static_cast<double>(level));
     return x;
   }
   for (std::size_t i = 0; i < curve_points; ++i)
-    x.push_back(effect.low +
-                (effect.high - effect.low) * static_cast<double>(i) / (curve_points - 1));
+    x.push_back(input.low + (input.high - input.low) * static_cast<double>(i) / (curve_points - 1));
   return x;
 }
 
@@ -64,19 +71,18 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   const auto count = static_cast<Index>(fitted_parameters(effect).size());
   const MatrixXd own =
       covariance.block(static_cast<Index>(parameter), static_cast<Index>(parameter), count, count);
-  const double middle = 0.25 * effect.low2 + 0.75 * effect.high2;
   EffectCurve curve;
   for (const double x : places_of(effect)) {
-    const double f = factor_at(program, effect, x, middle);
-    const double d = 1.96 * deviation(program, effect, x, middle, own);
+    const double f = factor_at(program, effect, x);
+    const double d = 1.96 * deviation(program, effect, x, own);
     curve.x.push_back(x);
     curve.factor.push_back(f);
     curve.low.push_back(f - d);
     curve.high.push_back(f + d);
   }
   const VectorXd& sensitivity = sensitivities[place_of(effect)];
-  if (effect.form->two_columns || sensitivity.size() == 0) return curve;
-  const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.column));
+  if (effect.form->columns > 1 || sensitivity.size() == 0) return curve;
+  const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.inputs[0].column));
   const VectorXd residual = campaign.measured - rival.predicted;
   const auto& first = campaign.blocks.first;
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
@@ -90,7 +96,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
         continue;
       const double at = x.segment(begin, size).mean();
       curve.point_x.push_back(at);
-      curve.point_factor.push_back(factor_at(program, effect, at, 0) +
+      curve.point_factor.push_back(factor_at(program, effect, at) +
                                    s.dot(residual.segment(begin, size)) / s.squaredNorm());
     }
   }
@@ -100,23 +106,24 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
 std::string deciding_experiment(const Rival& one, const Rival& other,
                                 const Candidates& candidates) {
   const PlacedEffect &a = one.effects.back(), &b = other.effects.back();
-  if (a.form->categorical || b.form->categorical || a.form->two_columns || b.form->two_columns)
+  if (a.form->categorical || b.form->categorical || a.form->columns > 1 || b.form->columns > 1)
     return fmt::format("experiments in which {} varies while {} stays as it is",
                        cause_name(one.causes.back(), candidates),
                        cause_name(other.causes.back(), candidates));
   const Program fa = factor_program(a), fb = factor_program(b);
+  const EffectInput &x = a.inputs[0], &y = b.inputs[0];
   double most = -1;
   std::string text;
   for (const bool high_a : {false, true})
     for (const bool high_b : {false, true}) {
-      const double xa = high_a ? a.high : a.low, xb = high_b ? b.high : b.low;
-      const double apart = std::abs(factor_at(fa, a, xa, 0) - factor_at(fb, b, xb, 0));
+      const double xa = high_a ? x.high : x.low, xb = high_b ? y.high : y.low;
+      const double apart = std::abs(factor_at(fa, a, xa) - factor_at(fb, b, xb));
       if (apart <= most || high_a == high_b) continue;
       most = apart;
       text =
           fmt::format("an experiment with {} near {:.4g} and {} near {:.4g}: the two differ there "
                       "by {:.1f} %",
-                      a.column, xa, b.column, xb, 100 * apart);
+                      x.column, xa, y.column, xb, 100 * apart);
     }
   return text;
 }

@@ -65,10 +65,9 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
   const auto change = [&](const char* place) {
     PlacedEffect everywhere;
     everywhere.form = find_effect("linear");
-    everywhere.column = "everywhere";
+    everywhere.inputs = {{"everywhere", {}, 0, 1}};
     everywhere.acts_on = place;
     everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
-    everywhere.low = 0;
     std::vector<PlacedEffect> effects = rival.effects;
     effects.push_back(everywhere);
     const Law law = extended_law(campaign.law, campaign.conventions,

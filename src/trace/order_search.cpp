@@ -110,7 +110,7 @@ void forbid(Search& search, const std::function<bool(const Cause&)>& which) {
 } // namespace
 
 bool is_declared(const Search& search, const Rival& rival) {
-  const std::string& name = rival.effects.back().column;
+  const std::string& name = rival.effects.back().inputs[0].column;
   const std::string& distance = search.input.options.tool_distance;
   return !distance.empty() &&
          (name == distance || (name == "test_order" && distance == search.candidates.order_column));

@@ -20,30 +20,48 @@ struct Look {
   }
 };
 
+// Rows of inputs in which all but the first are at one of their ends.
+std::vector<std::vector<double>> corners_of(const PlacedEffect& effect) {
+  std::vector<std::vector<double>> rows{{0.0}};
+  for (std::size_t i = 1; i < effect.inputs.size(); ++i) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& row : rows)
+      for (const double end : {effect.inputs[i].low, effect.inputs[i].high}) {
+        longer.push_back(row);
+        longer.back().push_back(end);
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
 Look look_of(const PlacedEffect& effect, const CandidateColumn& column) {
   Look look;
-  if (effect.form->categorical) {
+  if (effect.form->categorical && effect.form->columns == 1) {
     for (const double a : fitted_values(effect))
       look.largest = std::max(look.largest, std::abs(a));
     return look;
   }
   const Program program = factor_program(effect);
   const std::vector<double> at = fitted_values(effect);
-  const auto factor = [&](double x, double x2) {
-    const double row[] = {x, x2};
-    return program({row, effect.form->two_columns ? 2u : 1u}, at);
-  };
-  look.low = look.high = look.tested_low = look.tested_high =
-      factor(column.tested.front(), effect.low2);
-  constexpr int steps = 32;
-  for (int i = 0; i <= steps; ++i)
-    for (const double x2 : {effect.low2, effect.high2})
-      look.take(factor(effect.low + (effect.high - effect.low) * i / steps, x2));
-  for (const double x : column.tested)
-    for (const double x2 : {effect.low2, effect.high2}) {
-      look.tested_low = std::min(look.tested_low, factor(x, x2));
-      look.tested_high = std::max(look.tested_high, factor(x, x2));
+  const auto corners = corners_of(effect);
+  const auto at_corners = [&](double x, auto take) {
+    for (std::vector<double> row : corners) {
+      row.front() = x;
+      take(program(row, at));
     }
+  };
+  at_corners(column.tested.front(),
+             [&](double f) { look.low = look.high = look.tested_low = look.tested_high = f; });
+  constexpr int steps = 32;
+  const EffectInput& x = effect.inputs[0];
+  for (int i = 0; i <= steps; ++i)
+    at_corners(x.low + (x.high - x.low) * i / steps, [&](double f) { look.take(f); });
+  for (const double tested : column.tested)
+    at_corners(tested, [&](double f) {
+      look.tested_low = std::min(look.tested_low, f);
+      look.tested_high = std::max(look.tested_high, f);
+    });
   return look;
 }
 

@@ -300,9 +300,9 @@ std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, co
   rivals.push_back(winner); // whose grid start may have been the better one
   const double spline_margin = 1.3 * per_parameter;
   for (Rival& rival : rivals)
-    if (rival.effects.back().form->amplitudes > 1)
+    if (amplitudes_of(rival.effects.back()) > 1)
       rival.penalised -=
-          0.3 * per_parameter * static_cast<double>(rival.effects.back().form->amplitudes) +
+          0.3 * per_parameter * static_cast<double>(amplitudes_of(rival.effects.back())) +
           spline_margin;
   sort_best_first(rivals);
   return rivals;

@@ -12,14 +12,19 @@ using Eigen::Index;
 
 // A form with a place and a width has structure of that width there.
 bool is_local(const PlacedEffect& effect) {
-  const auto& all = effect.form->parameters;
   const auto fitted = fitted_parameters(effect);
+  const std::size_t amplitudes = amplitudes_of(effect);
   const auto has = [&](bool width) {
-    return std::any_of(fitted.begin() + static_cast<long>(effect.form->amplitudes), fitted.end(),
+    return std::any_of(fitted.begin() + static_cast<long>(amplitudes), fitted.end(),
                        [&](const Parameter& p) { return (p.lower > 0) == width; });
   };
-  return !effect.form->categorical && all.size() > 2 &&
-         fitted.size() > effect.form->amplitudes + 1 && has(true) && has(false);
+  return fitted.size() > amplitudes + 1 && has(true) && has(false);
+}
+
+std::vector<const CandidateColumn*> columns_of(const Cause& cause, const Candidates& candidates) {
+  std::vector<const CandidateColumn*> columns{&candidates.columns[cause.column]};
+  if (cause.pair()) columns.push_back(&candidates.columns[cause.second]);
+  return columns;
 }
 
 double gap_of(const std::string& column, const Candidates& candidates) {
@@ -32,27 +37,21 @@ double gap_of(const std::string& column, const Candidates& candidates) {
 
 PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
                           const std::string& acts_on, double tau_scale_MPa) {
-  const CandidateColumn& x = candidates.columns[cause.column];
   PlacedEffect effect;
   effect.form = &form;
-  effect.column = x.name;
-  effect.levels = x.levels;
   effect.acts_on = acts_on;
   effect.tau_scale_MPa = tau_scale_MPa;
-  effect.low = x.spread.minimum;
-  effect.high = x.spread.maximum;
-  Spread second;
-  if (cause.pair()) {
-    const CandidateColumn& x2 = candidates.columns[cause.second];
-    effect.column2 = x2.name;
-    second = x2.spread;
-    effect.low2 = second.minimum;
-    effect.high2 = second.maximum;
+  effect.pressure_MPa = candidates.lowest_pressure_MPa;
+  std::vector<Spread> spreads;
+  for (const CandidateColumn* column : columns_of(cause, candidates)) {
+    effect.inputs.push_back(
+        {column->name, column->levels, column->spread.minimum, column->spread.maximum});
+    spreads.push_back(column->spread);
   }
-  if (form.categorical)
-    effect.parameters.assign(x.levels.size() - 1, 0.0);
+  if (form.parameters_of)
+    effect.parameters.assign(parameters_of(effect).size(), 0.0);
   else
-    effect.parameters = start_values(form, x.spread, second);
+    effect.parameters = start_values(form, spreads);
   return effect;
 }
 
@@ -71,11 +70,19 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
   return true;
 }
 
+// The input that a shape parameter is a value of, by its unit.
+const EffectInput& input_of(const Parameter& parameter, const PlacedEffect& effect) {
+  const auto symbols = input_symbols(*effect.form);
+  const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
+  return effect.inputs[at == symbols.end() ? 0 : static_cast<std::size_t>(at - symbols.begin())];
+}
+
 // Structure between values that were never tested.
 bool too_narrow(const PlacedEffect& effect, double gap) {
   if (!is_local(effect)) return false;
-  for (std::size_t p = effect.form->amplitudes; p < effect.parameters.size(); ++p)
-    if (effect.form->parameters[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
+  const auto all = parameters_of(effect);
+  for (std::size_t p = amplitudes_of(effect); p < all.size(); ++p)
+    if (all[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
   return false;
 }
 
@@ -83,10 +90,10 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
   const Program program = factor_program(effect);
   const std::vector<double> neutral = fitted_values(effect);
-  const auto& x = columns.at(symbol_of(effect.column));
-  std::vector<const double*> data{x.data()};
-  if (effect.form->two_columns) data.push_back(columns.at(symbol_of(effect.column2)).data());
-  const Index count = x.size();
+  std::vector<const double*> data;
+  for (const EffectInput& input : effect.inputs)
+    data.push_back(columns.at(symbol_of(input.column)).data());
+  const Index count = columns.at(symbol_of(effect.inputs[0].column)).size();
   Eigen::VectorXf direction(count);
   BoundProgram(program, static_cast<std::size_t>(count), data)
       .sweep(neutral, true, [&](const BoundProgram::Block& block) {
@@ -132,7 +139,7 @@ void keep_different(std::vector<GridShape>& shapes) {
 
 bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.column];
-  return form.categorical == !x.levels.empty() && form.two_columns == cause.pair() &&
+  return form.categorical == !x.levels.empty() && form.columns == (cause.pair() ? 2 : 1) &&
          has_meaning(form, x);
 }
 
@@ -144,9 +151,12 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
     if (form.amplitudes > 1 || !form_fits(form, cause, candidates)) continue;
     PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
     std::vector<std::vector<double>> grid;
-    if (form.grid)
-      grid = form.grid(x.spread);
-    else
+    if (form.grid) {
+      std::vector<Spread> spreads;
+      for (const CandidateColumn* column : columns_of(cause, candidates))
+        spreads.push_back(column->spread);
+      grid = form.grid(spreads);
+    } else
       grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
     for (const auto& values : grid) {
       std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
@@ -163,15 +173,14 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
   std::size_t next = own;
   for (const PlacedEffect& effect : effects) {
     const std::size_t count = fitted_parameters(effect).size();
-    const std::size_t first = next + (effect.form->categorical ? count : effect.form->amplitudes);
-    const double span = effect.high - effect.low;
-    const double least =
-        is_local(effect) ? std::max(span / 60, 0.5 * gap_of(effect.column, candidates)) : span / 60;
-    for (std::size_t p = first; p < next + count; ++p) {
+    for (std::size_t p = next + amplitudes_of(effect); p < next + count; ++p) {
       Parameter& parameter = extended.parameters[p];
+      const EffectInput& input = input_of(parameter, effect);
+      const double span = input.high - input.low;
+      const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;
       const bool width = parameter.lower > 0;
-      parameter.lower = width ? least : effect.low;
-      parameter.upper = width ? 6 * span : effect.high;
+      parameter.lower = width ? std::max(span / 60, gap) : input.low;
+      parameter.upper = width ? 6 * span : input.high;
       parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
     }
     next += count;

@@ -201,15 +201,16 @@ private:
   void add_parameters(TracedEffect& effect, const ModelFit& fit, std::size_t first) const {
     const auto fitted = fitted_parameters(effect.placed);
     const auto unit = [&](const std::string& text) {
-      if (text == "x") return unit_of(effect.placed.column);
-      return text == "x2" ? unit_of(effect.placed.column2) : text;
+      if (text == "x") return unit_of(effect.placed.inputs[0].column);
+      if (text == "x2") return unit_of(effect.placed.inputs[1].column);
+      return text == "x3" ? unit_of(effect.placed.inputs[2].column) : text;
     };
     for (std::size_t p = 0; p < fitted.size(); ++p)
       effect.parameters.push_back({fitted[p].name, fit.model.parameters[first + p],
                                    fit.std_error[first + p], unit(fitted[p].unit)});
-    if (effect.placed.form->categorical) return;
-    for (std::size_t p = 0; p < effect.placed.parameters.size(); ++p) {
-      const Parameter& parameter = effect.placed.form->parameters[p];
+    const std::vector<Parameter> all = parameters_of(effect.placed);
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      const Parameter& parameter = all[p];
       const bool known = std::any_of(fitted.begin(), fitted.end(),
                                      [&](const Parameter& f) { return f.name == parameter.name; });
       if (!known)

@@ -50,13 +50,22 @@ Json alternatives_json(const TracedEffect& effect) {
 }
 
 Json placed_json(const PlacedEffect& p) {
-  Json j = {{"column", p.column}, {"held_between", {p.low, p.high}}, {"values", p.parameters}};
-  if (!p.column2.empty()) {
-    j["column2"] = p.column2;
-    j["held_between_2"] = {p.low2, p.high2};
+  Json inputs = Json::array();
+  for (const EffectInput& input : p.inputs) {
+    Json one = {{"column", input.column}};
+    if (input.levels.empty())
+      one["held_between"] = {input.low, input.high};
+    else
+      one["levels"] = input.levels;
+    inputs.push_back(one);
   }
-  if (!p.levels.empty()) j["levels"] = p.levels;
-  if (p.acts_on == "tau") j["unit_MPa"] = p.tau_scale_MPa;
+  Json j = {{"inputs", inputs}, {"values", p.parameters}};
+  if (!p.knots.empty()) j["knots"] = p.knots;
+  if (p.stiffness > 0) j["stiffness"] = p.stiffness;
+  if (p.acts_on == "tau") {
+    j["unit_MPa"] = p.tau_scale_MPa;
+    j["fades_below_MPa"] = p.pressure_MPa;
+  }
   return j;
 }
 
@@ -69,7 +78,7 @@ Json effect_json(const TracedEffect& e) {
   return {{"columns", e.columns},
           {"derived", derived_json(e.derived)},
           {"form", e.placed.form->name},
-          {"formula", e.placed.form->formula},
+          {"formula", formula_text(e.placed)},
           {"acts_on", e.placed.acts_on},
           {"parameters", parameters_json(e)},
           {"p_value", e.p_value},
@@ -83,21 +92,28 @@ Json effect_json(const TracedEffect& e) {
           {"curve", curve_json(e.curve)}};
 }
 
+EffectInput parse_input(const Json& j) {
+  EffectInput input;
+  input.column = j.at("column");
+  if (j.contains("levels")) input.levels = j.at("levels").get<std::vector<std::string>>();
+  if (j.contains("held_between")) {
+    input.low = j.at("held_between").at(0);
+    input.high = j.at("held_between").at(1);
+  }
+  return input;
+}
+
 PlacedEffect parse_placed(const Json& j, const Json& effect) {
   PlacedEffect p;
   p.form = find_effect(effect.at("form").get<std::string>());
   if (!p.form) throw InputError({"trace.json", 0, 0}, "unknown effect form", "trace again");
-  p.column = j.at("column");
-  p.low = j.at("held_between").at(0);
-  p.high = j.at("held_between").at(1);
+  for (const Json& input : j.at("inputs"))
+    p.inputs.push_back(parse_input(input));
   p.parameters = j.at("values").get<std::vector<double>>();
-  if (j.contains("column2")) {
-    p.column2 = j.at("column2");
-    p.low2 = j.at("held_between_2").at(0);
-    p.high2 = j.at("held_between_2").at(1);
-  }
-  if (j.contains("levels")) p.levels = j.at("levels").get<std::vector<std::string>>();
+  if (j.contains("knots")) p.knots = j.at("knots").get<std::vector<double>>();
+  if (j.contains("stiffness")) p.stiffness = j.at("stiffness");
   if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
+  if (j.contains("fades_below_MPa")) p.pressure_MPa = j.at("fades_below_MPa");
   p.acts_on = effect.at("acts_on");
   return p;
 }

@@ -38,7 +38,7 @@ std::string parameter_text(const TracedEffect& effect) {
 
 bool belongs_to_the_experiment(const TracedEffect& effect) {
   const DerivedQuantity* derived =
-      effect.derived.empty() ? nullptr : find_derived(effect.placed.column);
+      effect.derived.empty() ? nullptr : find_derived(effect.placed.inputs[0].column);
   return derived && derived->continuation.rule == Continuation::none;
 }
 
@@ -46,7 +46,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
   out += fmt::format("  + {}: {}, {}, p = {:.3g}, gains {:.2f} MPa on unseen experiments\n",
                      cause_text(e), e.placed.form->name, place_text(e.placed.acts_on), e.p_value,
                      e.gain_MPa);
-  out += fmt::format("      {}: {}\n", e.placed.form->formula, parameter_text(e));
+  out += fmt::format("      {}: {}\n", formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
     if (a.in_set) same.push_back(a.derived.empty() ? join(a.columns, " x ") : a.derived);
@@ -62,8 +62,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
 } // namespace
 
 std::string cause_text(const TracedEffect& effect) {
-  const std::string& one = effect.placed.column;
-  std::string text = effect.placed.column2.empty() ? one : one + " x " + effect.placed.column2;
+  std::string text = columns_text(effect.placed);
   if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
   return text;
 }

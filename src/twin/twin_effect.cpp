@@ -49,7 +49,7 @@ std::vector<double> factors(const PlantedEffect& effect, const Resolved& rows,
     names.push_back(parameter.name);
   std::vector<std::string> inputs{"x"};
   std::vector<const double*> columns{rows.x.data()};
-  if (effect.form->two_columns) {
+  if (effect.form->columns > 1) {
     inputs.push_back("x2");
     columns.push_back(rows.x2.data());
   }
@@ -210,7 +210,7 @@ double solved_amplitude(const EffectSpec& spec, double noise_scale, const Streng
 }
 
 void set_shapes(const EffectSpec& spec, const Resolved& rows, PlantedEffect& effect) {
-  effect.parameters = start_values(*effect.form, spread_of(rows.x), spread_of(rows.x2));
+  effect.parameters = start_values(*effect.form, {spread_of(rows.x), spread_of(rows.x2)});
   for (std::size_t i = 1; i < effect.parameters.size(); ++i)
     if (const auto given = spec.shapes.find(effect.form->parameters[i].name);
         given != spec.shapes.end())

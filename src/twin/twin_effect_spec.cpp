@@ -88,8 +88,8 @@ void check_whole(const EffectSpec& spec, const EffectForm* form, FaultList& faul
                spec.strength ? "strength and amplitude are both given"
                              : "neither strength nor amplitude is given",
                "strength=0.15 raises the error of the law without the effect by 15 %");
-  if (form != nullptr && form->two_columns == spec.column2.empty())
-    faults.add({option}, form->two_columns ? "form '" + form->name + "' needs column2"
+  if (form != nullptr && (form->columns > 1) == spec.column2.empty())
+    faults.add({option}, form->columns > 1 ? "form '" + form->name + "' needs column2"
                                            : "form '" + form->name + "' takes no column2");
 }
 

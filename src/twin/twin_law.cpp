@@ -23,10 +23,8 @@ const EffectForm& planted_form() {
 PlacedEffect planted_on(const std::string& place) {
   PlacedEffect effect;
   effect.form = &planted_form();
-  effect.column = "planted_" + place;
+  effect.inputs = {{"planted_" + place, {}, -1e300, 1e300}};
   effect.acts_on = place;
-  effect.low = -1e300;
-  effect.high = 1e300;
   return effect;
 }
 

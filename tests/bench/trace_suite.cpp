@@ -252,8 +252,10 @@ Names names_of(const EffectSpec& spec) {
 }
 
 Names names_of(const TracedEffect& effect) {
-  const PlacedEffect& placed = effect.placed;
-  return placed.column2.empty() ? Names{placed.column} : Names{placed.column, placed.column2};
+  Names names;
+  for (const EffectInput& input : effect.placed.inputs)
+    names.push_back(input.column);
+  return names;
 }
 
 // Of a product with a derived factor the recorded columns behind it, which match nothing planted.

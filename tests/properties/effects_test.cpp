@@ -20,11 +20,6 @@ std::vector<std::string> names_of(const EffectForm& form) {
   return names;
 }
 
-std::vector<std::string> inputs_of(const EffectForm& form) {
-  if (form.two_columns) return {"x", "x2"};
-  return {"x"};
-}
-
 // Start values for columns of very different spread.
 std::vector<std::vector<double>> starts(const EffectForm& form) {
   const Spread spreads[] = {{0, 2, 10, 18, 20},     {20, 20, 110, 200, 260},
@@ -32,12 +27,12 @@ std::vector<std::vector<double>> starts(const EffectForm& form) {
                             {0, 0, 0, 0, 0},        {1e-6, 2e-6, 5e-6, 9e-6, 1e-5}};
   std::vector<std::vector<double>> all;
   for (const Spread& spread : spreads)
-    all.push_back(start_values(form, spread, spreads[1]));
+    all.push_back(start_values(form, {spread, spreads[1], spreads[2]}));
   return all;
 }
 
 class EffectForms : public testing::TestWithParam<const EffectForm*> {};
-class EffectFormulas : public EffectForms {}; // all but "category", which has none
+class EffectFormulas : public EffectForms {}; // those that are the same wherever they are placed
 
 TEST_P(EffectForms, DescribesItself) {
   const EffectForm& form = *GetParam();
@@ -47,7 +42,8 @@ TEST_P(EffectForms, DescribesItself) {
   for (std::size_t i = 0; i < form.amplitudes; ++i)
     EXPECT_EQ(form.parameters[i].start, 0) << "amplitudes come first, 0 is neutral";
   EXPECT_EQ(form.shapes.size() + 1, form.parameters.size());
-  EXPECT_EQ(form.categorical, form.factor == nullptr);
+  EXPECT_EQ(form.build != nullptr, form.factor == nullptr);
+  EXPECT_EQ(form.build != nullptr, form.parameters_of != nullptr);
   for (const Parameter& parameter : form.parameters) {
     EXPECT_LE(parameter.lower, parameter.start) << parameter.name;
     EXPECT_GE(parameter.upper, parameter.start) << parameter.name;
@@ -67,7 +63,7 @@ TEST_P(EffectForms, StartValuesRespectBounds) {
 TEST_P(EffectFormulas, UsesOnlyItsInputsAndParameters) {
   const EffectForm& form = *GetParam();
   std::set<std::string> known;
-  for (const auto& name : inputs_of(form))
+  for (const auto& name : input_symbols(form))
     known.insert(name);
   for (const auto& name : names_of(form))
     known.insert(name);
@@ -76,25 +72,25 @@ TEST_P(EffectFormulas, UsesOnlyItsInputsAndParameters) {
 
 TEST_P(EffectFormulas, NeutralAmplitudeIsExactlyOne) {
   const EffectForm& form = *GetParam();
-  const Program program(form.factor(), inputs_of(form), names_of(form));
+  const Program program(form.factor(), input_symbols(form), names_of(form));
   for (const auto& values : starts(form))
     for (const double x : some_x)
       for (const double x2 : some_x) {
-        const double row[] = {x, x2};
-        EXPECT_EQ(program({row, form.two_columns ? 2u : 1u}, values), 1.0) << x << ' ' << x2;
+        const double row[] = {x, x2, x};
+        EXPECT_EQ(program({row, form.columns}, values), 1.0) << x << ' ' << x2;
       }
 }
 
 TEST_P(EffectFormulas, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
   const EffectForm& form = *GetParam();
-  const Program program(form.factor(), inputs_of(form), names_of(form));
-  auto values = start_values(form, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20});
+  const Program program(form.factor(), input_symbols(form), names_of(form));
+  auto values = start_values(form, {{0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}});
   for (const double amplitude : {-0.5, 0.5}) {
     values[0] = amplitude;
     bool reacts = false;
     for (double x = -5; x <= 25; x += 0.5) {
-      const double row[] = {x, 20 - x};
-      const double factor = program({row, form.two_columns ? 2u : 1u}, values);
+      const double row[] = {x, 20 - x, x};
+      const double factor = program({row, form.columns}, values);
       EXPECT_TRUE(std::isfinite(factor)) << x;
       reacts = reacts || std::abs(factor - 1) > 1e-3;
     }
@@ -104,13 +100,13 @@ TEST_P(EffectFormulas, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
 
 TEST_P(EffectFormulas, ReadsBackFromItsText) {
   const EffectForm& form = *GetParam();
-  const Program direct(form.factor(), inputs_of(form), names_of(form));
-  const Program read(parse_expr(to_text(form.factor())), inputs_of(form), names_of(form));
-  auto values = start_values(form, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20});
+  const Program direct(form.factor(), input_symbols(form), names_of(form));
+  const Program read(parse_expr(to_text(form.factor())), input_symbols(form), names_of(form));
+  auto values = start_values(form, {{0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}});
   values[0] = 0.37;
   for (double x = 0; x <= 25; x += 0.7) {
-    const double row[] = {x, 20 - x};
-    const std::span<const double> in(row, form.two_columns ? 2u : 1u);
+    const double row[] = {x, 20 - x, x};
+    const std::span<const double> in(row, form.columns);
     EXPECT_EQ(direct(in, values), read(in, values));
   }
 }
@@ -118,7 +114,7 @@ TEST_P(EffectFormulas, ReadsBackFromItsText) {
 std::vector<const EffectForm*> forms(bool categorical_too) {
   std::vector<const EffectForm*> forms;
   for (const EffectForm& form : all_effects())
-    if (categorical_too || !form.categorical) forms.push_back(&form);
+    if (categorical_too || form.factor) forms.push_back(&form);
   return forms;
 }
 

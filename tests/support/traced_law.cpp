@@ -14,10 +14,8 @@ PlacedEffect traced_effect(const std::string& which) {
   const auto put = [&](const char* form, const char* column, std::vector<double> parameters,
                        double low, double high) {
     effect.form = find_effect(form);
-    effect.column = column;
+    effect.inputs = {{column, {}, low, high}};
     effect.parameters = std::move(parameters);
-    effect.low = low;
-    effect.high = high;
   };
   if (which == "humidity") put("power", "humidity_pct", {0.3, 45}, 30, 60);
   if (which == "work") put("saturation", "friction_work", {-0.25, 400}, 0, 3000);
@@ -29,7 +27,7 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70, 50}, 20, 120);
   if (which == "tool") {
     put("category", "tool", {0.1, -0.15}, 0, 1);
-    effect.levels = {"A", "B", "C"};
+    effect.inputs[0].levels = {"A", "B", "C"};
   }
   return effect;
 }

@@ -16,21 +16,21 @@ const std::vector<std::string> states = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
 PlacedEffect effect(const char* form, const char* acts_on, double amplitude) {
   PlacedEffect effect;
   effect.form = find_effect(form);
-  effect.column = "humidity_pct";
   effect.acts_on = acts_on;
-  if (effect.form->two_columns) effect.column2 = "Ra_um";
-  if (effect.form->categorical) {
-    effect.column = "tool";
-    effect.levels = {"A", "B", "C"};
-    effect.parameters = {amplitude, 2 * amplitude};
-  } else {
-    effect.parameters = start_values(*effect.form, {30, 35, 45, 55, 60}, {0.1, 0.2, 0.3, 0.4, 0.5});
+  const std::vector<EffectInput> numbers = {
+      {"humidity_pct", {}, 30, 60}, {"Ra_um", {}, 0.1, 0.5}, {"film_um", {}, 1, 9}};
+  const std::vector<Spread> spreads = {
+      {30, 35, 45, 55, 60}, {0.1, 0.2, 0.3, 0.4, 0.5}, {1, 2, 5, 8, 9}};
+  if (effect.form->categorical) effect.inputs = {{"tool", {"A", "B", "C"}}};
+  for (std::size_t i = 0; effect.inputs.size() < effect.form->columns; ++i)
+    effect.inputs.push_back(numbers[i]);
+  if (effect.form->parameters_of)
+    for (std::size_t p = parameters_of(effect).size(); p > 0; --p)
+      effect.parameters.push_back((static_cast<double>(effect.parameters.size()) + 1) * amplitude);
+  else {
+    effect.parameters = start_values(*effect.form, spreads);
     effect.parameters[0] = amplitude;
   }
-  effect.low = 30;
-  effect.high = 60;
-  effect.low2 = 0.1;
-  effect.high2 = 0.5;
   effect.tau_scale_MPa = 100;
   return effect;
 }
@@ -101,6 +101,21 @@ TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
   const PlacedEffect half[] = {effect("linear", "tau", 0.5)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
   EXPECT_NEAR(tau(extended, 1000, 55) - tau(coulomb, 1000, 55), 25, 1e-10);
+}
+
+TEST(ExtendedLaw, AnAddedEffectFadesWithThePressure) {
+  for (const char* name : {"coulomb", "shear"}) { // that takes the pressure, that does not
+    const Law& law = *find_law(name);
+    PlacedEffect half[] = {effect("linear", "tau", 0.5)};
+    half[0].pressure_MPa = 200;
+    const Law extended = extended_law(law, {}, starts_of(law), half, "extended");
+    const auto added = [&](double sigma) { return tau(extended, sigma, 55) - tau(law, sigma, 55); };
+    EXPECT_NEAR(added(1000), 25, 1e-10) << name;
+    EXPECT_NEAR(added(200), 25, 1e-10) << name;
+    EXPECT_NEAR(added(50), 6.25, 1e-10) << name;
+    EXPECT_EQ(added(0), 0) << name;
+    EXPECT_EQ(formula_text(half[0]), "tau_R + 100 MPa min(1, sigma_n_MPa/200) (a (x - x0)/w)");
+  }
 }
 
 TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {

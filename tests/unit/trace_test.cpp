@@ -44,7 +44,7 @@ Trace traced(const TwinOptions& options, TraceOptions how = {}) {
 std::vector<std::string> causes(const Trace& trace) {
   std::vector<std::string> names;
   for (const TracedEffect& effect : trace.effects)
-    names.push_back(effect.placed.column);
+    names.push_back(effect.placed.inputs[0].column);
   return names;
 }
 
@@ -74,7 +74,7 @@ TEST_P(TracePlanted, EffectIsFoundPlacedAndRemoved) {
   const Planted& p = GetParam();
   const Trace t = traced(campaign("log_coulomb", 4, p.effect));
   ASSERT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
-  EXPECT_EQ(t.effects.front().placed.column, p.column) << trace_text(t);
+  EXPECT_EQ(t.effects.front().placed.inputs[0].column, p.column) << trace_text(t);
   EXPECT_EQ(t.effects.front().placed.acts_on, p.acts_on);
   EXPECT_LE(t.effects.front().p_value, t.alpha);
   EXPECT_EQ(t.extended_model, "log_coulomb_traced");
@@ -227,7 +227,7 @@ TEST(Trace, TwoExperimentsAreRefused) {
 // Rates over small campaigns; frictab_bench_trace has the large set and the table.
 bool names(const Trace& trace, const std::string& column) {
   for (const TracedEffect& effect : trace.effects) {
-    if (effect.placed.column == column) return true;
+    if (effect.placed.inputs[0].column == column) return true;
     for (const Alternative& other : effect.alternatives)
       if (other.in_set && (other.derived == column || other.columns == std::vector{column}))
         return true;

@@ -109,11 +109,9 @@ TEST(TwinLaw, EffectsAreThoseOfTheExtendedLaw) {
     for (const PlantedEffect& planted : twin.effects) {
       PlacedEffect& effect = effects.emplace_back();
       effect.form = planted.form;
-      effect.column = planted.spec.column;
+      effect.inputs = {{planted.spec.column, {}, -1e9, 1e9}};
       effect.acts_on = planted.spec.on;
       effect.parameters = planted.parameters;
-      effect.low = -1e9;
-      effect.high = 1e9;
       effect.tau_scale_MPa = mean_of(twin.training.base_MPa);
     }
     const Law law =
