@@ -18,15 +18,19 @@ std::vector<Parameter> parameters(const PlacedEffect& effect) {
 }
 
 Expr factor(const PlacedEffect& effect) {
+  std::vector<Expr> changes{0.0};
+  for (const Parameter& parameter : parameters(effect))
+    changes.push_back(Expr::symbol(parameter.name));
+  return 1.0 + by_level(Expr::symbol("x"), changes);
+}
+
+// Grows from level to level.
+std::vector<double> pattern(const PlacedEffect& effect) {
   const std::size_t last = effect.inputs[0].levels.size() - 1;
-  const auto change_of = [](std::size_t level) {
-    return level == 0 ? Expr(0.0) : Expr::symbol(fmt::format("a{}", level));
-  };
-  Expr change = change_of(last);
-  for (std::size_t level = last; level-- > 0;)
-    change =
-        where_le(Expr::symbol("x"), static_cast<double>(level) + 0.5, change_of(level), change);
-  return 1.0 + change;
+  std::vector<double> values;
+  for (std::size_t level = 1; level <= last; ++level)
+    values.push_back(static_cast<double>(level) / static_cast<double>(last));
+  return values;
 }
 
 std::string text(const PlacedEffect& effect) {
@@ -49,6 +53,7 @@ EffectForm make() {
   form.parameters_of = parameters;
   form.build = factor;
   form.text = text;
+  form.pattern = pattern;
   return form;
 }
 

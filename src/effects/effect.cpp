@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/natural_spline.h"
+
 namespace frictab {
 
 double Spread::span() const {
@@ -29,13 +31,26 @@ Spread spread_of(std::span<const double> values) {
   return {sorted.front(), quantile(0.1), quantile(0.5), quantile(0.9), sorted.back()};
 }
 
+void place_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values) {
+  for (std::size_t i = 0; i < effect.form->knots.size(); ++i)
+    if (effect.form->knots[i] > 0)
+      effect.inputs[i].knots = spline_knots(values[i], effect.form->knots[i]);
+}
+
+Expr by_level(const Expr& x, std::span<const Expr> values) {
+  Expr chosen = values.back();
+  for (std::size_t level = values.size() - 1; level-- > 0;)
+    chosen = where_le(x, static_cast<double>(level) + 0.5, values[level], chosen);
+  return chosen;
+}
+
 std::vector<Parameter> parameters_of(const PlacedEffect& effect) {
   const EffectForm& form = *effect.form;
   return form.parameters_of ? form.parameters_of(effect) : form.parameters;
 }
 
 std::size_t amplitudes_of(const PlacedEffect& effect) {
-  return effect.form->parameters_of ? parameters_of(effect).size() : effect.form->amplitudes;
+  return effect.form->parameters_of ? parameters_of(effect).size() : 1;
 }
 
 Expr formula_of(const PlacedEffect& effect) {

@@ -42,6 +42,7 @@ struct EffectInput {
   std::vector<std::string> levels; // of a text column; the first is the reference
   // Where it was learned; beyond, the factor is held at its value at the end.
   double low = 0, high = 1;
+  std::vector<double> knots = {}; // of smooth forms: where their curves are given, ascending
 };
 
 // One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
@@ -52,7 +53,6 @@ struct PlacedEffect {
   // mu: the tabulated piece, before any limit | m: the limit | tau: added, in units of tau_scale
   std::string acts_on = "mu";
   std::vector<double> parameters; // as parameters_of lists them
-  std::vector<double> knots;      // of smooth forms: where their curves are given, ascending
   double tau_scale_MPa = 1;
   // What is added fades below this contact pressure: without pressure there is no friction. 0: not.
   double pressure_MPa = 0;
@@ -70,13 +70,18 @@ struct EffectForm {
   std::vector<Parameter> parameters; // the amplitude first; the others have units of x, x2 or x3
   std::vector<Shape> shapes;         // one per parameter behind the amplitude
   std::size_t columns = 1;
-  std::size_t amplitudes = 1; // of `parameters`, in front: the form is linear in them
   bool categorical = false;   // the first input is a text column: numbers of its levels
   Expr (*factor)() = nullptr; // nullptr where `build` stands for it
   // Forms whose parameters depend on levels or knots: all of them are amplitudes, `parameters`
   // above holds one that stands for them.
   std::vector<Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
   Expr (*build)(const PlacedEffect&) = nullptr; // of x, x2, x3 and their names
+  // Their values at an amplitude of 1: what a synthetic campaign plants.
+  std::vector<double> (*pattern)(const PlacedEffect&) = nullptr;
+  // Smooth forms: knots per input (0: none), and the roughness of the amplitudes, symmetric, row by
+  // row, without negative eigenvalues; nullptr for closed forms.
+  std::vector<int> knots;
+  std::vector<double> (*penalty)(const PlacedEffect&) = nullptr;
   // For people, with numbers; nullptr: the formula and its parameters.
   std::string (*text)(const PlacedEffect&) = nullptr;
   // Shape parameters (behind the amplitude) that a search over columns with these spreads should
@@ -84,6 +89,12 @@ struct EffectForm {
   // values alone.
   std::vector<std::vector<double>> (*grid)(const std::vector<Spread>&) = nullptr;
 };
+
+// Gives every input the knots that its form asks for; `values` of one column each.
+void place_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
+
+// The value of a text column's level, whose number is x.
+Expr by_level(const Expr& x, std::span<const Expr> values);
 
 // All parameters of a form that is placed, and how many of them, in front, it is linear in.
 std::vector<Parameter> parameters_of(const PlacedEffect& effect);

@@ -1,58 +1,54 @@
 // A smooth curve without a named form: what a column can explain at best.
+#include <fmt/format.h>
+
 #include "effects/effect.h"
+#include "effects/natural_spline.h"
 
 namespace frictab {
 namespace {
 
-// Natural cubic spline over five knots (Hastie, Tibshirani, Friedman 2009, eq. 5.4-5.5): straight
-// beyond the outer ones. Arguments in units of the outer knots' distance.
-Expr cube_above(const Expr& u, const Expr& knot) {
-  const Expr d = maximum(u - knot, 0.0);
-  return d * d * d;
+std::vector<Parameter> parameters(const PlacedEffect& effect) {
+  std::vector<Parameter> all;
+  for (const double knot : effect.inputs[0].knots)
+    all.push_back({fmt::format("v{}", all.size() + 1), "1",
+                   fmt::format("relative change at {:.6g}", knot), 0, -10, 10});
+  return all;
 }
 
-Expr factor() {
-  const Expr x = Expr::symbol("x");
-  const Expr first = Expr::symbol("x1");
-  const Expr width = Expr::symbol("x5") - first;
-  const auto unit = [&](const Expr& at) { return (at - first) / width; };
-  const Expr u = unit(x);
-  const Expr u4 = unit(Expr::symbol("x4"));
-  const auto d = [&](const Expr& knot) {
-    return (cube_above(u, knot) - cube_above(u, 1.0)) / (1.0 - knot);
-  };
-  const Expr last = d(u4);
-  return 1.0 + Expr::symbol("a") * u + Expr::symbol("b2") * (d(0.0) - last) +
-         Expr::symbol("b3") * (d(unit(Expr::symbol("x2"))) - last) +
-         Expr::symbol("b4") * (d(unit(Expr::symbol("x3"))) - last);
+Expr factor(const PlacedEffect& effect) {
+  std::vector<Expr> values;
+  for (const Parameter& parameter : parameters(effect))
+    values.push_back(Expr::symbol(parameter.name));
+  return 1.0 + NaturalSpline(Expr::symbol("x"), effect.inputs[0].knots)(values);
 }
 
-template <int eighths> double knot(const Spread& s) {
-  const double width = s.maximum > s.minimum ? s.maximum - s.minimum : s.span();
-  return s.minimum + width * eighths / 8.0;
+std::string text(const PlacedEffect& effect) {
+  const EffectInput& x = effect.inputs[0];
+  return "natural cubic spline of " + x.column + " through " +
+         knots_text(x.knots, effect.parameters);
+}
+
+std::vector<double> penalty(const PlacedEffect& effect) {
+  return scaled_penalty(roughness(effect.inputs[0].knots));
+}
+
+std::vector<double> pattern(const PlacedEffect& effect) {
+  return half_wave(effect.inputs[0].knots);
 }
 
 EffectForm make() {
   EffectForm form;
   form.name = "spline";
-  form.order = 14;
-  form.title = "natural cubic spline over five knots";
-  form.formula = "1 + a u + b2 n2(u) + b3 n3(u) + b4 n4(u), u = (x - x1)/(x5 - x1)";
-  form.amplitudes = 4;
-  form.parameters = {{"a", "1", "slope over the whole range", 0, -10, 10},
-                     {"b2", "1", "bend at x1", 0, -1000, 1000},
-                     {"b3", "1", "bend at x2", 0, -1000, 1000},
-                     {"b4", "1", "bend at x3", 0, -1000, 1000},
-                     {"x1", "x", "first knot", 0, -1e12, 1e12},
-                     {"x2", "x", "second knot", 0.25, -1e12, 1e12},
-                     {"x3", "x", "third knot", 0.5, -1e12, 1e12},
-                     {"x4", "x", "fourth knot", 0.75, -1e12, 1e12},
-                     {"x5", "x", "last knot", 1, -1e12, 1e12}};
-  const auto none = [](const Spread&) { return 0.0; };
-  form.shapes = {{none, true, 0},     {none, true, 0},     {none, true, 0},
-                 {knot<0>, false, 0}, {knot<2>, false, 0}, {knot<4>, false, 0},
-                 {knot<6>, false, 0}, {knot<8>, false, 0}};
-  form.factor = factor;
+  form.order = 30;
+  form.title = "natural cubic spline";
+  form.formula = "1 + spline(x)";
+  form.parameters = {{"a", "1", "relative change at a knot", 0, -10, 10}};
+  form.knots = {8};
+  form.parameters_of = parameters;
+  form.build = factor;
+  form.text = text;
+  form.pattern = pattern;
+  form.penalty = penalty;
   return form;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace frictab {
 
@@ -20,15 +21,27 @@ struct Look {
   }
 };
 
-// Rows of inputs in which all but the first are at one of their ends.
+// The first input of numbers: the one that is run through.
+std::size_t running_input(const PlacedEffect& effect) {
+  return effect.inputs[0].levels.empty() ? 0 : 1;
+}
+
+// Rows of inputs in which all others are at one of their ends, or levels.
 std::vector<std::vector<double>> corners_of(const PlacedEffect& effect) {
-  std::vector<std::vector<double>> rows{{0.0}};
-  for (std::size_t i = 1; i < effect.inputs.size(); ++i) {
+  std::vector<std::vector<double>> rows{{}};
+  for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
+    const EffectInput& input = effect.inputs[i];
+    std::vector<double> places = {input.low, input.high};
+    if (i == running_input(effect)) places.pop_back();
+    if (!input.levels.empty()) {
+      places.resize(input.levels.size());
+      std::iota(places.begin(), places.end(), 0.0);
+    }
     std::vector<std::vector<double>> longer;
     for (const auto& row : rows)
-      for (const double end : {effect.inputs[i].low, effect.inputs[i].high}) {
+      for (const double place : places) {
         longer.push_back(row);
-        longer.back().push_back(end);
+        longer.back().push_back(place);
       }
     rows = std::move(longer);
   }
@@ -45,19 +58,24 @@ Look look_of(const PlacedEffect& effect, const CandidateColumn& column) {
   const Program program = factor_program(effect);
   const std::vector<double> at = fitted_values(effect);
   const auto corners = corners_of(effect);
-  const auto at_corners = [&](double x, auto take) {
+  const std::size_t running = running_input(effect);
+  const EffectInput& x = effect.inputs[running];
+  constexpr int steps = 32;
+  std::vector<double> places;
+  for (int i = 0; i <= steps; ++i)
+    places.push_back(x.low + (x.high - x.low) * i / steps);
+  const auto& tested_at = x.column == column.name ? column.tested : places;
+  const auto at_corners = [&](double place, auto take) {
     for (std::vector<double> row : corners) {
-      row.front() = x;
+      row[running] = place;
       take(program(row, at));
     }
   };
-  at_corners(column.tested.front(),
+  at_corners(tested_at.front(),
              [&](double f) { look.low = look.high = look.tested_low = look.tested_high = f; });
-  constexpr int steps = 32;
-  const EffectInput& x = effect.inputs[0];
-  for (int i = 0; i <= steps; ++i)
-    at_corners(x.low + (x.high - x.low) * i / steps, [&](double f) { look.take(f); });
-  for (const double tested : column.tested)
+  for (const double place : places)
+    at_corners(place, [&](double f) { look.take(f); });
+  for (const double tested : tested_at)
     at_corners(tested, [&](double f) {
       look.tested_low = std::min(look.tested_low, f);
       look.tested_high = std::max(look.tested_high, f);
@@ -65,11 +83,11 @@ Look look_of(const PlacedEffect& effect, const CandidateColumn& column) {
   return look;
 }
 
+} // namespace
+
 // Two things fit as well as the truth at the tested values, and nowhere else: large changes that
 // cancel there (an effect that halves or doubles friction has to earn it, as if changes were normal
 // with a standard deviation of 50 %), and humps between them.
-} // namespace
-
 double implausibility(const PlacedEffect& effect, const CandidateColumn& column) {
   const Look look = look_of(effect, column);
   if (!std::isfinite(look.largest)) return 1e6;

@@ -9,6 +9,7 @@ namespace frictab {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 
 // A form with a place and a width has structure of that width there.
 bool is_local(const PlacedEffect& effect) {
@@ -43,11 +44,14 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
   effect.tau_scale_MPa = tau_scale_MPa;
   effect.pressure_MPa = candidates.lowest_pressure_MPa;
   std::vector<Spread> spreads;
+  std::vector<std::span<const double>> tested;
   for (const CandidateColumn* column : columns_of(cause, candidates)) {
     effect.inputs.push_back(
         {column->name, column->levels, column->spread.minimum, column->spread.maximum});
     spreads.push_back(column->spread);
+    tested.emplace_back(column->tested);
   }
+  place_knots(effect, tested);
   if (form.parameters_of)
     effect.parameters.assign(parameters_of(effect).size(), 0.0);
   else
@@ -86,24 +90,6 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
   return false;
 }
 
-// d factor/d amplitude at amplitude 0, per block.
-Eigen::VectorXf amplitude_direction(const PlacedEffect& effect, const BlockColumns& columns) {
-  const Program program = factor_program(effect);
-  const std::vector<double> neutral = fitted_values(effect);
-  std::vector<const double*> data;
-  for (const EffectInput& input : effect.inputs)
-    data.push_back(columns.at(symbol_of(input.column)).data());
-  const Index count = columns.at(symbol_of(effect.inputs[0].column)).size();
-  Eigen::VectorXf direction(count);
-  BoundProgram(program, static_cast<std::size_t>(count), data)
-      .sweep(neutral, true, [&](const BoundProgram::Block& block) {
-        for (std::size_t i = 0; i < block.count; ++i)
-          direction(static_cast<Index>(block.first + i)) =
-              static_cast<float>(block.derivative[0][i]);
-      });
-  return direction;
-}
-
 // One direction per level against the others.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.column];
@@ -137,6 +123,22 @@ void keep_different(std::vector<GridShape>& shapes) {
 
 } // namespace
 
+MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
+  const Program program = factor_program(effect);
+  std::vector<const double*> data;
+  for (const EffectInput& input : effect.inputs)
+    data.push_back(columns.at(symbol_of(input.column)).data());
+  const Index count = columns.at(symbol_of(effect.inputs[0].column)).size();
+  MatrixXd basis(count, static_cast<Index>(amplitudes_of(effect)));
+  BoundProgram(program, static_cast<std::size_t>(count), data)
+      .sweep(fitted_values(effect), true, [&](const BoundProgram::Block& block) {
+        for (Index a = 0; a < basis.cols(); ++a)
+          for (std::size_t i = 0; i < block.count; ++i)
+            basis(static_cast<Index>(block.first + i), a) = block.derivative[a][i];
+      });
+  return basis;
+}
+
 bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.column];
   return form.categorical == !x.levels.empty() && form.columns == (cause.pair() ? 2 : 1) &&
@@ -148,7 +150,7 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
   if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const EffectForm& form : all_effects()) {
-    if (form.amplitudes > 1 || !form_fits(form, cause, candidates)) continue;
+    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
     PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
     std::vector<std::vector<double>> grid;
     if (form.grid) {
@@ -161,7 +163,8 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
     for (const auto& values : grid) {
       std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
       if (too_narrow(effect, x.gap)) continue;
-      shapes.push_back({effect, amplitude_direction(effect, candidates.by_symbol)});
+      shapes.push_back(
+          {effect, amplitude_basis(effect, candidates.by_symbol).col(0).cast<float>()});
     }
   }
   keep_different(shapes);

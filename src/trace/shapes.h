@@ -17,6 +17,10 @@ struct GridShape {
 };
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates);
 
+// Per block and amplitude, d factor/d amplitude: of forms that are linear in their amplitudes,
+// whatever these are; of others at the effect's own values.
+Eigen::MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns);
+
 // An effect of that form with the form's own start values; category: all levels.
 PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
                           const std::string& acts_on, double tau_scale_MPa);

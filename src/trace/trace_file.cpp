@@ -57,10 +57,10 @@ Json placed_json(const PlacedEffect& p) {
       one["held_between"] = {input.low, input.high};
     else
       one["levels"] = input.levels;
+    if (!input.knots.empty()) one["knots"] = input.knots;
     inputs.push_back(one);
   }
   Json j = {{"inputs", inputs}, {"values", p.parameters}};
-  if (!p.knots.empty()) j["knots"] = p.knots;
   if (p.stiffness > 0) j["stiffness"] = p.stiffness;
   if (p.acts_on == "tau") {
     j["unit_MPa"] = p.tau_scale_MPa;
@@ -96,6 +96,7 @@ EffectInput parse_input(const Json& j) {
   EffectInput input;
   input.column = j.at("column");
   if (j.contains("levels")) input.levels = j.at("levels").get<std::vector<std::string>>();
+  if (j.contains("knots")) input.knots = j.at("knots").get<std::vector<double>>();
   if (j.contains("held_between")) {
     input.low = j.at("held_between").at(0);
     input.high = j.at("held_between").at(1);
@@ -110,7 +111,6 @@ PlacedEffect parse_placed(const Json& j, const Json& effect) {
   for (const Json& input : j.at("inputs"))
     p.inputs.push_back(parse_input(input));
   p.parameters = j.at("values").get<std::vector<double>>();
-  if (j.contains("knots")) p.knots = j.at("knots").get<std::vector<double>>();
   if (j.contains("stiffness")) p.stiffness = j.at("stiffness");
   if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
   if (j.contains("fades_below_MPa")) p.pressure_MPa = j.at("fades_below_MPa");

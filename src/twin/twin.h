@@ -23,6 +23,7 @@ struct EffectSpec {
   std::string form;      // of the effect registry
   std::string column;    // recorded column, derived quantity, or "latent"
   std::string column2;   // for forms of two columns
+  std::string column3;   // and of three
   std::string on = "mu"; // mu: before saturation | m: the limit | tau: added, in units of the
                          // mean noise-free tau
   std::string latent = "random";   // random | groups | batch | drift | order
@@ -41,7 +42,11 @@ struct PlantedEffect {
   const EffectForm* form = nullptr;
   std::vector<double> parameters; // in the form's order
   double strength = 0;            // reached, with this effect alone
+  PlacedEffect placed; // forms of levels or knots: these, and their pattern times the amplitude
 };
+
+// One per column that the form takes.
+std::vector<std::string> columns_of(const EffectSpec& spec);
 
 // Relative standard deviations that replace the parameter set's.
 struct TwinScatter {

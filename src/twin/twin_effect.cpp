@@ -22,39 +22,45 @@ constexpr double most_amplitude = 1000; // beyond it a larger amplitude changes 
 
 // --- factors ------------------------------------------------------------------------------------
 
-struct Resolved {
-  std::vector<double> x;  // training rows
-  std::vector<double> x2; // empty where the form has one column
-};
+using Inputs = std::vector<std::vector<double>>; // training rows of each column
 
-Resolved resolve(const TwinOptions& options, std::size_t effect, std::size_t tests,
-                 const TwinDraft& draft) {
-  const EffectSpec& spec = options.effects[effect];
-  Resolved rows{quantity_rows(options, effect, spec.column, tests, draft), {}};
-  if (!spec.column2.empty()) rows.x2 = quantity_rows(options, effect, spec.column2, tests, draft);
+Inputs resolve(const TwinOptions& options, std::size_t effect, std::size_t tests,
+               const TwinDraft& draft) {
+  Inputs rows;
+  for (const std::string& column : columns_of(options.effects[effect]))
+    rows.push_back(quantity_rows(options, effect, column, tests, draft));
   return rows;
 }
 
-std::vector<double> factors(const PlantedEffect& effect, const Resolved& rows,
+// One text column alone may also be a hidden cause, whose values are no levels.
+bool by_level_number(const EffectForm& form) {
+  return form.categorical && form.columns == 1;
+}
+
+std::vector<double> factors(const PlantedEffect& effect, const Inputs& rows,
                             const std::vector<double>& parameters, std::size_t levels) {
-  std::vector<double> factor(rows.x.size());
-  if (effect.form->categorical) {
+  std::vector<double> factor(rows[0].size());
+  if (by_level_number(*effect.form)) {
     const double last = static_cast<double>(levels > 1 ? levels - 1 : 1);
-    std::transform(rows.x.begin(), rows.x.end(), factor.begin(),
+    std::transform(rows[0].begin(), rows[0].end(), factor.begin(),
                    [&](double level) { return 1.0 + parameters[0] * (level / last); });
     return factor;
   }
-  std::vector<std::string> names;
-  for (const Parameter& parameter : effect.form->parameters)
-    names.push_back(parameter.name);
-  std::vector<std::string> inputs{"x"};
-  std::vector<const double*> columns{rows.x.data()};
-  if (effect.form->columns > 1) {
-    inputs.push_back("x2");
-    columns.push_back(rows.x2.data());
+  PlacedEffect placed = effect.placed;
+  placed.parameters = parameters;
+  if (placed.form->pattern) {
+    placed.parameters = placed.form->pattern(placed);
+    for (double& value : placed.parameters)
+      value *= parameters[0];
   }
-  Program(effect.form->factor(), inputs, names)
-      .evaluate(factor.size(), columns, parameters, factor.data());
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters_of(placed))
+    names.push_back(parameter.name);
+  std::vector<const double*> columns;
+  for (const auto& column : rows)
+    columns.push_back(column.data());
+  Program(formula_of(placed), input_symbols(*placed.form), names)
+      .evaluate(factor.size(), columns, placed.parameters, factor.data());
   return factor;
 }
 
@@ -113,7 +119,7 @@ double floor_mae(const TwinDraft& draft, const NoiseFree& truth,
 // One part of the campaign with one effect of varying amplitude.
 class Trial {
 public:
-  Trial(const TwinDraft& draft, PlantedEffect& effect, Resolved rows, double tau_scale)
+  Trial(const TwinDraft& draft, PlantedEffect& effect, Inputs rows, double tau_scale)
       : draft_(draft), effect_(effect), rows_(std::move(rows)), scale_(tau_scale),
         levels_(level_count(effect, draft)) {}
 
@@ -135,7 +141,7 @@ public:
 private:
   const TwinDraft& draft_;
   const PlantedEffect& effect_;
-  Resolved rows_;
+  Inputs rows_;
   double scale_;
   std::size_t levels_;
 };
@@ -209,21 +215,34 @@ double solved_amplitude(const EffectSpec& spec, double noise_scale, const Streng
                                largest));
 }
 
-void set_shapes(const EffectSpec& spec, const Resolved& rows, PlantedEffect& effect) {
-  effect.parameters = start_values(*effect.form, {spread_of(rows.x), spread_of(rows.x2)});
+void set_shapes(const EffectSpec& spec, const Inputs& rows, PlantedEffect& effect) {
+  std::vector<Spread> spreads;
+  for (const auto& column : rows)
+    spreads.push_back(spread_of(column));
+  effect.parameters = start_values(*effect.form, spreads);
   for (std::size_t i = 1; i < effect.parameters.size(); ++i)
     if (const auto given = spec.shapes.find(effect.form->parameters[i].name);
         given != spec.shapes.end())
       effect.parameters[i] = given->second;
 }
 
+void place(const TwinDraft& draft, const Inputs& rows, PlantedEffect& effect) {
+  effect.placed.form = effect.form;
+  for (const std::string& name : columns_of(effect.spec)) {
+    const Column* column = find_column(draft.data, name);
+    effect.placed.inputs.push_back({name, column ? column->levels : std::vector<std::string>{}});
+  }
+  place_knots(effect.placed, {rows.begin(), rows.end()});
+}
+
 PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDraft& training,
                     const TwinDraft& validation) {
   const EffectSpec& spec = options.effects[index];
   const std::size_t tests = training.plan.size() + validation.plan.size();
-  PlantedEffect effect{spec, find_effect(spec.form), {}, 0};
-  Resolved rows = resolve(options, index, tests, training);
+  PlantedEffect effect{spec, find_effect(spec.form), {}, 0, {}};
+  Inputs rows = resolve(options, index, tests, training);
   set_shapes(spec, rows, effect);
+  place(training, rows, effect);
   const double tau_scale = mean_of(base_tau(training));
   const Trial on_training(training, effect, std::move(rows), tau_scale);
   const Trial on_validation(validation, effect, resolve(options, index, tests, validation),
@@ -251,10 +270,9 @@ double mean_of(const std::vector<double>& values) {
 std::vector<PlantedEffect> plant_effects(const TwinOptions& options, const TwinDraft& training,
                                          const TwinDraft& validation) {
   FaultList faults;
-  for (const EffectSpec& spec : options.effects) {
-    check_column(spec, spec.column, training, faults);
-    if (!spec.column2.empty()) check_column(spec, spec.column2, training, faults);
-  }
+  for (const EffectSpec& spec : options.effects)
+    for (const std::string& column : columns_of(spec))
+      check_column(spec, column, training, faults);
   faults.throw_if_any();
   std::vector<PlantedEffect> effects;
   for (std::size_t i = 0; i < options.effects.size(); ++i)
@@ -267,7 +285,7 @@ std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draf
                                double tau_scale) {
   TauPieces pieces = draft.base;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Resolved rows = resolve(options, i, tests, draft);
+    const Inputs rows = resolve(options, i, tests, draft);
     const auto factor =
         factors(effects[i], rows, effects[i].parameters, level_count(effects[i], draft));
     apply(effects[i], factor, tau_scale, pieces);

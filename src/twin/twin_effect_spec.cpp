@@ -1,6 +1,8 @@
 // Reads the --effect option.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/text.h"
 #include "twin/twin.h"
 #include "twin/twin_text.h"
@@ -12,7 +14,7 @@ namespace {
 const std::string option = "--effect";
 
 std::vector<std::string> known_keys(const EffectForm* form) {
-  std::vector<std::string> keys = {"form",   "column",   "column2",   "on",
+  std::vector<std::string> keys = {"form",   "column",   "column2",   "column3", "on",
                                    "latent", "strength", "amplitude", "sign"};
   if (form != nullptr)
     for (std::size_t i = 1; i < form->parameters.size(); ++i)
@@ -59,6 +61,8 @@ void read_item(const KeyValue& item, const EffectForm* form, EffectSpec& spec, F
     spec.column = item.value;
   else if (item.key == "column2")
     spec.column2 = item.value;
+  else if (item.key == "column3")
+    spec.column3 = item.value;
   else if (item.key == "strength")
     read_strength(item, spec, faults);
   else if (item.key == "amplitude")
@@ -88,9 +92,12 @@ void check_whole(const EffectSpec& spec, const EffectForm* form, FaultList& faul
                spec.strength ? "strength and amplitude are both given"
                              : "neither strength nor amplitude is given",
                "strength=0.15 raises the error of the law without the effect by 15 %");
-  if (form != nullptr && (form->columns > 1) == spec.column2.empty())
-    faults.add({option}, form->columns > 1 ? "form '" + form->name + "' needs column2"
-                                           : "form '" + form->name + "' takes no column2");
+  if (form == nullptr) return;
+  const std::string* given[] = {&spec.column2, &spec.column3};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const bool takes = form->columns > i + 1; takes == given[i]->empty())
+      faults.add({option}, fmt::format("form '{}' {} column{}", form->name,
+                                       takes ? "needs" : "takes no", i + 2));
 }
 
 // The form decides which further keys are known, so it is found before the keys are checked.
@@ -103,6 +110,13 @@ const EffectForm* form_named_in(std::string_view text) {
 }
 
 } // namespace
+
+std::vector<std::string> columns_of(const EffectSpec& spec) {
+  std::vector<std::string> columns{spec.column};
+  for (const std::string* further : {&spec.column2, &spec.column3})
+    if (!further->empty()) columns.push_back(*further);
+  return columns;
+}
 
 EffectSpec parse_effect(std::string_view text) {
   FaultList faults;

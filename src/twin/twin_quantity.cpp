@@ -78,14 +78,14 @@ void check_column(const EffectSpec& spec, const std::string& name, const TwinDra
   }
   const Column* column = find_column(draft.data, name);
   const bool text = column != nullptr && !column->levels.empty();
-  const bool categorical = find_effect(spec.form)->categorical;
+  const bool categorical = find_effect(spec.form)->categorical && name == spec.column;
   if (text && !categorical)
     faults.add({"--effect"},
                fmt::format("column '{}' holds text, form '{}' needs numbers", name, spec.form),
                "use form=category");
   if (!text && categorical && name != "latent")
     faults.add({"--effect"},
-               fmt::format("column '{}' holds numbers, form 'category' needs text", name),
+               fmt::format("column '{}' holds numbers, form '{}' needs text", name, spec.form),
                "use column=tool, or another form");
 }
 

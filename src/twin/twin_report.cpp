@@ -58,6 +58,7 @@ Json effect_json(const PlantedEffect& effect) {
     const Parameter& parameter = effect.form->parameters[i];
     const std::string unit = parameter.unit == "x"    ? unit_of(spec.column)
                              : parameter.unit == "x2" ? unit_of(spec.column2)
+                             : parameter.unit == "x3" ? unit_of(spec.column3)
                                                       : parameter.unit;
     parameters.push_back(
         {{"name", parameter.name}, {"value", effect.parameters[i]}, {"unit", unit}});
@@ -68,7 +69,8 @@ Json effect_json(const PlantedEffect& effect) {
   if (derived)
     for (const std::string& need : find_derived(spec.column)->needs)
       columns.push_back(need == "tau" ? "tau_R_MPa" : need);
-  if (!spec.column2.empty()) columns.push_back(spec.column2);
+  for (const std::string* further : {&spec.column2, &spec.column3})
+    if (!further->empty()) columns.push_back(*further);
   Json json{{"form", spec.form},
             {"formula", effect.form->formula},
             {"columns", columns},
@@ -78,6 +80,8 @@ Json effect_json(const PlantedEffect& effect) {
             {"parameters", parameters},
             {"strength", effect.strength}};
   if (spec.strength) json["strength_asked"] = *spec.strength;
+  for (const EffectInput& input : effect.placed.inputs)
+    if (!input.knots.empty()) json["knots"][input.column] = input.knots;
   return json;
 }
 
@@ -123,9 +127,8 @@ std::string effects_line(const Twin& twin) {
   std::string text;
   for (const PlantedEffect& effect : twin.effects) {
     const EffectSpec& spec = effect.spec;
-    const std::string source = spec.column == "latent" ? "latent (" + spec.latent + ")"
-                               : spec.column2.empty()  ? spec.column
-                                                       : spec.column + " and " + spec.column2;
+    const std::string source =
+        spec.column == "latent" ? "latent (" + spec.latent + ")" : join(columns_of(spec), " and ");
     text += fmt::format("effect      {} of {} on {}, amplitude {:.4g}, strength {:.3g}\n",
                         spec.form, source, spec.on, effect.parameters[0], effect.strength);
   }

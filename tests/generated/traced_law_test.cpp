@@ -127,7 +127,8 @@ std::vector<DriftRecord> verified(const Case& c, const Exporter& exporter, const
 }
 
 TEST(TracedLaw, TableIsProvenLikeAnyOther) {
-  for (const char* effect : {"humidity", "work", "tool", "peak"}) {
+  for (const char* effect :
+       {"humidity", "work", "tool", "peak", "curve", "surface", "curve_by_tool"}) {
     const Case c({effect});
     const DriftRecord record = verify({c.model, c.table, "table", &c.data, 0.5, 2000}, {})[0];
     EXPECT_TRUE(record.passed) << effect;
@@ -174,6 +175,11 @@ TEST_P(TracedLawOf, TargetIsTheLawOnRowsAndOverTheRange) {
 
 TEST_P(TracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
   static const Case c({"energy", "dwell", "warmth", "fastest"});
+  expect_verified(c);
+}
+
+TEST_P(TracedLawOf, TargetIsTheLawOfSmoothForms) {
+  static const Case c({"curve", "surface", "curve_by_tool"});
   expect_verified(c);
 }
 

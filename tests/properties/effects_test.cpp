@@ -1,5 +1,6 @@
 // Claims about every effect form in the registry: a new form is tested because it exists.
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -13,84 +14,135 @@ namespace {
 const std::vector<double> some_x = {-1e6, -300, -273.15, -20, -1,  -1e-3, 0,    1e-9,
                                     1e-3, 0.5,  1,       4.7, 110, 500,   2750, 1e6};
 
-std::vector<std::string> names_of(const EffectForm& form) {
+const Spread spreads[] = {{0, 2, 10, 18, 20},     {20, 20, 110, 200, 260},
+                          {-50, -40, -3, 12, 40}, {7, 7, 7, 7, 7},
+                          {0, 0, 0, 0, 0},        {1e-6, 2e-6, 5e-6, 9e-6, 1e-5}};
+
+// On columns of these spreads; a text column has three levels.
+PlacedEffect placed(const EffectForm& form, const std::vector<Spread>& of, double amplitude) {
+  PlacedEffect effect;
+  effect.form = &form;
+  std::vector<std::vector<double>> values;
+  for (std::size_t i = 0; i < form.columns; ++i) {
+    effect.inputs.push_back({input_symbols(form)[i], {}, of[i].minimum, of[i].maximum});
+    values.push_back({of[i].minimum, of[i].low, of[i].median, of[i].high, of[i].maximum});
+  }
+  if (form.categorical) effect.inputs[0].levels = {"A", "B", "C"};
+  place_knots(effect, {values.begin(), values.end()});
+  if (form.pattern) {
+    effect.parameters = form.pattern(effect);
+    for (double& value : effect.parameters)
+      value *= amplitude;
+  } else {
+    effect.parameters = start_values(form, of);
+    effect.parameters[0] = amplitude;
+  }
+  return effect;
+}
+
+PlacedEffect placed(const EffectForm& form, double amplitude) {
+  return placed(form, {spreads[0], spreads[0], spreads[0]}, amplitude);
+}
+
+std::vector<std::string> names_of(const PlacedEffect& effect) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : form.parameters)
+  for (const Parameter& parameter : parameters_of(effect))
     names.push_back(parameter.name);
   return names;
 }
 
-// Start values for columns of very different spread.
-std::vector<std::vector<double>> starts(const EffectForm& form) {
-  const Spread spreads[] = {{0, 2, 10, 18, 20},     {20, 20, 110, 200, 260},
-                            {-50, -40, -3, 12, 40}, {7, 7, 7, 7, 7},
-                            {0, 0, 0, 0, 0},        {1e-6, 2e-6, 5e-6, 9e-6, 1e-5}};
-  std::vector<std::vector<double>> all;
-  for (const Spread& spread : spreads)
-    all.push_back(start_values(form, {spread, spreads[1], spreads[2]}));
-  return all;
+Program program_of(const PlacedEffect& effect) {
+  return {formula_of(effect), input_symbols(*effect.form), names_of(effect)};
 }
 
 class EffectForms : public testing::TestWithParam<const EffectForm*> {};
-class EffectFormulas : public EffectForms {}; // those that are the same wherever they are placed
 
 TEST_P(EffectForms, DescribesItself) {
   const EffectForm& form = *GetParam();
   EXPECT_FALSE(form.title.empty());
   EXPECT_FALSE(form.formula.empty());
   ASSERT_FALSE(form.parameters.empty());
-  for (std::size_t i = 0; i < form.amplitudes; ++i)
-    EXPECT_EQ(form.parameters[i].start, 0) << "amplitudes come first, 0 is neutral";
+  EXPECT_EQ(form.parameters[0].start, 0) << "the amplitude comes first, 0 is neutral";
   EXPECT_EQ(form.shapes.size() + 1, form.parameters.size());
-  EXPECT_EQ(form.build != nullptr, form.factor == nullptr);
-  EXPECT_EQ(form.build != nullptr, form.parameters_of != nullptr);
-  for (const Parameter& parameter : form.parameters) {
+  const bool depends = form.parameters_of;
+  EXPECT_EQ(depends, form.factor == nullptr);
+  EXPECT_EQ(depends, form.build != nullptr);
+  EXPECT_EQ(depends, form.text != nullptr);
+  EXPECT_EQ(depends, form.pattern != nullptr);
+  EXPECT_EQ(form.penalty != nullptr, !form.knots.empty());
+  for (const Shape& shape : form.shapes)
+    EXPECT_LT(shape.input, form.columns);
+  auto parameters = parameters_of(placed(form, 0));
+  parameters.insert(parameters.end(), form.parameters.begin(), form.parameters.end());
+  for (const Parameter& parameter : parameters) {
     EXPECT_LE(parameter.lower, parameter.start) << parameter.name;
     EXPECT_GE(parameter.upper, parameter.start) << parameter.name;
     EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
   }
 }
 
-TEST_P(EffectForms, StartValuesRespectBounds) {
+TEST_P(EffectForms, HasAParameterForEachAmplitudeOfItsPattern) {
+  for (const Spread& spread : spreads) {
+    const PlacedEffect effect = placed(*GetParam(), {spread, spreads[1], spreads[2]}, 1);
+    EXPECT_EQ(effect.parameters.size(), parameters_of(effect).size());
+    EXPECT_LE(amplitudes_of(effect), effect.parameters.size());
+  }
+}
+
+TEST_P(EffectForms, StartsInsideItsBounds) {
+  for (const Spread& spread : spreads) {
+    const PlacedEffect effect = placed(*GetParam(), {spread, spreads[1], spreads[2]}, 0);
+    const auto parameters = parameters_of(effect);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      EXPECT_GE(effect.parameters[i], parameters[i].lower) << parameters[i].name;
+      EXPECT_LE(effect.parameters[i], parameters[i].upper) << parameters[i].name;
+    }
+  }
+}
+
+TEST_P(EffectForms, TriesShapesThatItsBoundsAllow) {
   const EffectForm& form = *GetParam();
-  for (const auto& values : starts(form))
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      EXPECT_GE(values[i], form.parameters[i].lower) << form.parameters[i].name;
-      EXPECT_LE(values[i], form.parameters[i].upper) << form.parameters[i].name;
+  if (!form.grid) return;
+  for (const Spread& spread : {spreads[0], spreads[1], spreads[5]})
+    for (const auto& shapes : form.grid({spread, spreads[1], spreads[0]})) {
+      ASSERT_EQ(shapes.size(), form.shapes.size());
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        EXPECT_GE(shapes[i], form.parameters[i + 1].lower) << form.parameters[i + 1].name;
+        EXPECT_LE(shapes[i], form.parameters[i + 1].upper) << form.parameters[i + 1].name;
+      }
     }
 }
 
-TEST_P(EffectFormulas, UsesOnlyItsInputsAndParameters) {
-  const EffectForm& form = *GetParam();
+TEST_P(EffectForms, UsesOnlyItsInputsAndParameters) {
+  const PlacedEffect effect = placed(*GetParam(), 0);
   std::set<std::string> known;
-  for (const auto& name : input_symbols(form))
+  for (const auto& name : input_symbols(*effect.form))
     known.insert(name);
-  for (const auto& name : names_of(form))
+  for (const auto& name : names_of(effect))
     known.insert(name);
-  EXPECT_EQ(symbols(form.factor()), known);
+  EXPECT_EQ(symbols(formula_of(effect)), known);
 }
 
-TEST_P(EffectFormulas, NeutralAmplitudeIsExactlyOne) {
-  const EffectForm& form = *GetParam();
-  const Program program(form.factor(), input_symbols(form), names_of(form));
-  for (const auto& values : starts(form))
+TEST_P(EffectForms, NeutralAmplitudeIsExactlyOne) {
+  for (const Spread& spread : spreads) {
+    const PlacedEffect effect = placed(*GetParam(), {spread, spreads[1], spreads[2]}, 0);
+    const Program program = program_of(effect);
     for (const double x : some_x)
       for (const double x2 : some_x) {
         const double row[] = {x, x2, x};
-        EXPECT_EQ(program({row, form.columns}, values), 1.0) << x << ' ' << x2;
+        EXPECT_EQ(program({row, effect.form->columns}, effect.parameters), 1.0) << x << ' ' << x2;
       }
+  }
 }
 
-TEST_P(EffectFormulas, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
-  const EffectForm& form = *GetParam();
-  const Program program(form.factor(), input_symbols(form), names_of(form));
-  auto values = start_values(form, {{0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}});
+TEST_P(EffectForms, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
   for (const double amplitude : {-0.5, 0.5}) {
-    values[0] = amplitude;
+    const PlacedEffect effect = placed(*GetParam(), amplitude);
+    const Program program = program_of(effect);
     bool reacts = false;
     for (double x = -5; x <= 25; x += 0.5) {
       const double row[] = {x, 20 - x, x};
-      const double factor = program({row, form.columns}, values);
+      const double factor = program({row, effect.form->columns}, effect.parameters);
       EXPECT_TRUE(std::isfinite(factor)) << x;
       reacts = reacts || std::abs(factor - 1) > 1e-3;
     }
@@ -98,23 +150,33 @@ TEST_P(EffectFormulas, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
   }
 }
 
-TEST_P(EffectFormulas, ReadsBackFromItsText) {
-  const EffectForm& form = *GetParam();
-  const Program direct(form.factor(), input_symbols(form), names_of(form));
-  const Program read(parse_expr(to_text(form.factor())), input_symbols(form), names_of(form));
-  auto values = start_values(form, {{0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}, {0, 2, 10, 18, 20}});
-  values[0] = 0.37;
+TEST_P(EffectForms, ReadsBackFromItsText) {
+  const PlacedEffect effect = placed(*GetParam(), 0.37);
+  const Program direct = program_of(effect);
+  const Program read(parse_expr(to_text(formula_of(effect))), direct.columns(), direct.scalars());
   for (double x = 0; x <= 25; x += 0.7) {
     const double row[] = {x, 20 - x, x};
-    const std::span<const double> in(row, form.columns);
-    EXPECT_EQ(direct(in, values), read(in, values));
+    const std::span<const double> in(row, effect.form->columns);
+    EXPECT_EQ(direct(in, effect.parameters), read(in, effect.parameters));
   }
 }
 
-std::vector<const EffectForm*> forms(bool categorical_too) {
+TEST_P(EffectForms, IsLinearInItsAmplitudesWhereItSaysSo) {
+  const EffectForm& form = *GetParam();
+  if (form.name == "power" || form.name == "exponential" || form.name == "arrhenius") return;
+  const PlacedEffect one = placed(form, 0.25), two = placed(form, 0.5);
+  const Program program = program_of(one);
+  for (double x = 0; x <= 20; x += 0.7) {
+    const double row[] = {x, 20 - x, 0.5 * x};
+    const std::span<const double> in(row, form.columns);
+    EXPECT_NEAR(program(in, two.parameters) - 1, 2 * (program(in, one.parameters) - 1), 1e-13);
+  }
+}
+
+std::vector<const EffectForm*> forms() {
   std::vector<const EffectForm*> forms;
   for (const EffectForm& form : all_effects())
-    if (categorical_too || form.factor) forms.push_back(&form);
+    forms.push_back(&form);
   return forms;
 }
 
@@ -122,13 +184,12 @@ std::string name_of(const testing::TestParamInfo<const EffectForm*>& test) {
   return test.param->name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EffectForms, testing::ValuesIn(forms(true)), name_of);
-INSTANTIATE_TEST_SUITE_P(Registry, EffectFormulas, testing::ValuesIn(forms(false)), name_of);
+INSTANTIATE_TEST_SUITE_P(Registry, EffectForms, testing::ValuesIn(forms()), name_of);
 
 TEST(Effects, HoldEveryFormOnce) {
   EXPECT_EQ(join(effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
-            "periodic category product spline");
+            "periodic category product spline surface spline_by_level");
 }
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {

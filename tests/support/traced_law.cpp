@@ -29,6 +29,20 @@ PlacedEffect traced_effect(const std::string& which) {
     put("category", "tool", {0.1, -0.15}, 0, 1);
     effect.inputs[0].levels = {"A", "B", "C"};
   }
+  if (which == "curve") {
+    put("spline", "s_mm", {0.2, 0.05, -0.1, -0.02, 0.1}, 0, 20);
+    effect.inputs[0].knots = {0, 1.5, 4, 11, 20};
+  }
+  if (which == "surface") {
+    put("surface", "humidity_pct", {0.1, -0.1, 0.02, 0.1, 0.2, -0.05}, 30, 60);
+    effect.inputs[0].knots = {30, 60};
+    effect.inputs.push_back({"T_tool_C", {}, 20, 120, {20, 50, 120}});
+  }
+  if (which == "curve_by_tool") {
+    put("spline_by_level", "tool", {0, 0.1, -0.05, 0.1, 0, 0.1, -0.1, -0.1, 0.05}, 0, 1);
+    effect.inputs[0].levels = {"A", "B", "C"};
+    effect.inputs.push_back({"T_tool_C", {}, 20, 120, {20, 80, 120}});
+  }
   return effect;
 }
 

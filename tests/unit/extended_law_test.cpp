@@ -24,6 +24,10 @@ PlacedEffect effect(const char* form, const char* acts_on, double amplitude) {
   if (effect.form->categorical) effect.inputs = {{"tool", {"A", "B", "C"}}};
   for (std::size_t i = 0; effect.inputs.size() < effect.form->columns; ++i)
     effect.inputs.push_back(numbers[i]);
+  std::vector<std::vector<double>> values;
+  for (const EffectInput& input : effect.inputs)
+    values.push_back({input.low, 0.5 * (input.low + input.high), input.high});
+  place_knots(effect, {values.begin(), values.end()});
   if (effect.form->parameters_of)
     for (std::size_t p = parameters_of(effect).size(); p > 0; --p)
       effect.parameters.push_back((static_cast<double>(effect.parameters.size()) + 1) * amplitude);
