@@ -22,9 +22,15 @@ bool is_local(const PlacedEffect& effect) {
   return fitted.size() > amplitudes + 1 && has(true) && has(false);
 }
 
-std::vector<const CandidateColumn*> columns_of(const Cause& cause, const Candidates& candidates) {
+// In the order in which the form takes them: text before numbers; the sliding of a recovery is what
+// grows within a test, its pause stands beside the test.
+std::vector<const CandidateColumn*> columns_of(const EffectForm& form, const Cause& cause,
+                                               const Candidates& candidates) {
   std::vector<const CandidateColumn*> columns{&candidates.columns[cause.column]};
   if (cause.pair()) columns.push_back(&candidates.columns[cause.second]);
+  if (cause.pair() && (!columns[1]->levels.empty() ||
+                       (form.name == "recovery" && !columns[0]->within && columns[1]->within)))
+    std::swap(columns[0], columns[1]);
   return columns;
 }
 
@@ -45,7 +51,7 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
   effect.pressure_MPa = candidates.lowest_pressure_MPa;
   std::vector<Spread> spreads;
   std::vector<std::span<const double>> tested;
-  for (const CandidateColumn* column : columns_of(cause, candidates)) {
+  for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
     effect.inputs.push_back(
         {column->name, column->levels, column->spread.minimum, column->spread.maximum});
     spreads.push_back(column->spread);
@@ -71,6 +77,7 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
     return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
   // A wave is seen along an experiment; from test to test it imitates whatever lies between.
   if (form.name == "periodic") return x.reach > 0.5;
+  if (form.name == "hysteresis") return x.name == "load_ratio";
   return true;
 }
 
@@ -79,6 +86,13 @@ const EffectInput& input_of(const Parameter& parameter, const PlacedEffect& effe
   const auto symbols = input_symbols(*effect.form);
   const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
   return effect.inputs[at == symbols.end() ? 0 : static_cast<std::size_t>(at - symbols.begin())];
+}
+
+bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
+  const bool slides = slid.name == "s_mm" || slid.name == "sliding_distance";
+  const auto is_time = [&](const char* word) { return pause.name.find(word) != std::string::npos; };
+  return slides && !pause.within && !pause.derived && pause.spread.minimum >= 0 &&
+         (pause.name.ends_with("_s") || is_time("pause") || is_time("dwell") || is_time("wait"));
 }
 
 // Structure between values that were never tested.
@@ -140,22 +154,27 @@ MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns
 }
 
 bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  return form.categorical == !x.levels.empty() && form.columns == (cause.pair() ? 2 : 1) &&
-         has_meaning(form, x);
+  const auto columns = columns_of(form, cause, candidates);
+  if (form.columns != columns.size() || form.categorical == columns[0]->levels.empty())
+    return false;
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    if (!columns[i]->levels.empty()) return false;
+  return form.name == "recovery" ? is_recovery(*columns[0], *columns[1])
+                                 : has_meaning(form, *columns[0]);
 }
 
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.column];
-  if (!x.levels.empty()) return level_shapes(cause, candidates);
+  if (!x.levels.empty() && !cause.pair()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const EffectForm& form : all_effects()) {
-    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
+    if (form.parameters_of || form.name == "threshold2" || !form_fits(form, cause, candidates))
+      continue;
     PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
     std::vector<std::vector<double>> grid;
     if (form.grid) {
       std::vector<Spread> spreads;
-      for (const CandidateColumn* column : columns_of(cause, candidates))
+      for (const CandidateColumn* column : columns_of(form, cause, candidates))
         spreads.push_back(column->spread);
       grid = form.grid(spreads);
     } else
@@ -178,6 +197,7 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
     const std::size_t count = fitted_parameters(effect).size();
     for (std::size_t p = next + amplitudes_of(effect); p < next + count; ++p) {
       Parameter& parameter = extended.parameters[p];
+      if (parameter.unit == "1") continue; // not a value of an input: the form's own bounds
       const EffectInput& input = input_of(parameter, effect);
       const double span = input.high - input.low;
       const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;

@@ -189,7 +189,8 @@ INSTANTIATE_TEST_SUITE_P(Registry, EffectForms, testing::ValuesIn(forms()), name
 TEST(Effects, HoldEveryFormOnce) {
   EXPECT_EQ(join(effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
-            "periodic category product spline surface spline_by_level");
+            "periodic category product parabola hysteresis category_slope threshold2 recovery "
+            "product3 spline surface spline_by_level");
 }
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {

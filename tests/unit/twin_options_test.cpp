@@ -74,6 +74,8 @@ TEST(TwinOptions, SecondColumnGoesWithItsForm) {
   EXPECT_THAT(effect_fault("form=product,column=s_mm,strength=0.1"), HasSubstr("needs column2"));
   EXPECT_THAT(effect_fault("form=linear,column=s_mm,column2=psi,strength=0.1"),
               HasSubstr("takes no column2"));
+  EXPECT_THAT(effect_fault("form=product3,column=s_mm,column2=psi,strength=0.1"),
+              HasSubstr("needs column3"));
 }
 
 TEST(TwinOptions, StrengthOutOfReachSaysWhatIsReachable) {

@@ -194,6 +194,12 @@ INSTANTIATE_TEST_SUITE_P(
         "form=logarithmic,column=energy", "form=linear,column=dwell", "form=linear,column=latent",
         "form=linear,column=latent,latent=order", "form=linear,column=latent,latent=batch",
         "form=linear,column=latent,latent=groups", "form=linear,column=latent,latent=drift",
+        "form=spline,column=T_contact_C", "form=surface,column=s_mm,column2=T_contact_C",
+        "form=spline_by_level,column=tool,column2=s_mm", "form=parabola,column=T_contact_C",
+        "form=category_slope,column=tool,column2=T_contact_C",
+        "form=threshold2,column=s_mm,column2=T_contact_C",
+        "form=recovery,column=s_mm,column2=v_rel_mm_s",
+        "form=product3,column=s_mm,column2=T_contact_C,column3=humidity_pct",
         "form=hinge,column=v_rel_mm_s,on=tau", "form=saturation,column=s_mm,on=tau,sign=-"));
 
 TEST(Twin, EffectOnTheLimitReachesModerateStrength) {
