@@ -144,6 +144,10 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   Lines& warmest = values.lists["warmest"];
   for (const std::size_t state : peak_temperatures(inputs))
     warmest.push_back(item(std::to_string(state)));
+  Lines& started = values.lists["started"];
+  for (const std::size_t state : start_temperatures(inputs))
+    started.push_back(item(std::to_string(state)));
+  values.flags["has_started"] = !started.empty();
   values.flags["has_warmest"] = !warmest.empty();
   values.text["n_states"] = std::to_string(state_count(inputs));
   add_further(values, request, inputs);

@@ -24,13 +24,17 @@ bool is(const SolverInput& input, C::Rule rule) {
   return input.source == Source::history && continuation(input).rule == rule;
 }
 
+bool takes_mean(const SolverInput& input) {
+  return is(input, C::mean) || is(input, C::lag);
+}
+
 // Number of the state variable that holds the time under pressure, from 1; 0: there is none.
 std::size_t time_state(const std::vector<SolverInput>& inputs) {
   std::size_t last = 0;
   bool mean = false;
   for (const SolverInput& input : inputs) {
     if (is(input, C::per_time)) return input.history;
-    mean = mean || is(input, C::mean);
+    mean = mean || takes_mean(input);
     last = std::max(last, input.history);
   }
   return mean ? last + 1 : 0;
@@ -48,13 +52,24 @@ HistoryState state_of(const SolverInput& input, std::string_view units) {
   const Continuation how = continuation(input);
   switch (how.rule) {
   case C::mean:
+  case C::lag:
     return {how.of == C::speed ? solver_unit("mm", units).name
                                : solver_unit(unit_of(how.of), units).name + " s",
             fmt::format("{} times time under pressure", name_of(how.of))};
   case C::peak:
     if (how.of == C::temperature) return {"K", "peak temperature; 0: none yet", false};
     return {input.argument.solver.name, fmt::format("peak {}", name_of(how.of)), false};
+  case C::ratio:
+    return {solver_unit("MPa", units).name, "peak pressure that the load is compared with", false};
+  case C::rise:
+    return {"K", "temperature at the start of contact; 0: none yet", false};
+  case C::since_peak:
+    return {input.argument.solver.name, "slip since the pressure was last within 5 % of its peak",
+            false};
   case C::last:
+    if (how.of == C::flash)
+      return {input.argument.solver.name,
+              "tau sqrt(v), v in mm/s, in the last increment under pressure", false};
     return {input.argument.solver.name,
             "friction power per area in the last increment under pressure", false};
   case C::per_slip:
@@ -71,7 +86,8 @@ const char* argument(C::Of of) {
   return of == C::pressure ? "p" : of == C::speed ? "v" : "t";
 }
 
-TemplateValues filled(const SolverInput& input, std::size_t index, std::size_t time) {
+TemplateValues filled(const SolverInput& input, std::size_t index, std::size_t time,
+                      std::string_view units) {
   const Continuation how = continuation(input);
   TemplateValues values;
   const std::string shift =
@@ -82,11 +98,17 @@ TemplateValues filled(const SolverInput& input, std::size_t index, std::size_t t
                  {"comment", fortran::clip(input.argument.name)},
                  {"convert", fortran_conversion(input.argument.solver)},
                  {"of", argument(how.of)},
+                 {"pressure", fortran_conversion(solver_unit("MPa", units))},
+                 {"speed", fortran_conversion(solver_unit("mm/s", units))},
+                 {"at_peak", fortran_number(at_peak)},
                  {"above", shift.empty() ? "" : " + " + shift},
                  {"below", shift.empty() ? "" : " - " + shift}};
   values.flags = {{"is_sum", how.rule == C::per_slip}, {"is_time", how.rule == C::per_time},
                   {"is_dwell", how.rule == C::dwell},  {"is_mean", how.rule == C::mean},
                   {"is_peak", how.rule == C::peak},    {"is_last", how.rule == C::last},
+                  {"is_ratio", how.rule == C::ratio},  {"is_since", how.rule == C::since_peak},
+                  {"is_rise", how.rule == C::rise},    {"is_lag", how.rule == C::lag},
+                  {"is_flash", how.of == C::flash},    {"sums_mean", takes_mean(input)},
                   {"shifts", !shift.empty()}};
   return values;
 }
@@ -110,6 +132,20 @@ double present(C::Of of, const std::vector<SolverInput>& inputs,
     if (input.argument.name == name && input.source == Source::constant)
       return input.fallback.value_or(0);
   return 0;
+}
+
+// The peak at which a load is that part of it; without a load it is any, or none yet.
+double peak_of(double ratio, double pressure) {
+  if (ratio == 1) return pressure;
+  return ratio == 0 ? 1.0 : pressure / ratio;
+}
+
+// In the solver's unit.
+double pressure_now(const std::vector<SolverInput>& inputs, double canonical) {
+  for (const SolverInput& input : inputs)
+    if (input.argument.name == "sigma_n_MPa")
+      return input.argument.solver.from_canonical(canonical);
+  return canonical;
 }
 
 } // namespace
@@ -158,6 +194,13 @@ std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& input
   return states;
 }
 
+std::vector<std::size_t> start_temperatures(const std::vector<SolverInput>& inputs) {
+  std::vector<std::size_t> states;
+  for (const SolverInput& input : inputs)
+    if (is(input, C::rise)) states.push_back(input.history);
+  return states;
+}
+
 std::size_t history_count(const std::vector<SolverInput>& inputs) {
   return history_states(inputs, "mm-t-s").size();
 }
@@ -172,16 +215,22 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   TemplateValues own;
   const std::size_t time = time_state(inputs);
   own.flags = {{"gradient", gradient}, {"time_of_its_own", time > 0}};
-  for (const auto& [flag, rule] :
-       {std::pair{"has_mean", C::mean}, {"has_peak", C::peak}, {"has_dwell", C::dwell}})
-    own.flags[flag] = std::any_of(inputs.begin(), inputs.end(),
-                                  [r = rule](const SolverInput& input) { return is(input, r); });
+  for (const auto& [flag, rule] : {std::pair{"has_mean", C::mean},
+                                   {"has_mean", C::lag},
+                                   {"has_most", C::peak},
+                                   {"has_most", C::ratio},
+                                   {"has_ratio", C::ratio},
+                                   {"has_rise", C::rise},
+                                   {"asks_nan", C::dwell},
+                                   {"asks_nan", C::since_peak}})
+    own.flags[flag] |= std::any_of(inputs.begin(), inputs.end(),
+                                   [r = rule](const SolverInput& input) { return is(input, r); });
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const SolverInput& input = inputs[i];
     if (input.argument.name == "T_contact_C") values.text["past_now"] = fmt::format("x({})", i + 1);
     if (input.source != Source::history) continue;
     if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
-    own.lists["inputs"].push_back(filled(input, i + 1, time));
+    own.lists["inputs"].push_back(filled(input, i + 1, time, units));
   }
   own.text = {{"n", std::to_string(states.size())}, {"time", std::to_string(time)}};
   values.text["past_text"] = without_last_break(render_template("fortran/frictab_past.f", own));
@@ -199,8 +248,12 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
     if (input.source != Source::history || is(input, C::per_time)) continue;
     double& value = values[input.history - 1];
     value = input.argument.solver.from_canonical(columns[c][row]);
-    if (is(input, C::mean)) value *= values[time - 1];
-    if (is(input, C::peak) && continuation(input).of == C::temperature) value += zero_celsius;
+    const double now = present(continuation(input).of, inputs, columns, row);
+    if (is(input, C::lag) || is(input, C::rise)) value = now - value;
+    if (is(input, C::ratio)) value = peak_of(columns[c][row], pressure_now(inputs, now));
+    if (takes_mean(input)) value *= values[time - 1];
+    if (is(input, C::rise) || (is(input, C::peak) && continuation(input).of == C::temperature))
+      value += zero_celsius;
   }
   return values;
 }
@@ -213,9 +266,11 @@ bool history_posed(const std::vector<SolverInput>& inputs, std::span<const doubl
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (inputs[c].source != Source::history) continue;
     const Continuation how = continuation(inputs[c]);
-    if (how.rule == C::mean && time && !(time[row] > 0)) return false;
-    if (how.rule == C::peak && columns[c][row] < present(how.of, inputs, columns, row))
-      return false;
+    const double now = present(how.of, inputs, columns, row), value = columns[c][row];
+    if (takes_mean(inputs[c]) && time && !(time[row] > 0)) return false;
+    if (how.rule == C::peak && value < now) return false;
+    if (how.rule == C::rise && now - value + zero_celsius <= 0) return false;
+    if (how.rule == C::ratio && value != 1 && (value > 1 || (value > 0) != (now > 0))) return false;
   }
   return true;
 }

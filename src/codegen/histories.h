@@ -19,7 +19,7 @@ namespace frictab {
 struct HistoryState {
   std::string unit;    // the solver's
   std::string meaning; // "contact normal stress times time under pressure"
-  bool grows = true;   // a sum: its increments are small against it
+  bool grows = true;   // a sum from the start: its increments are small against it
 };
 
 // Those that these inputs (Source::history) need, in the order of SolverInput::history; behind them
@@ -40,6 +40,9 @@ std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& input
 
 // True for a history that needs a state variable of its own.
 bool is_further_history(const std::string& name);
+// Numbers of those that hold the temperature at the start of contact in K, 0 where there was none.
+std::vector<std::size_t> start_temperatures(const std::vector<SolverInput>& inputs);
+
 // Whether it follows the contact temperature, which the routine then has to know as well.
 bool follows_temperature(const std::string& name);
 
@@ -52,7 +55,7 @@ namespace fortran {
 //   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;
 //     pmax is the peak pressure so far, tau the frictional stress,
 //   ftlive(h, p, v, t, dy, dp, dv, dt), with `gradient`: adds to the derivatives of tau_R by
-//     pressure, speed and temperature (canonical) what peaks and new means add.
+//     pressure, speed and temperature (canonical) what histories of the present values add.
 // Empty where the law has none. NaN in gives NaN where it is used.
 void add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
                    std::string_view units, bool gradient);
@@ -64,7 +67,7 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row);
 
 // Whether there are such ones: a peak is not below the present value (0 where the law does not take
-// it and it is no constant), and a mean needs time.
+// it and it is no constant), a mean needs time, a load over its peak a load that the law takes.
 bool history_posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
                    std::size_t row);
 

@@ -2,6 +2,7 @@
 #include "data/derived.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -52,6 +53,49 @@ void dwell(Rows sigma, Rows t, Out out) {
   }
 }
 
+// 1 while there was no stress yet: it is being loaded.
+void load_ratio(Rows sigma, Out out) {
+  double peak = sigma[0];
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    peak = std::max(peak, sigma[i]);
+    out[i] = peak > 0 ? sigma[i] / peak : 1.0;
+  }
+}
+
+void slip_since_peak(Rows sigma, Rows s, Out out) {
+  double peak = sigma[0];
+  out[0] = 0;
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    peak = std::max(peak, sigma[i]);
+    out[i] = sigma[i] >= at_peak * peak ? 0.0 : out[i - 1] + s[i] - s[i - 1];
+  }
+}
+
+void above_mean(Rows y, Out out) {
+  running_mean(y, out);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = y[i] - out[i];
+}
+
+void difference(Rows y, Rows z, Out out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = y[i] - z[i];
+}
+
+void integrate_product(Rows psi, Rows sigma, Rows s, Out out) {
+  std::vector<double> product(out.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    product[i] = psi[i] * sigma[i];
+  integrate(product, s, out);
+}
+
+// A fast source of heat q = tau v warms a surface by what grows with q/sqrt(v) (Blok 1937, Jaeger
+// 1942).
+void flash(Rows tau, Rows v, Out out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = tau[i] * std::sqrt(std::max(v[i], 0.0));
+}
+
 void power(Rows tau, Rows v, Out out) {
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = tau[i] * v[i];
@@ -72,9 +116,65 @@ Rule two(DerivedQuantity quantity, void (*rule)(Rows, Rows, Out)) {
           [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], out); }};
 }
 
-const std::vector<Rule>& rules() {
+Rule three(DerivedQuantity quantity, void (*rule)(Rows, Rows, Rows, Out)) {
+  return {std::move(quantity),
+          [rule](const std::vector<Rows>& in, Out out) { rule(in[0], in[1], in[2], out); }};
+}
+
+// Load and its way, heat, and what the surface has been through.
+std::vector<Rule> further_rules() {
   using C = Continuation;
-  static const std::vector<Rule> all = {
+  return {
+      one({"load_ratio",
+           "1",
+           "contact normal stress over its peak so far",
+           {"sigma_n_MPa"},
+           {C::ratio, C::pressure}},
+          load_ratio),
+      two({"slip_since_peak",
+           "mm",
+           "sliding distance since the contact normal stress was last within 5 % of its peak",
+           {"sigma_n_MPa", "s_mm"},
+           {C::since_peak, C::pressure}},
+          slip_since_peak),
+      one({"temperature_rise",
+           "K",
+           "contact temperature above that at the start",
+           {"T_contact_C"},
+           {C::rise, C::temperature}},
+          since_start),
+      one({"temperature_lag",
+           "K",
+           "contact temperature above its mean so far",
+           {"T_contact_C"},
+           {C::lag, C::temperature}},
+          above_mean),
+      // A routine knows the temperature of one contact, not that of a whole tool.
+      two({"temperature_above_tool",
+           "K",
+           "contact temperature above that of the tool",
+           {"T_contact_C", "T_tool_C"},
+           {}},
+          difference),
+      // Routines know the expansion so far where their solver gives it, not along the slide.
+      three({"expansion_work",
+             "MPa mm",
+             "load times surface expansion so far, integral of psi sigma_N ds",
+             {"psi", "sigma_n_MPa", "s_mm"},
+             {}},
+            integrate_product),
+      two({"flash_heating",
+           "MPa",
+           "tau sqrt(v), v in mm/s: what the flash temperature of asperities grows with",
+           {"tau", "v_rel_mm_s"},
+           {C::last, C::flash}},
+          flash),
+  };
+}
+
+std::vector<Rule> first_rules() {
+  using C = Continuation;
+  return {
       one({"sliding_distance",
            "mm",
            "sliding distance so far",
@@ -146,6 +246,14 @@ const std::vector<Rule>& rules() {
       one({"test_order", "1", "place of the experiment in the order of tests", {"run_order"}, {}},
           copy),
   };
+}
+
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> all = [] {
+    std::vector<Rule> first = first_rules(), further = further_rules();
+    first.insert(first.end(), further.begin(), further.end());
+    return first;
+  }();
   return all;
 }
 

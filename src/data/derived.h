@@ -19,9 +19,13 @@ struct Continuation {
     dwell,    // time at no less than half of the peak pressure
     mean,     // over the time under pressure
     peak,
-    last // the value at the end of the last increment
+    last,       // the value at the end of the last increment
+    ratio,      // the value over its peak
+    since_peak, // slip since it was last within 5 % of its peak
+    rise,       // above the value at the start of contact
+    lag         // above the mean so far
   };
-  enum Of { one, pressure, speed, temperature, tau, power };
+  enum Of { one, pressure, speed, temperature, tau, power, flash };
   Rule rule = none;
   Of of = one;
   bool always = false; // routines with state variables keep it for every law
@@ -36,6 +40,9 @@ struct DerivedQuantity {
   std::vector<std::string> needs;
   Continuation continuation;
 };
+
+// Within this share of its peak a pressure is at its peak: measured ones are never still.
+inline constexpr double at_peak = 0.95;
 
 std::span<const DerivedQuantity> derived_quantities();
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none

@@ -70,6 +70,10 @@ C
       double precision ftmost
       external ftmost
 @end
+@if has_started
+      double precision ftfrst
+      external ftfrst
+@end
 @end
 C
       if (imode .ne. 1) return
@@ -135,6 +139,11 @@ C     @{in.comment}
 C     K; a node that was never in contact is as warm as now.
       h(@{state.text}) = ftmost(h(@{state.text}), @{past_now} + 273.15D0)
       h2(@{state.text}) = ftmost(h2(@{state.text}), @{past_now} + 273.15D0)
+@end
+@for state in started
+C     K; a node that was never in contact starts now.
+      h(@{state.text}) = ftfrst(h(@{state.text}), @{past_now})
+      h2(@{state.text}) = ftfrst(h2(@{state.text}), @{past_now})
 @end
       do i = 1, @{n_histories}
         h(i) = 0.5D0*(h(i) + h2(i))

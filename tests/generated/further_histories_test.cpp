@@ -30,6 +30,18 @@ Table table_of(const char* history) {
   return table;
 }
 
+// What follows the load and the heat.
+Table way_table() {
+  Table table = test::constant_table();
+  table.value = {0.05};
+  const auto x = [](const char* name, double gain) { return Expr(gain) * Expr::symbol(name); };
+  table.combine =
+      Expr::symbol("sigma_n_MPa") *
+      (Expr::symbol("value") + x("load_ratio", 0.02) + x("slip_since_peak", 1e-3) +
+       x("temperature_rise", 1e-4) + x("temperature_lag", 5e-5) + x("flash_heating", 1e-5));
+  return table;
+}
+
 struct Increment {
   double pressure, speed, time, temperature; // MPa, mm/s, s, degC
 };
@@ -40,9 +52,11 @@ const std::vector<Increment> path = {{500, 2, 0.5, 20},  {800, 3, 0.25, 80},  {3
 // The definition: integrals end before the increment, peaks include it.
 class Definition {
 public:
+  explicit Definition(const std::string& table = "further")
+      : table_(table == "way" ? way_table() : further_histories_table()) {}
+
   double tau(const Increment& now) const {
-    static const Table table = further_histories_table();
-    static const TableFunction function(table);
+    const TableFunction function(table_);
     const auto mean = [&](double sum, double value) { return time > 0 ? sum / time : value; };
     const std::map<std::string, double> values = {
         {"sigma_n_MPa", now.pressure},
@@ -54,9 +68,14 @@ public:
         {"mean_v_rel", mean(slip, now.speed)},
         {"mean_T_contact", mean(warmth, now.temperature)},
         {"peak_v_rel", std::max(peak_speed, now.speed)},
-        {"peak_T_contact", std::max(peak_temperature, now.temperature)}};
+        {"peak_T_contact", std::max(peak_temperature, now.temperature)},
+        {"load_ratio", now.pressure / std::max(peak_pressure, now.pressure)},
+        {"slip_since_peak", since_peak},
+        {"temperature_rise", time > 0 ? now.temperature - first_temperature : 0},
+        {"temperature_lag", now.temperature - mean(warmth, now.temperature)},
+        {"flash_heating", flash}};
     std::vector<double> state;
-    for (const std::string& name : table.inputs())
+    for (const std::string& name : table_.inputs())
       state.push_back(values.at(name));
     return now.pressure > 0 ? function(state) : 0;
   }
@@ -67,6 +86,9 @@ public:
     peak_pressure = std::max(peak_pressure, now.pressure);
     energy += now.pressure * now.speed * now.time;
     power = before * now.speed;
+    flash = before * std::sqrt(now.speed);
+    since_peak = now.pressure >= 0.95 * peak_pressure ? 0 : since_peak + now.speed * now.time;
+    if (time == 0) first_temperature = now.temperature;
     if (now.pressure >= 0.5 * peak_pressure) dwell += now.time;
     time += now.time;
     pressures += now.pressure * now.time;
@@ -78,6 +100,10 @@ public:
 
   double energy = 0, power = 0, time = 0, dwell = 0, pressures = 0, slip = 0, warmth = 0;
   double peak_speed = 0, peak_temperature = -273.15, peak_pressure = 0;
+  double since_peak = 0, first_temperature = 0, flash = 0;
+
+private:
+  Table table_;
 };
 
 // What the solver's units are of MPa and of mm; which table, and where its temperature comes from.
@@ -91,6 +117,7 @@ const std::vector<Units> both_units = {{"mm-t-s", 1, 1}, {"m-kg-s", 1e6, 1e-3}};
 
 const Library& compiled(const std::string& target, const Units& units, const std::string& variant) {
   static const std::map<std::string, Table> tables = {{"further", further_histories_table()},
+                                                      {"way", way_table()},
                                                       {"mean", table_of("mean_T_contact")},
                                                       {"peak", table_of("peak_T_contact")}};
   std::map<std::string, std::string> inputs;
@@ -322,6 +349,21 @@ TYPED_TEST(FurtherHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   }
 }
 
+TYPED_TEST(FurtherHistories, OfLoadAndHeatFollowAPathAsTheDefinitionSays) {
+  for (Units units : both_units) {
+    SCOPED_TRACE(units.name);
+    units.table = "way";
+    TypeParam point(units);
+    Definition wanted("way");
+    for (const Increment& now : path) {
+      const double tau = wanted.tau(now);
+      EXPECT_NEAR(point.step(now), tau, tau * bound<TypeParam>());
+      wanted.keep(now);
+    }
+    EXPECT_GT(wanted.since_peak, 0);
+  }
+}
+
 TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
   Units units = both_units[0];
   units.table = "mean";
@@ -386,8 +428,13 @@ TEST(FurtherHistoriesOfVfric, DoNotStandStillInSinglePrecision) {
 
 TEST(FurtherHistoriesOfFric, HaveTheDerivativesOfTheStress) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  for (const Units& units : both_units) {
-    SCOPED_TRACE(units.name);
+  std::vector<Units> all = both_units;
+  for (Units units : both_units) {
+    units.table = "way";
+    all.push_back(units);
+  }
+  for (const Units& units : all) {
+    SCOPED_TRACE(units.table + " " + units.name);
     Fric point(units);
     for (const Increment& now : path) {
       if (now.pressure > 0) {

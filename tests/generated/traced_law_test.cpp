@@ -178,7 +178,13 @@ TEST_P(TracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
   expect_verified(c);
 }
 
+TEST_P(TracedLawOf, TargetIsTheLawOfHistoriesOfLoadAndHeat) {
+  static const Case c({"unloading", "since_peak", "heating", "lag", "flash"});
+  expect_verified(c);
+}
+
 TEST_P(TracedLawOf, TargetIsTheLawOfSmoothForms) {
+  if (!find_exporter(GetParam())->whole()) GTEST_SKIP() << "a table of its own, of held states";
   static const Case c({"curve", "surface", "curve_by_tool"});
   expect_verified(c);
 }
@@ -334,8 +340,25 @@ TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
   EXPECT_NEAR(off[1] / off[2], 2, 0.4);
 }
 
+// These turn at the peak of the path, which increments meet more or less well.
+class TurningHistory : public HistoryOnAPath {};
+
+TEST_P(TurningHistory, OfVfricComesCloseToThatOfTheLaw) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const Case c({"humidity", GetParam()});
+  const Case without({"humidity"});
+  const double exact = predict(c.model, path(4000)).back();
+  EXPECT_GT(std::abs(exact / predict(without.model, path(4000)).back() - 1), 0.01);
+  EXPECT_NEAR(routine(GetParam(), c, 100), exact, 0.5);
+  EXPECT_NEAR(routine(GetParam(), c, 3200), exact, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, TurningHistory, testing::Values("unloading", "since_peak"),
+                         [](const auto& given) { return given.param; });
+
 INSTANTIATE_TEST_SUITE_P(Effects, HistoryOnAPath,
-                         testing::Values("work", "energy", "dwell", "warmth"),
+                         testing::Values("work", "energy", "dwell", "warmth", "heating", "lag",
+                                         "flash"),
                          [](const auto& given) { return given.param; });
 
 } // namespace

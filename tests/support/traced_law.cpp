@@ -24,13 +24,18 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "dwell") put("linear", "dwell", {-0.2, 1, 2}, 0, 2);
   if (which == "warmth") put("linear", "mean_T_contact", {0.2, 100, 180}, 20, 200);
   if (which == "fastest") put("linear", "peak_v_rel", {-0.1, 250, 500}, 5, 500);
+  if (which == "unloading") put("hysteresis", "load_ratio", {0.3, 0.8}, 0, 1);
+  if (which == "since_peak") put("saturation", "slip_since_peak", {-0.2, 3}, 0, 20);
+  if (which == "heating") put("linear", "temperature_rise", {-0.2, 0, 100}, -180, 180);
+  if (which == "lag") put("linear", "temperature_lag", {0.2, 0, 50}, -100, 100);
+  if (which == "flash") put("linear", "flash_heating", {-0.2, 1000, 2000}, 0, 5000);
   if (which == "tool_heat") put("hinge", "T_tool_C", {0.5, 70, 50}, 20, 120);
   if (which == "tool") {
     put("category", "tool", {0.1, -0.15}, 0, 1);
     effect.inputs[0].levels = {"A", "B", "C"};
   }
   if (which == "curve") {
-    put("spline", "s_mm", {0.2, 0.05, -0.1, -0.02, 0.1}, 0, 20);
+    put("spline", "s_mm", {0.05, 0.02, -0.03, -0.01, 0.02}, 0, 20);
     effect.inputs[0].knots = {0, 1.5, 4, 11, 20};
   }
   if (which == "surface") {

@@ -13,8 +13,10 @@ namespace frictab::test {
 // "humidity": a power of humidity_pct | "work": a saturation in friction_work | "tool": one factor
 // per tool A, B, C | "peak": linear in peak_sigma_n | "energy": a saturation in energy | "dwell",
 // "warmth", "fastest": linear in dwell, mean_T_contact, peak_v_rel | "tool_heat": a hinge in
-// T_tool_C | "curve": a spline of s_mm | "surface": one of humidity_pct and T_tool_C |
-// "curve_by_tool": a spline of T_tool_C per tool. All act on mu.
+// T_tool_C | "unloading": a hysteresis | "since_peak": a saturation in slip_since_peak | "heating",
+// "lag", "flash": linear in temperature_rise, temperature_lag, flash_heating | "curve": a spline of
+// s_mm | "surface": one of humidity_pct and T_tool_C | "curve_by_tool": a spline of T_tool_C per
+// tool. All act on mu.
 PlacedEffect traced_effect(const std::string& which);
 
 // log_coulomb_traced with these effects.

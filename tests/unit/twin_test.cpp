@@ -200,6 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
         "form=threshold2,column=s_mm,column2=T_contact_C",
         "form=recovery,column=s_mm,column2=v_rel_mm_s",
         "form=product3,column=s_mm,column2=T_contact_C,column3=humidity_pct",
+        "form=linear,column=temperature_rise", "form=linear,column=flash_heating",
         "form=hinge,column=v_rel_mm_s,on=tau", "form=saturation,column=s_mm,on=tau,sign=-"));
 
 TEST(Twin, EffectOnTheLimitReachesModerateStrength) {
