@@ -1,0 +1,206 @@
+#include "bench/foreign_judge.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "calibrate/calibration.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "trace/trace.h"
+
+namespace frictab::foreign {
+
+namespace {
+
+// --- the stage under test: all that is read of its results stands here --------------------------
+
+using Names = std::vector<std::string>;
+
+// Derived quantities by their names instead of the columns they are computed from.
+Names names_of(const Names& columns, const std::string& derived) {
+  if (derived.empty()) return columns;
+  Names names{derived};
+  const DerivedQuantity* quantity = find_derived(derived);
+  if (quantity == nullptr) return names;
+  for (const std::string& column : columns)
+    if (std::find(quantity->needs.begin(), quantity->needs.end(), column) == quantity->needs.end())
+      names.push_back(column);
+  return names;
+}
+
+struct Found {
+  Names names;
+  std::vector<Names> as_good; // that these data cannot tell from it
+};
+
+std::vector<Found> found_effects(const Trace& trace) {
+  std::vector<Found> found;
+  for (const TracedEffect& effect : trace.effects) {
+    found.push_back({names_of(effect.columns, effect.derived), {}});
+    for (const Alternative& other : effect.alternatives)
+      if (other.in_set) found.back().as_good.push_back(names_of(other.columns, other.derived));
+  }
+  return found;
+}
+
+bool is_delivered(const Trace& trace) {
+  return trace.extended.model.law != nullptr;
+}
+
+void read_verdict(const Trace& trace, Score& score) {
+  score.verdict = verdict_name(trace.verdict);
+  score.unexplained = trace.verdict == Verdict::unexplained_structure;
+  score.order_found = trace.order.found;
+  if (!trace.effects.empty()) score.p_value = trace.effects.front().p_value;
+  score.scatter = trace.scatter_between;
+  score.scatter_low = trace.scatter_interval.low;
+  score.scatter_high = trace.scatter_interval.high;
+}
+
+Trace traced(const Campaign& campaign, const ModelFit& fit, const Options& options, double alpha) {
+  TraceOptions how;
+  how.alpha = alpha;
+  return trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
+}
+
+// --- what is the same column --------------------------------------------------------------------
+
+double correlation(std::span<const double> x, std::span<const double> y) {
+  const double n = static_cast<double>(x.size());
+  double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mx += x[i] / n;
+    my += y[i] / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mx) * (x[i] - mx);
+    yy += (y[i] - my) * (y[i] - my);
+    xy += (x[i] - mx) * (y[i] - my);
+  }
+  return xy / std::sqrt(xx * yy);
+}
+
+// Columns of one campaign: those that go together in its data have found each other.
+class Sameness {
+public:
+  explicit Sameness(const Dataset& data) : data_(data) {}
+
+  bool operator()(const std::string& a, const std::string& b) const {
+    if (a == b) return true;
+    const auto x = values(a), y = values(b);
+    return !x.empty() && !y.empty() && std::abs(correlation(x, y)) > 0.999;
+  }
+
+  bool any(const std::string& name, const Names& among) const {
+    return std::any_of(among.begin(), among.end(),
+                       [&](const std::string& other) { return (*this)(name, other); });
+  }
+
+  bool all(const Names& names, const Names& among) const {
+    return std::all_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return any(name, among); });
+  }
+
+private:
+  std::vector<double> values(const std::string& name) const {
+    if (const Column* column = data_.find(name))
+      return column->levels.empty() ? column->values : std::vector<double>{};
+    const DerivedQuantity* quantity = find_derived(name);
+    if (quantity == nullptr) return {};
+    for (const std::string& need : quantity->needs)
+      if (need != "tau" && !data_.has(need)) return {};
+    return derive(*quantity, data_, data_.oracle_MPa);
+  }
+
+  const Dataset& data_;
+};
+
+// --- score --------------------------------------------------------------------------------------
+
+class Judge {
+public:
+  Judge(const Campaign& campaign, const std::vector<Found>& found)
+      : campaign_(campaign), found_(found), same_(campaign.training) {
+    for (const Cause& cause : campaign.causes)
+      for (const Names& answer : cause.answers)
+        true_.insert(true_.end(), answer.begin(), answer.end());
+  }
+
+  void score(Score& score) const {
+    Names named;
+    for (const Found& effect : found_) {
+      const bool right = is_right(effect.names);
+      score.found.push_back(join(effect.names, " x "));
+      score.right_anywhere = score.right_anywhere || right;
+      score.wrong += !right;
+      score.in_set = score.in_set || right ||
+                     std::any_of(effect.as_good.begin(), effect.as_good.end(),
+                                 [&](const Names& names) { return is_right(names); });
+      named.insert(named.end(), effect.names.begin(), effect.names.end());
+    }
+    score.right_first = !found_.empty() && is_right(found_.front().names);
+    score.causes = campaign_.causes.size();
+    score.causes_named = static_cast<std::size_t>(
+        std::count_if(campaign_.causes.begin(), campaign_.causes.end(),
+                      [&](const Cause& cause) { return is_named(cause, named); }));
+    score.complete = score.causes > 0 && score.causes_named == score.causes;
+  }
+
+private:
+  // Part of an answer is right as well, and so is a product of two causes.
+  bool is_right(const Names& names) const { return !names.empty() && same_.all(names, true_); }
+
+  bool is_named(const Cause& cause, const Names& named) const {
+    return std::any_of(cause.answers.begin(), cause.answers.end(),
+                       [&](const Names& answer) { return same_.all(answer, named); });
+  }
+
+  const Campaign& campaign_;
+  const std::vector<Found>& found_;
+  Sameness same_;
+  Names true_;
+};
+
+double mean_error(std::span<const double> measured, const std::vector<double>& predicted) {
+  double sum = 0;
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    sum += std::abs(measured[i] - predicted[i]);
+  return sum / static_cast<double>(measured.size());
+}
+
+} // namespace
+
+Score judged(const Options& options, double alpha) try {
+  const Campaign campaign = make_campaign(options);
+  Score score;
+  score.absorbed = campaign.absorbed;
+  score.gain_scatter = campaign.gain_scatter;
+  CalibrationInput input{campaign.training, campaign.validation, {}, {}};
+  input.models.use = {campaign.base};
+  input.options.bootstrap = 50; // no interval of it is judged here
+  const Calibration calibration = calibrate(input);
+  const ModelFit& fit = calibration.fits.front();
+  const auto begin = std::chrono::steady_clock::now();
+  const Trace trace = traced(campaign, fit, options, alpha);
+  const auto end = std::chrono::steady_clock::now();
+  score.seconds = std::chrono::duration<double>(end - begin).count();
+  read_verdict(trace, score);
+  const auto found = found_effects(trace);
+  Judge(campaign, found).score(score);
+  const auto measured = campaign.validation.values("tau_R_MPa");
+  score.delivered = is_delivered(trace);
+  score.before = mean_error(measured, predict(fit.model, campaign.validation));
+  score.after = score.delivered
+                    ? mean_error(measured, predict(trace.extended.model, campaign.validation))
+                    : score.before;
+  score.oracle = mean_error(measured, campaign.validation.oracle_MPa);
+  return score;
+} catch (const std::exception& error) {
+  Score failed;
+  failed.error = error.what();
+  return failed;
+}
+
+} // namespace frictab::foreign
