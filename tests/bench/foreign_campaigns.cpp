@@ -116,6 +116,17 @@ void record_oil(Draft& draft, const std::string& effect) {
         column.name = "oil_C";
 }
 
+// A mildly wrong base law: it errs by 15 % more than the noise.
+void make_unlike(Draft& draft, const Options& options, Random& random) {
+  for (Part* part : {&draft.parts.training, &draft.parts.validation})
+    part->truth = part->law;
+  if (options.truth != "unlike any law") return;
+  add_effect(draft, unlike_any_law(draft.parts.training, random), 0.15);
+  for (Part* part : {&draft.parts.training, &draft.parts.validation})
+    part->law = part->truth;
+  draft.absorbed = false; // then it is not wrong, which is no fault of the campaign
+}
+
 Draft forging_draft(const Options& options) {
   Random random = stage(options, states), room = stage(options, bystanders),
          tribology = stage(options, friction), cause = stage(options, effect),
@@ -131,8 +142,7 @@ Draft forging_draft(const Options& options) {
   draft.base = base_law(options.truth);
   draft.training = draw_noise(options.noise, draft.parts.training, scatter);
   draft.validation = draw_noise(options.noise, draft.parts.validation, scatter);
-  draft.parts.training.truth = draft.parts.training.law;
-  draft.parts.validation.truth = draft.parts.validation.law;
+  make_unlike(draft, options, tribology);
   if (!options.effect.empty()) {
     const EffectKind* kind = find_kind(options.effect);
     if (kind == nullptr) throw std::invalid_argument("effect " + options.effect);
@@ -255,6 +265,15 @@ void shift(Part& part, const Options& options) {
     x = x * (1 + options.shift_share) + options.shift_MPa;
 }
 
+double deviation(const Values& values) {
+  const double n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double square = 0;
+  for (const double x : values)
+    square += (x - mean) * (x - mean);
+  return std::sqrt(square / (n - 1));
+}
+
 Draft draft_of(const Options& options) {
   Random random(options.seed, 50);
   if (options.kind == "forging") return forging_draft(options);
@@ -272,6 +291,7 @@ Campaign make_campaign(const Options& options) {
   campaign.causes = draft.causes;
   campaign.absorbed = draft.absorbed;
   campaign.gain_scatter = draft.training.gain_scatter;
+  campaign.gain_sample = deviation(draft.training.gains);
   Random order(options.seed, 60);
   const auto files = filed(draft.parts.training, options, order);
   campaign.training =

@@ -91,42 +91,52 @@ Values linear_tau(const std::string& base, const Part& part, const Eigen::Vector
   return tau;
 }
 
-// No law of the tool: a smooth limit, a maximum over the speed, and a fall beyond a temperature.
-Values unlike_any_law(const Part& part, double mu, double m, double width) {
-  const Values &sigma = part.at("sigma_n_MPa"), &v = part.at("v_rel_mm_s"),
-               &temperature = part.at("T_contact_C");
-  Values tau = shear_stress(part);
-  for (std::size_t i = 0; i < tau.size(); ++i) {
-    const double limit = m * tau[i], bump = std::log(v[i] / 60) / width;
-    tau[i] = limit * std::tanh(mu * sigma[i] / limit) * (1 + 0.06 * std::exp(-bump * bump)) /
-             (1 + std::pow(temperature[i] / 350, 4));
-  }
-  return tau;
-}
-
 } // namespace
 
 std::string base_law(const std::string& truth) {
   return truth == "unlike any law" ? "log_coulomb" : truth;
 }
 
+// Above the logarithmic law's line by this: a smooth limit, a maximum over the speed, and a fall
+// beyond a temperature. No law of the tool has any of them.
+Shape unlike_any_law(const Part& training, Random& random) {
+  const double width = random.uniform(0.5, 1), hot = quantile(training.at("T_contact_C"), 0.8);
+  const double fast = quantile(training.at("v_rel_mm_s"), random.uniform(0.3, 0.7));
+  const double high = quantile(training.at("sigma_n_MPa"), 0.8);
+  return [=](const Part& part) {
+    const Values &sigma = part.at("sigma_n_MPa"), &v = part.at("v_rel_mm_s"),
+                 &temperature = part.at("T_contact_C");
+    Values out(part.rows());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double load = sigma[i] / high, peak = std::log(v[i] / fast) / width;
+      out[i] = std::log(std::tanh(load) / load) + 0.3 * std::exp(-peak * peak) -
+               0.5 * std::log1p(std::pow(temperature[i] / hot, 4));
+    }
+    return out;
+  };
+}
+
+// The limit is reached in a part of the rows, so that both parameters can be known.
+void add_orowan(Parts& parts, double mu, Random& random) {
+  Values ratio = parts.training.at("sigma_n_MPa");
+  const Values k = shear_stress(parts.training);
+  for (std::size_t i = 0; i < ratio.size(); ++i)
+    ratio[i] *= mu / k[i];
+  const double m = quantile(ratio, random.uniform(0.45, 0.75));
+  for (Part* part : {&parts.training, &parts.validation})
+    part->law = orowan_tau(*part, mu, m);
+}
+
 void add_friction(Parts& parts, const std::string& truth, Random& random) {
-  const double mu = random.uniform(0.05, 0.08), m = random.uniform(0.2, 0.3);
-  const double width = random.uniform(0.5, 1);
   Eigen::VectorXd logs(5);
-  logs << mu, random.uniform(-0.015, 0.01), random.uniform(-0.006, 0.006),
+  logs << random.uniform(0.05, 0.08), random.uniform(-0.015, 0.01), random.uniform(-0.006, 0.006),
       random.uniform(-0.007, 0.004), random.uniform(-0.008, 0.008);
+  if (truth == "orowan") return add_orowan(parts, 1.5 * logs[0], random);
+  if (truth != "coulomb" && truth != "log_coulomb" && truth != "unlike any law")
+    throw std::invalid_argument("truth " + truth);
   for (Part* part : {&parts.training, &parts.validation}) {
-    if (truth == "coulomb")
-      part->law = linear_tau("coulomb", *part, logs.head(1));
-    else if (truth == "log_coulomb")
-      part->law = linear_tau("log_coulomb", *part, logs);
-    else if (truth == "orowan")
-      part->law = orowan_tau(*part, 1.5 * mu, m);
-    else if (truth == "unlike any law")
-      part->law = unlike_any_law(*part, 1.4 * mu, 1.4 * m, width);
-    else
-      throw std::invalid_argument("truth " + truth);
+    part->law = truth == "coulomb" ? linear_tau("coulomb", *part, logs.head(1))
+                                   : linear_tau("log_coulomb", *part, logs);
     part->law = limited(*part, part->law);
   }
 }

@@ -132,7 +132,9 @@ public:
     Names named;
     for (const Found& effect : found_) {
       const bool right = is_right(effect.names);
-      score.found.push_back(join(effect.names, " x "));
+      Names sorted = effect.names;
+      std::sort(sorted.begin(), sorted.end());
+      score.found.push_back(join(sorted, " x "));
       score.right_anywhere = score.right_anywhere || right;
       score.wrong += !right;
       score.in_set = score.in_set || right ||
@@ -177,6 +179,7 @@ Score judged(const Options& options, double alpha) try {
   Score score;
   score.absorbed = campaign.absorbed;
   score.gain_scatter = campaign.gain_scatter;
+  score.gain_sample = campaign.gain_sample;
   CalibrationInput input{campaign.training, campaign.validation, {}, {}};
   input.models.use = {campaign.base};
   input.options.bootstrap = 50; // no interval of it is judged here

@@ -23,15 +23,15 @@ struct Score {
   double p_value = 1;    // of the first effect
   // Held-out mean absolute errors, MPa: of the law as calibrated, as delivered, and of the truth.
   double before = 0, after = 0, oracle = 0;
-  double gain_scatter = 0; // true
+  double gain_scatter = 0, gain_sample = 0; // true
   double scatter = 0, scatter_low = 0, scatter_high = 0;
   bool order_found = false, unexplained = false;
   bool absorbed = false; // the base law takes the effect up at any size
   double seconds = 0;    // of tracing
 
   bool worse() const { return after > 1.01 * before; }
-  bool scatter_covered() const {
-    return scatter_low <= gain_scatter && gain_scatter <= scatter_high;
+  bool scatter_covered(double Score::*truth) const {
+    return scatter_low <= this->*truth && this->*truth <= scatter_high;
   }
 };
 

@@ -16,9 +16,10 @@ constexpr std::size_t unseen = 60;
 
 // Scatter between tests, a slow wander within and a scatter of rows, all relative.
 Noise scatter(const Part& part, double between, double slow, double rows, Random& random) {
-  Noise noise{Values(part.rows()), between};
+  Noise noise{Values(part.rows()), {}, between};
   for (std::size_t e = 0; e < part.tests(); ++e) {
     const double gain = std::exp(between * random.normal());
+    noise.gains.push_back(gain);
     double wander = random.normal();
     for (std::size_t i = part.first_row[e]; i < part.first_row[e + 1]; ++i) {
       wander = 0.98 * wander + std::sqrt(1 - 0.98 * 0.98) * random.normal();
@@ -144,7 +145,7 @@ void pin_on_disc(Part& part, bool training, double drawn, Random& random) {
 void reciprocating(Part& part, bool training, double drawn, Random& random) {
   std::vector<Run> runs;
   Values additive;
-  const std::size_t rows = training ? 400 : 100;
+  const std::size_t rows = training ? 3000 : 100;
   for (std::size_t e = 0; e < (training ? 48 : unseen); ++e) {
     Levels levels(training, e, random);
     additive.push_back(static_cast<double>(levels.level(4)));
@@ -241,8 +242,8 @@ const std::vector<LookAlike>& look_alikes() {
        0.05,
        0.03,
        0.04,
-       {{"load", {{"sigma_n_MPa"}}},
-        {"speed", {{"v_rel_mm_s"}, {"rpm", "radius_mm"}}},
+       {{"load", {{"sigma_n_MPa"}, {"friction_power"}}},
+        {"speed", {{"v_rel_mm_s"}, {"rpm", "radius_mm"}, {"friction_power"}}},
         {"material", {{"material"}}},
         {"running-in", along_tests}}},
       {"reciprocating",

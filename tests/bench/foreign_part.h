@@ -65,6 +65,10 @@ void add_bystanders(Parts& parts, Random& random);
 // --- friction -----------------------------------------------------------------------------------
 
 void add_friction(Parts& parts, const std::string& truth, Random& random);
+// Exponent of friction's factor per row: factor = exp(amplitude * shape).
+using Shape = std::function<Values(const Part&)>;
+// What makes the truth "unlike any law" so, on top of a law.
+Shape unlike_any_law(const Part& training, Random& random);
 std::string base_law(const std::string& truth); // the registered law that is calibrated
 
 // The base law by least squares, as the tool would refit it: held-out prediction.
@@ -74,15 +78,13 @@ double mean_error(const Values& measured, const Values& predicted);
 Values limited(const Part& part, Values tau); // by the shear yield stress, where it is recorded
 
 struct Noise {
-  Values factor; // per row
-  double gain_scatter = 0;
+  Values factor;           // per row
+  Values gains;            // per test, part of the factors
+  double gain_scatter = 0; // standard deviation of what the gains came from, without outlying tests
 };
 Noise draw_noise(const std::string& kind, const Part& part, Random& random);
 
 // --- effects ------------------------------------------------------------------------------------
-
-// Exponent of friction's factor per row: factor = exp(amplitude * shape).
-using Shape = std::function<Values(const Part&)>;
 
 struct EffectKind {
   std::string name;
