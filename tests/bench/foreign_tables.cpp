@@ -109,19 +109,32 @@ std::string found_text(const Score& score) {
   return score.found.empty() ? score.verdict : join(score.found, "; ");
 }
 
-// "n=40 clustered hot; 5.31 -> 4.97 (4.95); s_mm x lot", of every campaign
-void print_every(const Results& all, const std::string& group) {
-  if (where(all, group).empty()) return;
-  fmt::print("\n| {} | campaign | held-out MAE before -> after (of the truth), MPa | found |\n"
-             "|---|---|---|---|\n",
-             group);
-  for (const Result& r : where(all, group))
-    fmt::print("| {} {:+g} % | {} tests, {}, {} rows, {}, {}{} | {:.3g} -> {:.3g} ({:.3g}) | {} "
-               "|\n",
-               r.of->name, 100 * r.of->options.strength, r.of->options.tests, r.of->options.design,
-               r.of->options.rows, r.of->options.noise, r.of->options.truth,
-               r.score.absorbed ? ", taken up by the base law" : "", r.score.before, r.score.after,
-               r.score.oracle, found_text(r.score));
+// "3/2/1 of 4, 45 %": detected, right column first, complete; share of the removable error removed
+std::string cell(const Results& some) {
+  if (some.empty()) return "-";
+  return fmt::format("{}/{}/{} of {}, {:.0f} %", count(some, &Score::delivered),
+                     count(some, &Score::right_first), count(some, &Score::complete), some.size(),
+                     100 * removed(some));
+}
+
+// One row per effect, one column per strength.
+void print_effect_names(const Results& all, const std::vector<double>& strengths) {
+  if (where(all, "effect").empty()) return;
+  fmt::print("\nDetected/right column first/complete, removed:\n\n| effect |");
+  for (const double strength : strengths)
+    fmt::print(" +{:g} % |", 100 * strength);
+  fmt::print("\n|---|");
+  for (std::size_t i = 0; i < strengths.size(); ++i)
+    fmt::print("---|");
+  fmt::print("\n");
+  for (const std::string& name : names_of(all, "effect")) {
+    fmt::print("| {} |", name);
+    for (const double strength : strengths)
+      fmt::print(" {} |", cell(where(all, "effect", [&](const Case& c) {
+                   return c.name == name && c.options.strength == strength;
+                 })));
+    fmt::print("\n");
+  }
 }
 
 void print_masked(const Results& all) {
@@ -264,6 +277,7 @@ void print_invariance(const Results& all) {
 
 void print_tables(const Results& all, const Counts& counts) {
   print_effects(all, counts.strengths);
+  print_effect_names(all, counts.strengths);
   print_masked(all);
   print_nulls(all);
   print_group(all, "misfit", "A base law that is mildly wrong, and nothing else");
@@ -271,10 +285,6 @@ void print_tables(const Results& all, const Counts& counts) {
   print_group(all, "apart", "Held-out tests of another world");
   print_look_alikes(all);
   print_invariance(all);
-  if (!where(all, "effect").empty() || !where(all, "hidden").empty())
-    fmt::print("\n## Every campaign with a cause, synthetic\n");
-  print_every(all, "effect");
-  print_every(all, "hidden");
   for (const Result& r : all)
     if (!r.score.error.empty())
       fmt::print("\n{} {} {} at {:g}, seed {}: {}\n", r.of->group, r.of->name, r.of->variant,
