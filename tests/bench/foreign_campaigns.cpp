@@ -19,7 +19,7 @@ constexpr std::size_t held_out_tests = 60;
 constexpr std::size_t held_out_rows = 300; // of a test, at most
 
 // One stream of random numbers per stage, so that none depends on what another one draws.
-enum Stage : std::uint64_t { states = 1, bystanders, friction, effect, noise, record, others };
+enum Stage : std::uint64_t { states = 1, bystanders, friction, effect, noise, record };
 
 Random stage(const Options& options, Stage which) {
   return Random(options.seed, static_cast<std::uint64_t>(which));

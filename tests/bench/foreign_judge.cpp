@@ -129,8 +129,9 @@ public:
   }
 
   void score(Score& score) const {
-    Names named;
+    Names named, words;
     for (const Found& effect : found_) {
+      words.push_back(word_of(effect.names));
       const bool right = is_right(effect.names);
       Names sorted = effect.names;
       std::sort(sorted.begin(), sorted.end());
@@ -142,6 +143,8 @@ public:
                                  [&](const Names& names) { return is_right(names); });
       named.insert(named.end(), effect.names.begin(), effect.names.end());
     }
+    std::sort(words.begin(), words.end());
+    score.answer = score.verdict + ": " + join(words, "; ");
     score.right_first = !found_.empty() && is_right(found_.front().names);
     score.causes = campaign_.causes.size();
     score.causes_named = static_cast<std::size_t>(
@@ -153,6 +156,16 @@ public:
 private:
   // Part of an answer is right as well, and so is a product of two causes.
   bool is_right(const Names& names) const { return !names.empty() && same_.all(names, true_); }
+
+  std::string word_of(Names names) const {
+    for (std::string& name : names) {
+      const auto known = std::find_if(true_.begin(), true_.end(),
+                                      [&](const std::string& other) { return same_(name, other); });
+      if (known != true_.end()) name = *known;
+    }
+    std::sort(names.begin(), names.end());
+    return join(names, " x ");
+  }
 
   bool is_named(const Cause& cause, const Names& named) const {
     return std::any_of(cause.answers.begin(), cause.answers.end(),

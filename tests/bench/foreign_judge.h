@@ -1,7 +1,6 @@
 // Runs calibration and tracing on a synthetic campaign and scores what was found.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +12,13 @@ struct Score {
   std::string error; // the campaign could not be made or traced
   std::string verdict;
   std::vector<std::string> found; // per effect: "s_mm x lot", in order
-  bool delivered = false;         // an effect was added to the law
-  bool right_first = false;       // the first one names nothing but columns of a true cause
-  bool right_anywhere = false;    // one of them does
-  bool complete = false;          // all causes are named by all of their columns
-  bool in_set = false;            // a true cause is named, or in a set that data cannot tell apart
+  std::string
+      answer; // verdict and columns, in no order, the same word for columns that are the same
+  bool delivered = false;      // an effect was added to the law
+  bool right_first = false;    // the first one names nothing but columns of a true cause
+  bool right_anywhere = false; // one of them does
+  bool complete = false;       // all causes are named by all of their columns
+  bool in_set = false;         // a true cause is named, or in a set that data cannot tell apart
   std::size_t causes = 0, causes_named = 0;
   std::size_t wrong = 0; // effects of other columns
   double p_value = 1;    // of the first effect

@@ -238,13 +238,6 @@ void print_look_alikes(const Results& all) {
   }
 }
 
-// In whatever order: "effect_added: lot; s_mm x psi"
-std::string answer_of(const Score& score) {
-  std::vector<std::string> found = score.found;
-  std::sort(found.begin(), found.end());
-  return score.verdict + ": " + join(found, "; ");
-}
-
 void print_invariance(const Results& all) {
   const Results some = where(all, "invariance");
   if (some.empty()) return;
@@ -265,9 +258,9 @@ void print_invariance(const Results& all) {
       const auto base = plain.find({r.of->name, r.of->options.seed});
       if (r.of->variant != variant || base == plain.end()) continue;
       ++n;
-      if (answer_of(r.score) != answer_of(*base->second))
-        changed.push_back(fmt::format("{}: {} instead of {}", r.of->name, answer_of(r.score),
-                                      answer_of(*base->second)));
+      if (r.score.answer != base->second->answer)
+        changed.push_back(
+            fmt::format("{}: {} instead of {}", r.of->name, r.score.answer, base->second->answer));
     }
     fmt::print("| {} | {} | {} | {} |\n", variant, n, changed.size(), join(changed, "<br>"));
   }
