@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "data/quantity.h"
 
@@ -41,6 +41,23 @@ void append_means(Profile& profile, std::span<const double> x) {
   }
 }
 
+// The values of a column per experiment, where it was set for each: levels that several share.
+std::vector<double> set_values(const Column& column, const Dataset& data) {
+  if (find_quantity(column.name) || column.name == "origin") return {};
+  std::vector<double> values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);
+    const auto last = column.values.begin() + static_cast<long>(data.first_row[e + 1]);
+    if (std::any_of(first, last, [&](double v) { return v != *first; })) return {};
+    values.push_back(*first);
+  }
+  const std::set<double> levels(values.begin(), values.end());
+  if (levels.size() < 2 || levels.size() > values.size() / 2) return {};
+  for (double& value : values) // as numbers of levels: 1 apart, whatever the column's unit
+    value = static_cast<double>(std::distance(levels.begin(), levels.find(value)));
+  return values;
+}
+
 bool alike(const Profile& a, const Profile& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     if (!(std::abs(a[i] - b[i]) <= replicate_tolerance)) return false;
@@ -60,6 +77,13 @@ std::vector<std::vector<std::size_t>> replicate_groups(const Dataset& data) {
     for (std::size_t e = 0; e < profiles.size(); ++e)
       append_means(profiles[e],
                    {x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]});
+  }
+  for (const Column& column : data.columns) {
+    const std::vector<double> values = set_values(column, data);
+    if (values.empty()) continue;
+    ++inputs;
+    for (std::size_t e = 0; e < values.size(); ++e)
+      profiles[e].push_back(values[e]);
   }
   if (inputs < 2) return {};
   std::vector<std::vector<std::size_t>> groups;

@@ -16,6 +16,7 @@ namespace {
 Twin campaign(const std::string& design, std::uint64_t seed) {
   TwinOptions options;
   options.seed = seed;
+  options.bystanders = false; // tests with other tools are no repeats
   options.design = parse_design(design, default_design(twin_set("D")));
   Twin twin = make_twin(options);
   twin.training.data.oracle_MPa = twin.training.oracle_MPa;
