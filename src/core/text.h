@@ -16,6 +16,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 // "did you mean 'x'?" where one is near; otherwise "known: a, b, c".
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
+// ASCII letters only.
+std::string lower_case(std::string_view text);
+
 std::string join(std::span<const std::string> parts, std::string_view separator);
 
 // Shortest text that reads back to the same bits: 0.1, 1e-20, nan, inf.

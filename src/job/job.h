@@ -114,9 +114,10 @@ struct TraceOptions {
   double alpha = 0.02;                     // family-wise error of a false alarm
   std::vector<std::string> ignore;         // columns that cannot be a cause
   std::optional<double> repeatability;     // relative scatter between repeated tests
+  std::string order;                       // column that gives the order of tests
   std::string
       tool_distance; // column of the tool's wear: may be shipped though it follows the order
-  Place ignore_place, tool_distance_place;
+  Place ignore_place, order_place, tool_distance_place;
 };
 
 struct Job {

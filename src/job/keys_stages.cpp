@@ -290,6 +290,13 @@ std::vector<KeyRule> proof_keys() {
           "scatter is reported, not judged", "0.03") |
           between(0, 1),
       key<std::string>(
+          "trace.order", [](Job & job) -> auto& { return job.trace.order; },
+          "column that gives the order of tests (a number or a time stamp): drift, wear and batch "
+          "are looked for along it",
+          "a time stamp, or a column called run_order, test_order, ... that numbers the tests from "
+          "1; without one nothing is said about the order: files are often sorted by condition",
+          "\"run_order\""),
+      key<std::string>(
           "trace.tool_distance", [](Job & job) -> auto& { return job.trace.tool_distance; },
           "column that says how far the tool has slid before the test: its wear may become part of "
           "the law although it follows the order of tests",

@@ -20,9 +20,17 @@ constexpr double plot_width = 300, plot_height = 220;
 constexpr std::size_t cells_wide = 75, cells_high = 55;
 
 const char* badge_of(Verdict verdict) {
-  return verdict == Verdict::effect_added      ? "effect added"
-         : verdict == Verdict::nothing_missing ? "nothing is missing"
-                                               : "unexplained structure";
+  switch (verdict) {
+  case Verdict::effect_added:
+    return "effect added";
+  case Verdict::nothing_missing:
+    return "nothing is missing";
+  case Verdict::nothing_found:
+    return "nothing was found";
+  case Verdict::unexplained_structure:
+    break;
+  }
+  return "unexplained structure";
 }
 
 const char* class_of(Verdict verdict) {
@@ -198,9 +206,9 @@ TemplateValues trace_values(const ReportInput& input, const Trace& trace, int de
       fmt::format("{} MPa (95 %: {})", fixed(trace.improvement.value_MPa, decimals),
                   interval_text(trace.improvement.interval, decimals));
   auto& errors = values.lists["errors"];
-  errors.push_back(error_row("as calibrated", trace.before, decimals));
+  errors.push_back(error_row("as calibrated", trace.as_calibrated, decimals));
   errors.push_back(
-      error_row("the same law, fitted again as the extended one", trace.recalibrated, decimals));
+      error_row("before: the same law, fitted again as the extended one", trace.before, decimals));
   if (!trace.extended_model.empty())
     errors.push_back(error_row(trace.effects.empty() ? "without what follows the order of tests"
                                                      : "with the effects",

@@ -31,6 +31,11 @@ namespace frictab {
 
 namespace fs = std::filesystem;
 
+namespace {
+// Below so many, the tests that the tool holds out itself are needed for tracing as well.
+constexpr std::size_t few_experiments = 30;
+} // namespace
+
 Pipeline::Pipeline(Job job) : job_(std::move(job)), output_(job_.directory) {}
 
 namespace {
@@ -72,6 +77,7 @@ void Pipeline::need_data() {
     if (const std::string leak = leak_note(*training_, *validation_); !leak.empty())
       validation_->notes.push_back(leak);
   } else {
+    if (training_->experiments.size() < few_experiments) all_ = training_;
     Split split = hold_out(*training_, job_.data.holdout, job_.calibration.seed);
     training_ = std::move(split.training);
     validation_ = std::move(split.validation);
@@ -237,20 +243,30 @@ void Pipeline::trace(bool required) {
     throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
                      "\"best\", or a name from the ranking");
   for (const ModelFit* fit : chosen)
-    traces_.push_back(frictab::trace({*training_, *validation_, *fit, job_.trace,
+    traces_.push_back(frictab::trace({all_ ? *all_ : *training_, *validation_, *fit, job_.trace,
                                       job_.calibration.bootstrap, job_.calibration.seed}));
   add_traced_laws();
   output_.write("trace.json", trace_json(traces_, calibration_->synthetic));
 }
 
 void Pipeline::add_traced_laws() {
-  for (const Trace& trace : traces_)
-    if (trace.extended.model.law) calibration_->fits.push_back(trace.extended);
+  std::vector<ModelFit> nested; // judged on other tests than the laws they came from
+  for (const Trace& trace : traces_) {
+    if (!trace.extended.model.law) continue;
+    (trace.unseen == "validation" ? calibration_->fits : nested).push_back(trace.extended);
+  }
   std::stable_sort(calibration_->fits.begin(), calibration_->fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   add_comparisons(*calibration_, {*training_, *validation_, job_.models, job_.calibration});
+  for (ModelFit& fit : nested) { // in front of their law, which they are better than
+    const auto base = std::find_if(
+        calibration_->fits.begin(), calibration_->fits.end(), [&](const ModelFit& other) {
+          return other.model.law->name + std::string(traced_suffix) == fit.model.law->name;
+        });
+    calibration_->fits.insert(base, std::move(fit));
+  }
   write_calibration();
 }
 

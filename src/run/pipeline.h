@@ -81,6 +81,9 @@ private:
   OutputFiles output_;
   std::optional<Dataset> training_;
   std::optional<Dataset> validation_;
+  // Training and validation together, where the tool itself held out a few of few tests: tracing
+  // needs them all, and judges by leaving tests out itself.
+  std::optional<Dataset> all_;
   std::optional<Calibration> calibration_;
   bool new_calibration_ = false; // what lies in the directory belongs to another one
   std::vector<Trace> traces_;

@@ -7,43 +7,69 @@ namespace frictab {
 
 namespace {
 
-constexpr std::size_t usual_blocks = 55;
-constexpr std::size_t most_blocks = 4 * usual_blocks; // of an experiment much longer than others
+using Eigen::Index;
 
-std::size_t median_rows(const Dataset& data) {
-  std::vector<std::size_t> rows;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    rows.push_back(data.first_row[e + 1] - data.first_row[e]);
-  std::nth_element(rows.begin(), rows.begin() + static_cast<long>(rows.size() / 2), rows.end());
-  return rows[rows.size() / 2];
+constexpr std::size_t most_blocks = 40;
+
+double median_rows(const Blocks& blocks) {
+  std::vector<std::size_t> all;
+  for (std::size_t b = 0; b < blocks.count(); ++b)
+    all.push_back(blocks.rows(b));
+  std::nth_element(all.begin(), all.begin() + static_cast<long>(all.size() / 2), all.end());
+  return static_cast<double>(all[all.size() / 2]);
+}
+
+Eigen::VectorXd positions(const Blocks& blocks) {
+  Eigen::VectorXd at(static_cast<Index>(blocks.count()));
+  const auto& row = blocks.first_row;
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    const double begin = static_cast<double>(row[blocks.first[e]]);
+    const double length = static_cast<double>(row[blocks.first[e + 1]]) - begin;
+    for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b) {
+      const double middle = 0.5 * static_cast<double>(row[b] + row[b + 1]);
+      at(static_cast<Index>(b)) = (middle - begin) / length - 0.5;
+    }
+  }
+  return at;
 }
 
 } // namespace
 
 Eigen::VectorXd Blocks::mean(std::span<const double> per_row) const {
-  Eigen::VectorXd means(static_cast<Eigen::Index>(count()));
+  Eigen::VectorXd means(static_cast<Index>(count()));
   for (std::size_t b = 0; b < count(); ++b) {
     double sum = 0;
     for (std::size_t i = first_row[b]; i < first_row[b + 1]; ++i)
       sum += per_row[i];
-    means(static_cast<Eigen::Index>(b)) =
-        sum / static_cast<double>(first_row[b + 1] - first_row[b]);
+    means(static_cast<Index>(b)) = sum / static_cast<double>(rows(b));
   }
   return means;
 }
 
+Eigen::MatrixXd Blocks::experiment_means(const Eigen::MatrixXd& per_block) const {
+  Eigen::MatrixXd means(static_cast<Index>(experiments()), per_block.cols());
+  for (std::size_t e = 0; e < experiments(); ++e)
+    means.row(static_cast<Index>(e)) =
+        per_block
+            .middleRows(static_cast<Index>(first[e]), static_cast<Index>(first[e + 1] - first[e]))
+            .colwise()
+            .mean();
+  return means;
+}
+
 Blocks make_blocks(const Dataset& data) {
-  const std::size_t size = std::max<std::size_t>(1, median_rows(data) / usual_blocks);
   Blocks blocks;
   blocks.first.push_back(0);
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e], rows = data.first_row[e + 1] - begin;
-    const std::size_t count = std::clamp<std::size_t>(rows / size, 1, most_blocks);
+    const std::size_t count = std::min(rows, most_blocks);
     for (std::size_t b = 0; b < count; ++b)
       blocks.first_row.push_back(begin + b * rows / count);
     blocks.first.push_back(blocks.first_row.size());
   }
   blocks.first_row.push_back(data.rows());
+  blocks.position = positions(blocks);
+  blocks.usual_rows = median_rows(blocks);
   return blocks;
 }
 

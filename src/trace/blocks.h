@@ -14,14 +14,21 @@ namespace frictab {
 struct Blocks {
   std::vector<std::size_t> first;     // per experiment its first block, then the number of blocks
   std::vector<std::size_t> first_row; // per block its first row, then the number of rows
+  // Per block, where its middle lies in its experiment: -1/2 first row, 1/2 last row.
+  Eigen::VectorXd position;
+  double usual_rows = 1; // median of a block: what the noise model's white part belongs to
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
+  std::size_t rows(std::size_t block) const { return first_row[block + 1] - first_row[block]; }
   // Per block, the mean of its rows.
   Eigen::VectorXd mean(std::span<const double> per_row) const;
+  // Per experiment, the mean of its blocks.
+  Eigen::MatrixXd experiment_means(const Eigen::MatrixXd& per_block) const;
 };
 
-// About 55 blocks per experiment; an experiment with few rows has a block for each.
+// At most 40 blocks per experiment, all of about the same number of rows within it; an experiment
+// with fewer rows has a block for each.
 Blocks make_blocks(const Dataset& data);
 
 } // namespace frictab

@@ -33,22 +33,47 @@ bool varies_within(Rows values, const Dataset& data) {
   return false;
 }
 
-// A column that numbers the experiments: whole numbers, constant within each, no two alike.
+// Whole numbers from 1 on, constant within experiments, no two alike. (Of a part of the tests some
+// are missing.)
 bool numbers_experiments(const Column& column, const Dataset& data) {
-  if (!column.levels.empty() || find_quantity(column.name) || varies_within(column.values, data))
-    return false;
+  if (!column.levels.empty() || varies_within(column.values, data)) return false;
   std::set<double> seen;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const double value = column.values[data.first_row[e]];
-    if (value != std::round(value) || !seen.insert(value).second) return false;
+    if (value < 1 || value != std::round(value) || !seen.insert(value).second) return false;
   }
   return true;
+}
+
+// Names under which rigs write the order of tests, and when a test was made.
+bool is_called(const std::string& name, std::initializer_list<std::string_view> names) {
+  const std::string lower = lower_case(name);
+  return std::any_of(names.begin(), names.end(), [&](std::string_view n) { return lower == n; });
+}
+
+bool is_called_order(const std::string& name) {
+  return is_called(name, {"run_order", "test_order", "order", "run", "run_no", "run_nr",
+                          "run_number", "test_no", "test_nr", "test_number", "sequence", "seq"});
+}
+
+bool is_time_stamp(const Column& column, const Dataset& data) {
+  return !varies_within(column.values, data) && !is_constant(column.values) &&
+         is_called(column.name, {"timestamp", "time_stamp", "date", "datetime", "date_time",
+                                 "start_time", "started", "started_at", "test_date"});
 }
 
 bool same_values(const VectorXd& a, const VectorXd& b) {
   const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
   const double xy = x.dot(y), xx = x.squaredNorm(), yy = y.squaredNorm();
   return xx > 0 && yy > 0 && xy * xy > (1 - 1e-9) * xx * yy;
+}
+
+// Up to 10: more are many.
+std::size_t different_values(Rows values) {
+  std::set<double> seen;
+  for (const double v : values)
+    if (seen.insert(v).second && seen.size() == 10) break;
+  return seen.size();
 }
 
 std::vector<double> quantiles_of(Rows values) {
@@ -113,6 +138,7 @@ private:
     };
     for (const std::string& name : options_.ignore)
       check(name, options_.ignore_place);
+    if (!options_.order.empty()) check(options_.order, options_.order_place);
     if (!options_.tool_distance.empty())
       check(options_.tool_distance, options_.tool_distance_place);
     faults.throw_if_any();
@@ -122,20 +148,27 @@ private:
     return std::find(options_.ignore.begin(), options_.ignore.end(), name) != options_.ignore.end();
   }
 
+  // Only what was declared, or what says so by its name: files are often sorted by condition.
   void find_order() {
-    const Column* order = training_.find("run_order");
-    for (const Column& column : training_.columns)
-      if (!order && numbers_experiments(column, training_)) order = &column;
+    const Column* order = nullptr;
+    for (const Column& column : training_.columns) {
+      const bool says_so = is_called_order(column.name) && numbers_experiments(column, training_);
+      if (options_.order.empty() ? says_so || (!order && is_time_stamp(column, training_))
+                                 : column.name == options_.order)
+        order = &column;
+    }
+    if (!order) return;
+    // (Time stamps are text; levels are sorted, as such stamps are by time.)
     for (std::size_t e = 0; e < training_.experiments.size(); ++e)
-      found_.order.push_back(order ? order->values[training_.first_row[e]]
-                                   : static_cast<double>(e + 1));
-    if (order) found_.order_column = order->name;
+      found_.order.push_back(order->values[training_.first_row[e]]);
+    found_.order_column = order->name;
   }
 
   bool allowed(const Column& column) {
     if (is_measured(column.name) || column.name == "origin" || ignored(column.name)) return false;
     if (column.name == found_.order_column) {
-      if (column.name != "run_order") add_column(column.name, {column.name}, false, column.values);
+      if (column.name != "run_order" && column.levels.empty())
+        add_column(column.name, {column.name}, false, column.values);
       return false;
     }
     if (find_derived(symbol_of(column.name))) {
@@ -155,6 +188,13 @@ private:
     return true;
   }
 
+  // The tool's wear, which may follow the order of tests.
+  bool declared_wear(const std::string& name) const {
+    return !options_.tool_distance.empty() &&
+           (name == options_.tool_distance ||
+            (name == "test_order" && options_.tool_distance == found_.order_column));
+  }
+
   void add_column(const std::string& name, std::vector<std::string> recorded, bool derived,
                   Rows values) {
     CandidateColumn column;
@@ -167,6 +207,9 @@ private:
     column.tested = quantiles_of(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
+    column.different = different_values(values);
+    const bool orders = name == "test_order" || name == found_.order_column;
+    column.between = orders ? declared_wear(name) : !derived && name != "time_s" && name != "s_mm";
     column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
     found_.by_symbol[symbol_of(name)] = column.values;
     if (const auto twin = std::find_if(
@@ -195,6 +238,8 @@ private:
     for (std::size_t b = 0; b < blocks_.count(); ++b)
       text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
+    text.between = !text.within;
+    text.different = column.levels.size();
     found_.by_symbol[symbol_of(column.name)] = text.values;
     found_.columns.push_back(std::move(text));
   }
@@ -224,11 +269,13 @@ private:
   Candidates found_;
 };
 
-// Whether a pair with this column is another thing than the column's partner alone.
-bool may_pair(const CandidateColumn& column) {
+// A history that no routine follows by itself makes no pairs: most are nearly what others are.
+bool may_be_joined(const CandidateColumn& column) {
   const Spread& s = column.spread;
-  return column.levels.empty() && s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300) &&
-         (!column.derived || column.name == "sliding_distance" || column.name == "friction_work");
+  const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);
+  return (!column.levels.empty() || numbers) &&
+         (!column.derived || column.name == "sliding_distance" || column.name == "friction_work" ||
+          column.name == "load_ratio" || column.name == "temperature_rise");
 }
 
 } // namespace
@@ -249,32 +296,70 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
   return found;
 }
 
+Cause joined(const Cause& cause, std::size_t column, const Candidates& candidates) {
+  Cause all = cause;
+  all.columns.push_back(column);
+  const auto is_text = [&](std::size_t c) { return !candidates.columns[c].levels.empty(); };
+  std::sort(all.columns.begin(), all.columns.end(), [&](std::size_t a, std::size_t b) {
+    return is_text(a) != is_text(b) ? is_text(a) : a < b;
+  });
+  return all;
+}
+
+bool may_join(const Cause& cause, const Candidates& candidates) {
+  std::size_t text = 0;
+  for (const std::size_t c : cause.columns) {
+    if (!may_be_joined(candidates.columns[c])) return false;
+    text += !candidates.columns[c].levels.empty();
+  }
+  return text <= 1;
+}
+
 std::vector<Cause> all_causes(const Candidates& candidates) {
   std::vector<Cause> all;
   const auto& columns = candidates.columns;
   for (std::size_t c = 0; c < columns.size(); ++c)
-    all.push_back({c});
+    all.push_back({{c}});
+  const auto add = [&](const Cause& cause, std::size_t column) {
+    Cause more = joined(cause, column, candidates);
+    if (may_join(more, candidates)) all.push_back(std::move(more));
+  };
   for (std::size_t a = 0; a < columns.size(); ++a)
     for (std::size_t b = a + 1; b < columns.size(); ++b)
-      if (may_pair(columns[a]) && may_pair(columns[b])) all.push_back({a, b});
+      add({{a}}, b);
+  const auto is_state = [&](std::size_t c) { return columns[c].in_law && columns[c].within; };
+  std::set<Cause> seen;
+  for (std::size_t a = 0; a < columns.size(); ++a)
+    for (std::size_t b = a + 1; b < columns.size(); ++b)
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!is_state(a) || !is_state(b) || c == a || c == b || !columns[c].levels.empty() ||
+            !columns[c].within)
+          continue;
+        const Cause three = joined(joined({{a}}, b, candidates), c, candidates);
+        if (may_join(three, candidates) && seen.insert(three).second) all.push_back(three);
+      }
   return all;
 }
 
 std::string cause_name(const Cause& cause, const Candidates& candidates) {
-  const std::string& name = candidates.columns[cause.column].name;
-  return cause.pair() ? name + " x " + candidates.columns[cause.second].name : name;
+  std::vector<std::string> names;
+  for (const std::size_t c : cause.columns)
+    names.push_back(candidates.columns[c].name);
+  return join(names, " x ");
 }
 
 int complexity(const Cause& cause, const Candidates& candidates) {
-  if (cause.pair()) return 4;
-  const CandidateColumn& column = candidates.columns[cause.column];
-  if (!column.derived) return 0;
-  return find_derived(column.name)->continuation.always ? 1 : 2; // a state variable more
+  int steps = 2 * static_cast<int>(cause.columns.size() - 1);
+  for (const std::size_t c : cause.columns) {
+    const CandidateColumn& column = candidates.columns[c];
+    if (column.derived) steps += find_derived(column.name)->continuation.always ? 1 : 2;
+  }
+  return steps;
 }
 
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
-  return !candidates.columns[cause.column].within &&
-         (!cause.pair() || !candidates.columns[cause.second].within);
+  return std::none_of(cause.columns.begin(), cause.columns.end(),
+                      [&](std::size_t c) { return candidates.columns[c].within; });
 }
 
 } // namespace frictab

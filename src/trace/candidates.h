@@ -23,39 +23,43 @@ struct CandidateColumn {
   std::vector<double> tested;      // where its rows are: quantiles, ascending
   double gap = 0;                  // between the two of them that are furthest apart
   double reach = 0;                // part of its range that a usual experiment runs through
+  std::size_t different = 0;       // values over rows, counted up to 10
   bool in_law = false;             // the law uses it: its form may be wrong
+  bool between = false;            // may differ between tests: no history, time or distance
 };
 
 struct Candidates {
   std::vector<CandidateColumn> columns;
   BlockColumns by_symbol;         // all of them, and the law's inputs
-  std::string order_column;       // column that gives the order of tests; empty: none
+  std::string order_column;       // column that gives the order of tests; empty: nobody said it
+  std::vector<double> order;      // per experiment, by that column; empty without one
   double lowest_pressure_MPa = 0; // of contact in a training row; 0: not recorded
-  std::vector<double> order;      // per experiment: by that column, else as in the file
   std::vector<std::string> notes;
   std::vector<std::string> constant; // recorded, but never varied: nothing can be said
 };
 
 // `predicted`: the law's tau_R per row, from which work is integrated (never from measured tau_R).
-// Throws InputError where the options `ignore` or `tool_distance` name no column.
+// Throws InputError where the options `ignore`, `order` or `tool_distance` name no column.
 Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
                            std::span<const double> predicted,
                            const std::vector<std::string>& inputs, const TraceOptions& options);
 
-// A quantity of one kind or a pair of them, as a place where an effect may act.
+// A quantity, or two or three of them that act together, as a place where an effect may act.
 struct Cause {
-  std::size_t column = 0;
-  std::size_t second = npos; // of a pair
-  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
-  bool pair() const { return second != npos; }
+  std::vector<std::size_t> columns; // a text column first, else ascending
+  bool several() const { return columns.size() > 1; }
   auto operator<=>(const Cause&) const = default;
 };
+Cause joined(const Cause& cause, std::size_t column, const Candidates& candidates);
 
-// All columns, then pairs of those that differ.
+// All columns, then pairs of those that differ, then two states of the law with a third quantity.
 std::vector<Cause> all_causes(const Candidates& candidates);
+// Whether these columns together are another thing than one of them alone.
+bool may_join(const Cause& cause, const Candidates& candidates);
 
 std::string cause_name(const Cause& cause, const Candidates& candidates);
-// 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 4 a pair.
+// 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 2 more for
+// every column behind the first.
 int complexity(const Cause& cause, const Candidates& candidates);
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates);
 

@@ -37,11 +37,22 @@ MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
 }
 
 MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  if (!x.levels.empty()) return level_functions(x.values, x.levels.size());
-  if (!cause.pair()) return hat_functions(x.values);
-  const VectorXd& y = candidates.columns[cause.second].values;
-  return hat_functions((x.values.array() - x.values.mean()) * (y.array() - y.mean()));
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  if (!cause.several())
+    return x.levels.empty() ? hat_functions(x.values) : level_functions(x.values, x.levels.size());
+  MatrixXd levels = MatrixXd::Ones(x.values.size(), 1);
+  VectorXd product = levels.col(0);
+  for (const std::size_t c : cause.columns) {
+    const CandidateColumn& one = candidates.columns[c];
+    if (one.levels.empty())
+      product.array() *= one.values.array() - one.values.mean();
+    else
+      levels = level_functions(one.values, one.levels.size());
+  }
+  MatrixXd all;
+  for (Index l = 0; l < levels.cols(); ++l)
+    append_columns(all, levels.col(l).asDiagonal() * hat_functions(product));
+  return all;
 }
 
 } // namespace

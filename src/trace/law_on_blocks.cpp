@@ -87,14 +87,14 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 
 namespace {
 
-constexpr int most_iterations = 30;
-constexpr double enough = 1e-7; // relative gain of a step
+constexpr int most_iterations = 60;
 
 class BlockSolver {
 public:
   BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-              const VectorXd& use, const std::vector<bool>& frozen)
-      : law_(law), measured_(measured), whitener_(whitener), use_(use), frozen_(frozen) {}
+              const MatrixXd& penalty, const VectorXd& weight, double enough)
+      : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
+        enough_(enough) {}
 
   BlockFit run(std::vector<double> start) {
     BlockFit here = evaluate(std::move(start));
@@ -102,7 +102,7 @@ public:
     for (int i = 0; i < most_iterations && damping < 1e8; ++i) {
       const BlockFit there = evaluate(step(here, damping));
       if (there.cost < here.cost) {
-        const bool done = here.cost - there.cost < enough * here.cost;
+        const bool done = here.cost - there.cost < enough_ * here.cost;
         here = there;
         damping = std::max(0.2 * damping, 1e-10);
         if (done) break;
@@ -116,6 +116,10 @@ public:
   }
 
 private:
+  static Eigen::Map<const VectorXd> at(const BlockFit& fit) {
+    return {fit.parameters.data(), static_cast<Index>(fit.parameters.size())};
+  }
+
   // jacobian and predicted hold whitened derivatives and the whitened residual while it runs.
   BlockFit evaluate(std::vector<double> parameters) {
     BlockFit fit;
@@ -125,23 +129,28 @@ private:
     all.col(0) = measured_ - tau;
     all.rightCols(raw_.cols()) = raw_;
     whitener_.apply(all);
-    if (use_.size() > 0) all = use_.asDiagonal() * all;
+    if (weight_.size() > 0) all = weight_.asDiagonal() * all;
     fit.predicted = all.col(0);
     fit.jacobian = all.rightCols(raw_.cols());
     fit.cost = fit.predicted.squaredNorm();
+    if (penalty_.size() > 0) fit.cost += at(fit).dot(penalty_ * at(fit));
     if (!std::isfinite(fit.cost)) fit.cost = std::numeric_limits<double>::infinity();
     return fit;
   }
 
-  std::vector<double> step(const BlockFit& at, double damping) const {
-    MatrixXd normal = at.jacobian.transpose() * at.jacobian;
-    VectorXd gradient = at.jacobian.transpose() * at.predicted;
+  std::vector<double> step(const BlockFit& from, double damping) const {
+    MatrixXd normal = from.jacobian.transpose() * from.jacobian;
+    VectorXd gradient = from.jacobian.transpose() * from.predicted;
+    if (penalty_.size() > 0) {
+      normal += penalty_;
+      gradient -= penalty_ * at(from);
+    }
     const auto& bounds = law_.parameters();
     for (std::size_t p = 0; p < bounds.size(); ++p) { // a bound that the step would cross holds it
       const auto i = static_cast<Index>(p);
-      const bool held = (at.parameters[p] <= bounds[p].lower && gradient(i) < 0) ||
-                        (at.parameters[p] >= bounds[p].upper && gradient(i) > 0) ||
-                        (!frozen_.empty() && frozen_[p]) || normal(i, i) == 0;
+      const bool held = (from.parameters[p] <= bounds[p].lower && gradient(i) < 0) ||
+                        (from.parameters[p] >= bounds[p].upper && gradient(i) > 0) ||
+                        normal(i, i) == 0;
       if (!held) continue;
       normal.row(i).setZero();
       normal.col(i).setZero();
@@ -150,7 +159,7 @@ private:
     }
     normal.diagonal() *= 1 + damping;
     const VectorXd move = normal.ldlt().solve(gradient);
-    std::vector<double> to = at.parameters;
+    std::vector<double> to = from.parameters;
     for (std::size_t p = 0; p < to.size(); ++p)
       to[p] = std::clamp(to[p] + move(static_cast<Index>(p)), bounds[p].lower, bounds[p].upper);
     return to;
@@ -159,19 +168,20 @@ private:
   const LawOnBlocks& law_;
   const VectorXd& measured_;
   const Whitener& whitener_;
-  const VectorXd& use_;
-  const std::vector<bool>& frozen_;
+  const MatrixXd& penalty_;
+  const VectorXd& weight_;
+  double enough_;
   MatrixXd raw_;
 };
 
 } // namespace
 
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-                    std::vector<double> start, const VectorXd& use,
-                    const std::vector<bool>& frozen) {
+                    std::vector<double> start, const MatrixXd& penalty, const VectorXd& weight,
+                    double enough) {
   for (std::size_t p = 0; p < start.size(); ++p)
     start[p] = std::clamp(start[p], law.parameters()[p].lower, law.parameters()[p].upper);
-  return BlockSolver(law, measured, whitener, use, frozen).run(std::move(start));
+  return BlockSolver(law, measured, whitener, penalty, weight, enough).run(std::move(start));
 }
 
 } // namespace frictab

@@ -42,10 +42,12 @@ struct BlockFit {
   double cost = 0; // sum of squared whitened residuals
 };
 
-// Levenberg-Marquardt on whitened residuals within the parameters' bounds. `use` (per block 0 or 1;
-// empty: all) leaves experiments out.
+// Levenberg-Marquardt on whitened residuals within the parameters' bounds. `penalty`: p' penalty p
+// is added to the cost (of smooth effects; empty: none). `weight`: per block, behind the whitening
+// (empty: 1). Done where a step gains less than `enough` of the cost.
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
-                    const Eigen::VectorXd& use = {}, const std::vector<bool>& frozen = {});
+                    const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},
+                    double enough = 1e-11);
 
 } // namespace frictab

@@ -2,40 +2,43 @@
 // every test of the trace stage.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "trace/blocks.h"
+
 namespace frictab {
 
-// Covariance of the block means of one experiment, tau = predicted shear stress there:
-//   u u' + multiplicative^2 tau tau' + D (slow^2 rho^|i-j| + white^2 I) D,
-//   u = additive + coupling tau / scale, D = diag (tau / scale)^growth
-// (level and slope of the experiment as two random effects that may go together; slow and white
-// noise within it, which grow with tau).
+// Covariance of the block means of one experiment, t = predicted shear stress there, x = position
+// in the experiment (-1/2 .. 1/2):
+//   gain^2 t t' + slope^2 (t x)(t x)' + D (slow^2 exp(-|x_i - x_j| / length) + white^2 W) D,
+//   D = scale diag (t / scale)^growth, W = diag (usual rows of a block / rows of this one).
+// An experiment as a whole lies high or low (gain), and rises or falls against the law (slope);
+// noise within it is slow and white. All but `scale` are relative to the shear stress, so that a
+// unit of stress changes nothing. `length` is capped at 0.4 of an experiment: slow noise that
+// lasts longer could not be told from the gain and would swallow it.
 struct NoiseModel {
-  double additive = 0;       // MPa
-  double coupling = 0;       // MPa
-  double multiplicative = 0; // 1
-  double slow = 1;           // MPa
-  double rho = 0.5;          // from block to block
-  double white = 1;          // MPa
-  double growth = 0;
-  double scale = 1; // MPa, mean predicted tau
-
-  // Standard deviation between experiments relative to tau, root mean square over blocks.
-  double between(const Eigen::VectorXd& tau) const;
+  double gain = 0;
+  double slope = 0;
+  double slow = 1;
+  double length = 0.1; // of an experiment
+  double white = 1;
+  double growth = 1; // 0: the same for all stresses | 1: in proportion to the stress
+  double scale = 1;  // MPa, mean predicted shear stress
 };
+
+// D of the formula above, per block.
+Eigen::ArrayXd noise_size(const NoiseModel& noise, const Eigen::VectorXd& tau);
 
 // V^-1/2 of all experiments, which are independent: the slow and white noise by their innovations
 // (Kalman filter, a few operations per value), the random effects as two directions; behind it,
 // nuisance columns are projected out.
 class Whitener {
 public:
-  // `tau`: predicted, per block; `first`: blocks of each experiment; `nuisance`: directions of
-  // which nothing is to be seen (structure along the order of tests, ...), or no columns.
-  Whitener(const NoiseModel& noise, const Eigen::VectorXd& tau, std::span<const std::size_t> first,
+  // `tau`: predicted, per block; `nuisance`: directions of which nothing is to be seen (structure
+  // along the order of tests, ...), or no columns.
+  Whitener(const NoiseModel& noise, const Eigen::VectorXd& tau, const Blocks& blocks,
            const Eigen::MatrixXd& nuisance = {});
 
   // Columns of block values, in place.
@@ -61,9 +64,12 @@ private:
 
   struct Part {
     Eigen::Index first, size;
+    double rho;
   };
-  double rho_ = 0;
-  std::vector<double> gain_, scale_; // of the filter, by place in the experiment
+  // Of the filter along one experiment; its log determinant.
+  double make_filter(const Part& part, const Eigen::VectorXd& white, double slow);
+
+  std::vector<double> gain_, scale_; // of the filter, per block
   std::vector<Part> parts_;
   Eigen::VectorXd shrink_; // 1/D
   Eigen::VectorXd log_det_, variance_;
@@ -72,27 +78,39 @@ private:
   double nuisance_log_det_ = 0;
 };
 
-// Maximum likelihood of `residual` (per block), by NLopt's BOBYQA; restricted maximum likelihood
-// where `jacobian` has columns (of fitted parameters), so that fitted degrees of freedom do not
-// make the noise look smaller. `start`: of an earlier fit; its growth is kept.
+// Where a residual (per block) comes from: what the noise is fitted to.
+struct NoiseData {
+  const Eigen::VectorXd& residual;
+  const Eigen::VectorXd& tau; // predicted
+  const Blocks& blocks;
+  // Directions of fitted parameters: restricted maximum likelihood, so that fitted degrees of
+  // freedom do not make the noise look smaller.
+  const Eigen::MatrixXd& fitted;
+  const Eigen::MatrixXd& nuisance;
+  // false: experiments have no slope of their own. For a screening, which asks only what
+  // experiments share: a slope that is free in each hides a rise that all of them have.
+  bool slope = true;
+};
+
 struct NoiseFit {
   NoiseModel noise;
-  double log_likelihood = 0;
+  double log_likelihood = 0; // restricted
 };
-NoiseFit fit_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
-                   std::span<const std::size_t> first, const Eigen::MatrixXd& jacobian,
-                   const NoiseModel& start, int evaluations, const Eigen::MatrixXd& nuisance = {});
 
-// The same from nothing but the size of the residual, beside `start`: noise that has been fitted to
-// the residual of a law that lacked an effect has swallowed it, and does not let go by itself.
-NoiseFit fit_noise_anew(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
-                        std::span<const std::size_t> first, const NoiseModel& start,
-                        int evaluations, const Eigen::MatrixXd& nuisance = {});
+// Restricted maximum likelihood, from several starts, for each of a few lengths; converged far
+// beyond what data can tell, so that rounding of the data, their unit and their order do not show.
+// Both ways in which noise may grow (not at all, with tau) are tried.
+NoiseFit fit_noise(const NoiseData& data);
 
-// From nothing: both ways that noise may grow (not at all, with tau) are tried.
-NoiseFit first_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& tau,
-                     std::span<const std::size_t> first, const Eigen::MatrixXd& jacobian,
-                     const Eigen::MatrixXd& nuisance = {});
+// The same for the growth of an earlier fit, from it and from nothing: noise fitted to the residual
+// of a law that lacked an effect has swallowed it, and does not let go by itself.
+NoiseFit fit_noise_again(const NoiseData& data, const NoiseModel& earlier);
+
+// The same at its length, from it alone: where little has changed.
+NoiseFit fit_noise_near(const NoiseData& data, const NoiseModel& earlier);
+
+// From it and from nothing at its length, to what weights can show: where a search is repeated.
+NoiseFit fit_noise_quickly(const NoiseData& data, const NoiseModel& earlier);
 
 // An orthonormal basis of what the columns span; columns that others explain are left out.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);

@@ -17,6 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr std::size_t order_permutations = 999;
+constexpr double declared_lead = 10; // of log likelihood, that a declared wear may lack
 constexpr int check_functions = 9;
 constexpr int nuisance_functions = 12;
 constexpr double suspicion = 0.05;    // p-value of the order's own test, in the rival's place
@@ -69,7 +71,7 @@ bool is_order(const Search& search, const Cause& cause) {
     const std::string& name = candidates.columns[column].name;
     return name == "test_order" || name == candidates.order_column;
   };
-  return numbers_tests(cause.column) || (cause.pair() && numbers_tests(cause.second));
+  return std::any_of(cause.columns.begin(), cause.columns.end(), numbers_tests);
 }
 
 // A text column of which each level is one stretch of the order: a batch. It is the order itself.
@@ -91,42 +93,66 @@ bool is_slow(const CandidateColumn& column, const VectorXd& by_rank) {
   return (functions.transpose() * x).squaredNorm() > most_slow * x.squaredNorm();
 }
 
-// (Once structure along the order is known, slow columns are suspects, too.)
+// Of several columns, any. (Once structure along the order is known, slow ones are suspects, too.)
 bool is_order_itself(const Search& search, const Cause& cause) {
-  if (cause.pair()) return false;
-  const CandidateColumn& column = search.candidates.columns[cause.column];
   const auto rank = ranks(search.candidates.order);
-  VectorXd by_rank(static_cast<Index>(rank.size()));
-  for (std::size_t e = 0; e < rank.size(); ++e)
-    by_rank(static_cast<Index>(rank[e])) = column.values(static_cast<Index>(search.first()[e]));
-  return is_stretch(column, by_rank) || (search.order.found && is_slow(column, by_rank));
+  return std::any_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    const CandidateColumn& column = search.candidates.columns[c];
+    if (column.within) return false;
+    VectorXd by_rank(static_cast<Index>(rank.size()));
+    for (std::size_t e = 0; e < rank.size(); ++e)
+      by_rank(static_cast<Index>(rank[e])) = column.values(static_cast<Index>(search.first()[e]));
+    return is_stretch(column, by_rank) || (search.order.found && is_slow(column, by_rank));
+  });
 }
 
 void forbid(Search& search, const std::function<bool(const Cause&)>& which) {
   for (std::size_t c = 0; c < search.causes.size(); ++c)
     if (which(search.causes[c])) search.shapes[c].clear();
+  std::erase_if(search.test_shapes, [&](const TestShape& shape) { return which(shape.cause); });
 }
 
 } // namespace
 
-bool is_declared(const Search& search, const Rival& rival) {
-  const std::string& name = rival.effects.back().inputs[0].column;
+bool is_declared(const Search& search, const Cause& cause) {
+  const std::string& name = search.candidates.columns[cause.columns[0]].name;
   const std::string& distance = search.input.options.tool_distance;
-  return !distance.empty() &&
+  return !distance.empty() && !cause.several() &&
          (name == distance || (name == "test_order" && distance == search.candidates.order_column));
 }
 
+void prefer_declared(const Search& search, std::vector<Rival>& rivals) {
+  if (!constant_in_experiments(rivals.front().causes.back(), search.candidates)) return;
+  const auto found = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
+    return is_declared(search, r.causes.back());
+  });
+  if (found != rivals.end() && found->penalised > rivals.front().penalised - declared_lead)
+    std::rotate(rivals.begin(), found, found + 1);
+}
+
+bool order_explains(const Search& search, const TestShape& shape) {
+  if (is_declared(search, shape.cause)) return false;
+  if (is_order(search, shape.cause)) return true;
+  const std::size_t tests = search.blocks.experiments();
+  if (search.candidates.order_column.empty()) return false;
+  if (is_order_itself(search, shape.cause)) return true;
+  if (search.order.found || tests < 10) return false;
+  MatrixXd beside = search.known_between();
+  const int waves = std::min(6, std::max(2, static_cast<int>(tests) / 8));
+  append_columns(beside, order_functions(search.candidates.order, waves));
+  return p_beside(search.gains, beside, shape) > search.family_alpha();
+}
+
 bool follows_order(const Search& search, const Rival& rival) {
-  if (is_declared(search, rival)) return false;
+  if (is_declared(search, rival.causes.back())) return false;
   if (is_order(search, rival.causes.back())) return true;
-  if (search.candidates.order_column.empty() ||
-      !constant_in_experiments(rival.causes.back(), search.candidates))
-    return false;
+  if (search.candidates.order_column.empty()) return false;
   if (is_order_itself(search, rival.causes.back())) return true;
-  if (search.order.found) return false;
+  if (search.order.found || !constant_in_experiments(rival.causes.back(), search.candidates))
+    return false;
   const std::size_t place = place_of(rival.effects.back());
   const Whitener weights = search.whitener();
-  if (test_order(scores_of(search, weights, place), search.candidates.order, trace_flips,
+  if (test_order(scores_of(search, weights, place), search.candidates.order, order_permutations,
                  search.input.seed)
           .p_value > suspicion)
     return false;
@@ -149,13 +175,12 @@ bool follows_order(const Search& search, const Rival& rival) {
   return statistic() < beyond_order;
 }
 
-void blame_order(Search& search, const Rival& rival, double p_value) {
-  const Cause cause = rival.causes.back();
+void blame_order(Search& search, const Cause& cause, double p_value) {
   if (!is_order(search, cause))
     search.rejected.push_back(cause_name(cause, search.candidates) +
                               ": cannot be told from a drift over the order of tests");
   forbid(search, [&](const Cause& other) { return other == cause; });
-  take_order_out(search, p_value, place_of(rival.effects.back()));
+  take_order_out(search, p_value, 0);
 }
 
 void take_order_out(Search& search, double p_value, std::size_t place) {
@@ -183,22 +208,17 @@ OrderFound look_along_order(const Search& search) {
     tried.push_back(place);
   }
   const OrderTest test =
-      test_order(scores, search.candidates.order, trace_flips, search.input.seed);
+      test_order(scores, search.candidates.order, order_permutations, search.input.seed);
   return {test.p_value, tried[static_cast<std::size_t>(test.column)]};
 }
 
 bool find_order(Search& search) {
-  if (search.order.found || search.negligible()) return false;
+  if (search.order.found || search.candidates.order_column.empty() || search.negligible())
+    return false;
   const OrderFound found = look_along_order(search);
   search.order.p_value = found.p_value;
   if (found.p_value > share_of_alpha * search.input.options.alpha) return false;
-  if (!search.candidates.order_column.empty()) {
-    take_order_out(search, found.p_value, found.place);
-    return true;
-  }
-  search.order.found = true;
-  search.order.reference = reference;
-  measure(search, slow_directions(search, check_functions, 5, found.place));
+  take_order_out(search, found.p_value, found.place);
   return true;
 }
 

@@ -8,14 +8,18 @@
 namespace frictab {
 
 // The column that the user has declared as the tool's wear: it may follow the order.
-bool is_declared(const Search& search, const Rival& rival);
+bool is_declared(const Search& search, const Cause& cause);
+// Of two that follow the order of tests alike, the declared one comes first.
+void prefer_declared(const Search& search, std::vector<Rival>& rivals);
 
-// Whether a drift over the order of tests explains at least as much as the rival's last effect, and
-// little is left of that beside it.
+// Whether a drift over the declared order of tests explains at least as much as the rival's last
+// effect, and little is left of that beside it.
 bool follows_order(const Search& search, const Rival& rival);
+// The same on one value per test: whether slow waves of the order leave nothing of the shape.
+bool order_explains(const Search& search, const TestShape& shape);
 
-// The rival's cause is out, and the order with it.
-void blame_order(Search& search, const Rival& rival, double p_value);
+// The cause is out, and the order with it.
+void blame_order(Search& search, const Cause& cause, double p_value);
 
 // From here on nothing is explained that slow functions of the order can explain, in the place
 // (mu, limit, added) where it shows most.
@@ -27,8 +31,8 @@ struct OrderFound {
 };
 OrderFound look_along_order(const Search& search);
 
-// A second test, beside that of all candidates: true where something was found. It is taken out
-// where a column gives the order; the file's own may be that of the design, and is only measured.
+// A second test, beside that of all candidates, where the order was declared: true where something
+// was found, which is then taken out.
 bool find_order(Search& search);
 
 // Whether the order still has structure once the effects are in the law; forgotten if not.

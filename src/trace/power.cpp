@@ -16,6 +16,7 @@ using Eigen::VectorXf;
 
 constexpr std::size_t plants = 400;
 constexpr double wanted = 0.8;
+constexpr double least_column_left = 0.02; // of a column's variance, beside what the law explains
 constexpr std::uint64_t power_stream = 73;
 
 // Sum of scores that lifts the statistic above the threshold in 80 % of residuals that are as
@@ -34,14 +35,35 @@ double sum_to_detect(const VectorXf& scores, double threshold, std::uint64_t see
   return threshold * scatter - noise[static_cast<std::size_t>((1 - wanted) * plants)];
 }
 
+// Columns that are constant within tests: from the difference between two halves of the tests that
+// would have been seen, by how much of the column the law's own parameters leave.
+void add_between(Trace& trace, const Search& search) {
+  Eigen::MatrixXd known = Eigen::MatrixXd::Ones(search.gains.gain.size(), 1);
+  append_columns(known, search.known_between());
+  const Eigen::MatrixXd q = orthonormal(known);
+  for (const TestShape& shape : search.test_shapes) {
+    if (shape.form != "line" && shape.form != "levels") continue;
+    if (!constant_in_experiments(shape.cause, search.candidates)) continue;
+    const VectorXd x = shape.columns.col(0).array() - shape.columns.col(0).mean();
+    const double left = (x - q * (q.transpose() * x)).squaredNorm() / x.squaredNorm();
+    Detectable entry{search.candidates.columns[shape.cause.columns[0]].name, "", "mu", 0, 0, false};
+    if (left > least_column_left && std::isfinite(trace.smallest_seen)) {
+      entry.identifiable = true;
+      entry.share = 0.5 * std::log1p(trace.smallest_seen) / std::sqrt(left);
+      entry.size_MPa = entry.share * search.tau_scale_MPa;
+    }
+    trace.detectable.push_back(entry);
+  }
+}
+
 } // namespace
 
 void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
   const ScreenResult& screened = search.last_screen;
-  const double threshold = screened.threshold(trace.alpha);
+  const double threshold = screened.threshold(search.family_alpha());
   for (std::size_t s = 0; s < search.causes.size(); ++s) {
-    if (search.causes[s].pair() || search.shapes[s].empty()) continue;
-    const CandidateColumn& column = search.candidates.columns[search.causes[s].column];
+    if (search.causes[s].several() || search.shapes[s].empty()) continue;
+    const CandidateColumn& column = search.candidates.columns[search.causes[s].columns[0]];
     Detectable entry{column.name, column.derived ? column.name : "", "mu", 0, 0, false};
     for (std::size_t d = 0; d < screened.directions.size(); ++d) {
       const Direction& direction = screened.directions[d];
@@ -61,6 +83,7 @@ void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
     }
     trace.detectable.push_back(entry);
   }
+  add_between(trace, search);
 }
 
 } // namespace frictab

@@ -1,9 +1,11 @@
-// Joint fits of law, effects and noise; short lists; comparison by experiment.
+// Joint fits of law, effects and noise; comparison by experiment.
 #include "trace/rivals.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include <Eigen/Cholesky>
 
 #include "calibrate/resampling.h"
 #include "core/parallel.h"
@@ -19,9 +21,6 @@ using Eigen::VectorXd;
 
 constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
 constexpr double per_complexity = 1.5; // and a step away from a recorded column
-constexpr std::size_t short_list = 12;
-constexpr double close_rivals =
-    60; // of log likelihood behind the best, that may still be caught up
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -48,17 +47,61 @@ bool on_limit(const std::vector<PlacedEffect>& effects) {
                      [](const PlacedEffect& e) { return e.acts_on == "m"; });
 }
 
+// Where an effect's parameters stand among those of the law.
+std::vector<Index> first_parameters(const Rival& rival, std::size_t own) {
+  std::vector<Index> first;
+  auto next = static_cast<Index>(own);
+  for (const PlacedEffect& effect : rival.effects) {
+    first.push_back(next);
+    next += static_cast<Index>(fitted_parameters(effect).size());
+  }
+  return first;
+}
+
+} // namespace
+
+MatrixXd penalty_of(const Rival& rival) {
+  MatrixXd all;
+  const std::vector<Index> first = first_parameters(rival, rival.own);
+  const auto count = static_cast<Index>(rival.parameters.size());
+  for (std::size_t i = 0; i < rival.effects.size(); ++i) {
+    const PlacedEffect& effect = rival.effects[i];
+    if (!effect.form->penalty || !(effect.stiffness > 0)) continue;
+    if (all.size() == 0) all = MatrixXd::Zero(count, count);
+    const MatrixXd one = roughness_of(effect);
+    all.block(first[i], first[i], one.rows(), one.cols()) = effect.stiffness * one;
+  }
+  return all;
+}
+
+namespace {
+
+// Of the parameters, penalised ones counted by what they are free to do.
+double freedom_of(const Rival& rival, const Whitener& whitener) {
+  const auto count = static_cast<Index>(rival.parameters.size());
+  const MatrixXd penalty = penalty_of(rival);
+  if (penalty.size() == 0) return static_cast<double>(count);
+  MatrixXd jacobian = rival.jacobian;
+  whitener.apply(jacobian);
+  const MatrixXd normal = jacobian.transpose() * jacobian;
+  MatrixXd with = normal + penalty;
+  with.diagonal().array() += 1e-12 * with.diagonal().maxCoeff();
+  return with.ldlt().solve(normal).trace();
+}
+
 void judge(Rival& rival, const Campaign& campaign) {
-  const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
+  const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(residual);
   rival.log_likelihood = by_experiment(residual.col(0), whitener, campaign.blocks.first);
   rival.total = rival.log_likelihood.sum();
-  double cost = per_parameter * static_cast<double>(rival.parameters.size());
+  rival.freedom = freedom_of(rival, whitener);
+  double cost = per_parameter * rival.freedom;
   for (const Cause& cause : rival.causes)
     cost += per_complexity * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
-    cost += implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].column]);
+    cost +=
+        implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
   rival.penalised = rival.total - cost;
 }
 
@@ -88,6 +131,7 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 const NoiseModel& noise, NoiseSearch search) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
+  rival.own = own;
   rival.parameters.assign(parameters.begin(), parameters.end());
   rival.effects = std::move(effects);
   rival.causes = std::move(causes);
@@ -96,47 +140,69 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
   rival.parameters = start_of(extended, parameters, own, rival.effects);
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
+  const MatrixXd penalty = penalty_of(rival);
+  const double enough = campaign.quick ? 1e-5 : search == NoiseSearch::kept ? 1e-8 : 1e-11;
   const auto refit = [&](const LawOnBlocks& with) {
     rival.predicted = with.predict(rival.parameters);
-    const Whitener whitener(rival.noise, rival.predicted, campaign.blocks.first, campaign.nuisance);
-    BlockFit fit = fit_blocks(with, campaign.measured, whitener, rival.parameters);
+    const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
+    BlockFit fit =
+        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, enough);
     rival.parameters = std::move(fit.parameters);
     rival.predicted = std::move(fit.predicted);
     rival.jacobian = std::move(fit.jacobian);
   };
-  if (on_limit(rival.effects)) // a limit that no row has reached yet would never be seen
-    for (const double width : {15.0, 5.0})
+  if (on_limit(rival.effects)) { // a limit that no row has reached yet would never be seen
+    const double usual = campaign.measured.cwiseAbs().mean();
+    for (const double width : {0.15 * usual, 0.05 * usual})
       refit(LawOnBlocks(extended, campaign.conventions, columns, width));
+  }
   refit(law);
-  const VectorXd residual = campaign.measured - rival.predicted;
-  const auto& first = campaign.blocks.first;
-  rival.noise =
-      search == NoiseSearch::near
-          ? fit_noise(residual, rival.predicted, first, {}, noise, 80, campaign.nuisance).noise
-          : fit_noise_anew(residual, rival.predicted, first, noise,
-                           search == NoiseSearch::quick ? 40 : 300, campaign.nuisance)
-                .noise;
-  refit(law);
+  for (const bool first : {true, false}) {
+    if (search != NoiseSearch::again) break;
+    const VectorXd residual = campaign.measured - rival.predicted;
+    const NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
+                         campaign.nuisance};
+    if (first)
+      rival.noise = noise_again(campaign, data, rival.noise);
+    else if (!campaign.quick)
+      rival.noise = fit_noise_near(data, rival.noise).noise;
+    else
+      break;
+    refit(law);
+  }
   take_parameters(rival, own);
   rival.weights = rival.noise;
   judge(rival, campaign);
   return rival;
 }
 
+Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
+                std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search) {
+  std::vector<double> start(from.parameters.begin(),
+                            from.parameters.begin() +
+                                static_cast<long>(campaign.law.parameters.size()));
+  if (on_limit(from.effects)) start.push_back(from.parameters.back());
+  return fit_rival(campaign, std::move(effects), std::move(causes), start, noise, search);
+}
+
+NoiseModel noise_again(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier) {
+  return (campaign.quick ? fit_noise_quickly(data, earlier) : fit_noise_again(data, earlier)).noise;
+}
+
 NoiseModel rows_alike(const NoiseModel& noise) {
   NoiseModel alike;
   alike.scale = noise.scale;
+  alike.growth = 0;
   alike.slow = 0;
-  alike.rho = 0;
-  alike.white = std::hypot(noise.slow, noise.white);
+  alike.white = std::hypot(noise.slow, noise.white, noise.gain);
   return alike;
 }
 
 Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
-  const Whitener whitener(weights, rival.predicted, campaign.blocks.first, campaign.nuisance);
-  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters);
+  const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
+  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters, penalty_of(rival));
   rival.parameters = std::move(fit.parameters);
   rival.predicted = std::move(fit.predicted);
   rival.jacobian = std::move(fit.jacobian);
@@ -156,156 +222,8 @@ Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t i
   std::vector<Cause> causes = rival.causes;
   effects.erase(effects.begin() + static_cast<long>(index));
   causes.erase(causes.begin() + static_cast<long>(index));
-  return fit_rival(campaign, std::move(effects), std::move(causes),
-                   std::span(rival.parameters).first(campaign.law.parameters.size()), rival.noise,
-                   NoiseSearch::thorough);
-}
-
-namespace {
-
-struct Trial {
-  PlacedEffect effect;
-  Cause cause;
-};
-
-// A shape of the grid, with the amplitude that the screening suggests.
-Trial trial_of(const Direction& direction, const std::vector<Cause>& causes,
-               const std::vector<std::vector<GridShape>>& shapes, double tau_scale_MPa) {
-  Trial trial{shapes[direction.cause][direction.shape].effect, causes[direction.cause]};
-  trial.effect.acts_on = places[direction.place];
-  trial.effect.tau_scale_MPa = tau_scale_MPa;
-  if (!trial.effect.form->categorical)
-    trial.effect.parameters[0] =
-        std::clamp(static_cast<double>(direction.statistic / direction.size), -0.5, 0.5);
-  return trial;
-}
-
-void sort_best_first(std::vector<Rival>& rivals) {
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
-}
-
-std::vector<Rival> fit_all(const Campaign& campaign, const Rival& current, const NoiseModel& noise,
-                           const std::vector<Trial>& trials, NoiseSearch search) {
-  std::vector<Rival> rivals(trials.size());
-  parallel_for(trials.size(), [&](std::size_t i) {
-    std::vector<PlacedEffect> effects = current.effects;
-    std::vector<Cause> causes = current.causes;
-    effects.push_back(trials[i].effect);
-    causes.push_back(trials[i].cause);
-    std::vector<double> own(current.parameters.begin(),
-                            current.parameters.begin() +
-                                static_cast<long>(campaign.law.parameters.size()));
-    if (on_limit(current.effects)) own.push_back(current.parameters.back());
-    rivals[i] = fit_rival(campaign, effects, causes, own, noise, search);
-  });
-  sort_best_first(rivals);
-  return rivals;
-}
-
-// Those that are near the best once more, from its noise, so that they are compared under noise
-// that is fitted alike, the best as well. (Searches from far away stop at different distances from
-// their ends.)
-void compare_closely(const Campaign& campaign, std::vector<Rival>& rivals) {
-  const auto again = [&](const Rival& r, const NoiseModel& noise, NoiseSearch search) {
-    return fit_rival(campaign, r.effects, r.causes, r.parameters, noise, search);
-  };
-  rivals.front() = again(rivals.front(), rivals.front().noise, NoiseSearch::thorough);
-  const NoiseModel noise = rivals.front().noise;
-  const double least = rivals.front().penalised - close_rivals;
-  parallel_for(rivals.size(), [&](std::size_t i) {
-    if (rivals[i].penalised > least || i < 4)
-      rivals[i] = again(rivals[i], noise, NoiseSearch::near);
-  });
-  sort_best_first(rivals);
-}
-
-// Per cause its directions, largest statistic first; causes by their best.
-std::vector<std::vector<Direction>> by_cause(const ScreenResult& screened, std::size_t count) {
-  std::vector<std::vector<Direction>> lists(count);
-  for (const Direction& direction : screened.directions)
-    lists[direction.cause].push_back(direction);
-  const auto larger = [](const Direction& a, const Direction& b) {
-    return std::abs(a.statistic) > std::abs(b.statistic);
-  };
-  for (auto& list : lists)
-    std::stable_sort(list.begin(), list.end(), larger);
-  std::erase_if(lists, [](const auto& list) { return list.empty(); });
-  std::stable_sort(lists.begin(), lists.end(),
-                   [&](const auto& a, const auto& b) { return larger(a.front(), b.front()); });
-  return lists;
-}
-
-// The best shapes of a cause: two whatever their place, and the best of every other place.
-std::vector<Direction> best_shapes(const std::vector<Direction>& list,
-                                   const std::vector<std::vector<GridShape>>& shapes) {
-  std::vector<Direction> best;
-  std::set<std::pair<std::string, std::size_t>> kinds;
-  std::set<std::size_t> seen;
-  for (const Direction& direction : list) {
-    const std::string& form = shapes[direction.cause][direction.shape].effect.form->name;
-    const bool new_place = !seen.count(direction.place);
-    if ((kinds.size() >= 2 && !new_place) || !kinds.insert({form, direction.place}).second)
-      continue;
-    seen.insert(direction.place);
-    best.push_back(direction);
-  }
-  return best;
-}
-
-} // namespace
-
-std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Cause>& causes,
-                               const std::vector<std::vector<GridShape>>& shapes,
-                               const ScreenResult& screened, double tau_scale_MPa) {
-  auto lists = by_cause(screened, causes.size());
-  const float least = 0.6f * std::abs(lists.front().front().statistic);
-  std::vector<Trial> trials;
-  std::size_t taken = 0;
-  for (const auto& list : lists) {
-    if (taken++ >= short_list || std::abs(list.front().statistic) < least) break;
-    for (const Direction& direction : best_shapes(list, shapes))
-      trials.push_back(trial_of(direction, causes, shapes, tau_scale_MPa));
-  }
-  std::vector<Rival> rivals = fit_all(campaign, current, current.noise, trials, NoiseSearch::quick);
-  compare_closely(campaign, rivals);
-  return rivals;
-}
-
-std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Cause>& causes,
-                              const std::vector<std::vector<GridShape>>& shapes,
-                              const ScreenResult& screened) {
-  const Cause cause = winner.causes.back();
-  const PlacedEffect& won = winner.effects.back();
-  if (won.form->categorical || cause.pair()) return {winner};
-  const auto index =
-      static_cast<std::size_t>(std::find(causes.begin(), causes.end(), cause) - causes.begin());
-  std::vector<Trial> trials;
-  for (const EffectForm& form : all_effects()) {
-    if (!form_fits(form, cause, campaign.candidates)) continue;
-    Trial trial{start_effect(form, cause, campaign.candidates, won.acts_on, won.tau_scale_MPa),
-                cause};
-    const Direction* best = nullptr;
-    for (const Direction& d : screened.directions)
-      if (d.cause == index && places[d.place] == won.acts_on &&
-          shapes[index][d.shape].effect.form == &form &&
-          (!best || std::abs(d.statistic) > std::abs(best->statistic)))
-        best = &d;
-    if (best) trial = trial_of(*best, causes, shapes, won.tau_scale_MPa);
-    trials.push_back(std::move(trial));
-  }
-  std::vector<Rival> rivals = fit_all(campaign, current, winner.noise, trials, NoiseSearch::near);
-  rivals.push_back(winner); // whose grid start may have been the better one
-  const double spline_margin = 1.3 * per_parameter;
-  for (Rival& rival : rivals)
-    if (amplitudes_of(rival.effects.back()) > 1)
-      rival.penalised -=
-          0.3 * per_parameter * static_cast<double>(amplitudes_of(rival.effects.back())) +
-          spline_margin;
-  sort_best_first(rivals);
-  return rivals;
+  return fit_rival(campaign, rival, std::move(effects), std::move(causes), rival.noise,
+                   NoiseSearch::again);
 }
 
 std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed) {
@@ -322,7 +240,7 @@ std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t
     const VectorXd difference = rivals.front().log_likelihood - rival.log_likelihood;
     const VectorXd drawn = times * difference;
     const auto better = static_cast<double>((drawn.array() > 0).count());
-    const double lead = rivals.front().penalised - rival.penalised;
+    const double lead = 0.5 * (rival.criterion - rivals.front().criterion);
     same.push_back(better < 0.95 * static_cast<double>(resamples) || lead < 2);
   }
   return same;

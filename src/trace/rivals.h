@@ -1,4 +1,4 @@
-// Ways to explain the residual, fitted to the end and compared.
+// A law with some effects in it, fitted to the blocks of a campaign under a noise model.
 #pragma once
 
 #include <string>
@@ -18,6 +18,7 @@ struct Campaign {
   const Candidates& candidates;
   Eigen::VectorXd measured; // per block; minus what averaging over a block does to the law
   Eigen::MatrixXd nuisance; // per block: what may not explain anything
+  bool quick = false;       // noise is fitted no closer than weights can show
 };
 
 // The law with some effects, fitted together with the noise.
@@ -25,23 +26,38 @@ struct Rival {
   std::vector<PlacedEffect> effects; // parameters fitted
   std::vector<Cause> causes;         // one per effect
   std::vector<double> parameters;    // of the extended law
+  std::size_t own = 0;               // of them the law's own, in front
   NoiseModel noise;
   NoiseModel weights; // of the fit: the noise model, or alike for all rows
   Eigen::VectorXd predicted;
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd log_likelihood; // per experiment
   double total = 0;
+  double freedom = 0;   // effective number of parameters; stiff smooths have fewer than knots
   double penalised = 0; // minus what parameters and complexity cost
+  double criterion = 0; // of choose_cause, -2 log restricted likelihood: smaller is better
 };
 
-// near: from a noise model that is nearly right | quick, thorough: also from nothing.
-enum class NoiseSearch { near, quick, thorough };
+// kept: under the noise given, so that rivals are compared alike | again: fitted, twice in turn
+// with the parameters.
+enum class NoiseSearch { kept, again };
 
-// All parameters by generalised least squares, the noise by maximum likelihood, twice in turn.
-// `parameters`: start of the law's own (and m_limit, if any, behind them).
+// All parameters by generalised least squares. `parameters`: start of the law's own (and m_limit,
+// if any, behind them).
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, NoiseSearch search);
+
+// `rival` with more effects, or with one changed: its own parameters as the start.
+Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
+                std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search);
+
+// Noise of a residual that has changed, from an earlier fit.
+NoiseModel noise_again(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
+
+// Of the smooth effects, over all parameters: what a fit adds to its normal equations. Empty where
+// there are none.
+Eigen::MatrixXd penalty_of(const Rival& rival);
 
 // Without its effect `index`, all refitted.
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index);
@@ -63,19 +79,6 @@ std::vector<double> start_of(const Law& extended, std::span<const double> own, s
 
 // Bound to its columns; shapes bounded by what the data can tell.
 Law bounded_law(const Campaign& campaign, const Rival& rival);
-
-// Best first; never empty. Every short-listed cause with its best shapes in every place.
-std::vector<Rival> find_rivals(const Campaign& campaign, const Rival& current,
-                               const std::vector<Cause>& causes,
-                               const std::vector<std::vector<GridShape>>& shapes,
-                               const ScreenResult& screened, double tau_scale_MPa);
-
-// The winner in every form that its column allows; a spline only where no form comes within
-// `margin` of it. Best first.
-std::vector<Rival> find_forms(const Campaign& campaign, const Rival& current, const Rival& winner,
-                              const std::vector<Cause>& causes,
-                              const std::vector<std::vector<GridShape>>& shapes,
-                              const ScreenResult& screened);
 
 // Which rivals these experiments cannot tell from the first (Vuong 1989, by resampling whole
 // experiments): not worse with 95 %, or within 2 of its log likelihood.

@@ -1,4 +1,5 @@
-// Restricted likelihood of the noise, and chi-square limits of the scatter between experiments.
+// The noise model's floor, and chi-square limits of the scatter between experiments (Paule and
+// Mandel's, so that a slope of its own in each test is no scatter of the gain).
 #include "trace/scatter.h"
 
 #include <algorithm>
@@ -6,11 +7,14 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include "calibrate/replicates.h"
+
 namespace frictab {
 
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Mean square of the measured rows about their block's line of blocks: what block means leave out.
@@ -36,19 +40,6 @@ double within_blocks(const Dataset& training, const Blocks& blocks) {
   return sum / static_cast<double>(training.rows());
 }
 
-// Of each experiment, relative to the law.
-VectorXd levels(const VectorXd& residual, const VectorXd& predicted, const Campaign& campaign) {
-  const auto& first = campaign.blocks.first;
-  VectorXd level(static_cast<Index>(first.size() - 1));
-  for (Index e = 0; e < level.size(); ++e) {
-    const auto begin = static_cast<Index>(first[static_cast<std::size_t>(e)]);
-    const auto count = static_cast<Index>(first[static_cast<std::size_t>(e) + 1]) - begin;
-    const auto law = predicted.segment(begin, count);
-    level(e) = law.dot(residual.segment(begin, count)) / law.squaredNorm();
-  }
-  return level;
-}
-
 // Not below 0. A variance of heavy-tailed values is known less well, as if there were fewer.
 double excess_kurtosis(const VectorXd& values) {
   const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
@@ -56,41 +47,90 @@ double excess_kurtosis(const VectorXd& values) {
   return variance > 0 ? std::max(0.0, squares.square().mean() / (variance * variance) - 3) : 0;
 }
 
-} // namespace
+// Mean over experiments of a residual's covariance, by the noise model fitted to it.
+double modelled_variance(const Search& search, const Rival& last) {
+  const VectorXd residual = search.campaign().measured - last.predicted;
+  const MatrixXd& nuisance = search.campaign().nuisance;
+  const NoiseModel noise =
+      fit_noise_again({residual, last.predicted, search.blocks, last.jacobian, nuisance},
+                      last.noise)
+          .noise;
+  return Whitener(noise, last.predicted, search.blocks).variance().mean() +
+         within_blocks(search.input.training, search.blocks);
+}
 
-void add_scatter(Trace& trace, const Campaign& campaign, const Rival& last,
-                 const Dataset& training) {
-  const VectorXd residual = campaign.measured - last.predicted;
-  const NoiseFit fit = fit_noise(residual, last.predicted, campaign.blocks.first, last.jacobian,
-                                 last.noise, 200, campaign.nuisance);
-  const NoiseModel& noise = fit.noise;
-  const Whitener whitener(noise, last.predicted, campaign.blocks.first);
-  const double modelled = whitener.variance().mean() + within_blocks(training, campaign.blocks);
-  const Metrics& after = last.effects.empty() ? trace.recalibrated.training : trace.after.training;
+void add_floor(Trace& trace, const Search& search, const Rival& last) {
+  const Dataset& training = search.input.training;
+  const Metrics& after = trace.after.training;
   // (Of few experiments the likelihood may take any scatter for possible; what is left, with the
   // fitted parameters' share, is more than the noise.)
   const double experiments = static_cast<double>(training.experiments.size());
-  const double share_left =
-      std::max(0.5, 1 - static_cast<double>(last.parameters.size()) / experiments);
-  const double rmse = std::min(std::sqrt(modelled), after.rmse_MPa / std::sqrt(share_left));
+  const double share_left = std::max(0.5, 1 - last.freedom / experiments);
+  const double rmse =
+      std::min(std::sqrt(modelled_variance(search, last)), after.rmse_MPa / std::sqrt(share_left));
   trace.noise_floor.method =
       "noise model: scatter between experiments, slow and white noise within, "
-      "by restricted maximum likelihood";
+      "by restricted maximum likelihood; what no law goes below if nothing else is missing";
   trace.noise_floor.part = "training";
   trace.noise_floor.rmse_MPa = rmse;
   trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
   trace.noise_floor.n_rows = training.rows();
   trace.noise_floor.n_experiments = training.experiments.size();
-  const double share = noise.between(last.predicted);
-  trace.scatter_between = share;
-  const double degrees =
-      std::max(1.0, (experiments - static_cast<double>(last.parameters.size())) /
-                        (1 + 0.5 * excess_kurtosis(levels(residual, last.predicted, campaign))));
+}
+
+// Scatter among repeated tests, pooled; 0 where fewer than three can be compared.
+struct Repeats {
+  double scatter = 0, degrees = 0;
+};
+Repeats scatter_of_repeats(const Dataset& data, const VectorXd& gain) {
+  Repeats repeats;
+  double sum = 0;
+  for (const auto& group : replicate_groups(data)) {
+    double mean = 0;
+    for (const std::size_t e : group)
+      mean += gain(static_cast<Index>(e)) / static_cast<double>(group.size());
+    for (const std::size_t e : group)
+      sum += std::pow(gain(static_cast<Index>(e)) - mean, 2);
+    repeats.degrees += static_cast<double>(group.size() - 1);
+  }
+  if (repeats.degrees >= 3) repeats.scatter = std::sqrt(sum / repeats.degrees);
+  return repeats;
+}
+
+} // namespace
+
+void add_scatter(Trace& trace, const Search& search, const Rival& last) {
+  add_floor(trace, search, last);
+  const Dataset& training = search.input.training;
+  const TestGains gains = test_gains(training.values("tau_R_MPa"),
+                                     predict(search.model_of(last), training), training.first_row);
+  MatrixXd directions = last.jacobian;
+  append_columns(directions, search.campaign().nuisance);
+  const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa);
+  MatrixXd known = MatrixXd::Ones(gains.gain.size(), 1);
+  append_columns(known,
+                 search.blocks.experiment_means(law.cwiseInverse().asDiagonal() * directions));
+  const MatrixXd q = orthonormal(known);
+  const VectorXd left = gains.gain - q * (q.transpose() * gains.gain);
+  const double free = std::max(1.0, static_cast<double>(gains.gain.size() - q.cols()));
+  const double degrees = std::max(1.0, free / (1 + 0.5 * excess_kurtosis(left)));
+  const double share = std::sqrt(scatter_between(gains.gain, gains.variance, known));
   const auto bound = [&](double probability) {
     return share * std::sqrt(degrees / gsl_cdf_chisq_Pinv(probability, degrees));
   };
+  trace.scatter_between = share;
   trace.scatter_interval = {bound(0.975), bound(0.025)};
   trace.scatter_at_least = bound(0.95);
+  if (trace.repeatability) {
+    trace.repeatability_from = "given";
+    return;
+  }
+  const Repeats repeats = scatter_of_repeats(training, left);
+  if (!(repeats.scatter > 0)) return;
+  trace.repeatability = repeats.scatter;
+  trace.repeatability_from = "repeats";
+  // Two variances are compared: neither is known.
+  trace.scatter_at_least = share / std::sqrt(gsl_cdf_fdist_Pinv(0.95, degrees, repeats.degrees));
 }
 
 } // namespace frictab

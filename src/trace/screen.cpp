@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -21,7 +22,9 @@ using Eigen::VectorXf;
 
 constexpr double least_left = 0.002; // of a direction, behind what fitted parameters imitate
 constexpr std::uint64_t flip_stream = 71;
-constexpr float least_variance = 1; // that of the noise model
+constexpr float least_share = 1e-3f;   // of the sum of squared scores, as a variance
+constexpr Index least_experiments = 7; // that carry a direction, ...
+constexpr float share_of_most = 0.05f; // ... each at least so much of what the first of them does
 
 // (I - H_ee)^-1/2 r, H_ee = Q_e Q_e': the residual as if its own experiment had not been fitted.
 void unshrink(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
@@ -109,7 +112,7 @@ private:
     Index next = 0;
     for (std::size_t s = 0; s < shapes.size(); ++s)
       for (std::size_t p = 0; p < places.size(); ++p) {
-        if (sensitivity_[p].size() == 0) continue;
+        if (sensitivity_[p].size() == 0 || (p > 0 && shapes[s].effect.inputs.size() > 1)) continue;
         x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
         directions.push_back({cause, s, p});
       }
@@ -139,6 +142,11 @@ private:
     for (Index c = 0; c < scores.cols(); ++c) {
       if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
         continue;
+      // Carried by few experiments, it could never be significant, and would sit in every maximum.
+      const float carries = share_of_most * squares.col(c).maxCoeff();
+      // (Where there are fewer, all that is wanted is a lead.)
+      const Index least = std::min(least_experiments, squares.rows());
+      if ((squares.col(c).array() > carries).count() < least) continue;
       Direction direction = found.directions[static_cast<std::size_t>(c)];
       direction.size = size(c);
       const auto next = static_cast<Index>(kept.size());
@@ -159,13 +167,15 @@ private:
   std::array<VectorXf, 3> sensitivity_;
 };
 
-// A sum of scores over the larger of what the noise model and what the experiments themselves say
-// of its standard deviation: where some experiments scatter more than others, directions that live
-// on them do not win by that. What the sum itself explains of each score is no scatter, in the
-// flips as in the truth: an effect does not hide behind what it makes itself.
+// A sum of scores over its standard deviation as the experiments themselves show it: where some
+// scatter more than others, directions that live on them do not win by that. What the sum itself
+// explains of each score is no scatter, in the flips as in the truth: an effect does not hide
+// behind what it makes itself, however large it is.
 void Screening::studentise(CauseScores& found) const {
   const MatrixXf shared = found.scores.cwiseProduct(found.shares);
   const MatrixXf sums = signs_ * found.scores, shared_sums = signs_ * shared;
+  const auto count = static_cast<float>(found.scores.rows());
+  const float wider = count / std::max(count - 1, 1.0f);
   found.maxima = VectorXf::Zero(signs_.rows());
   for (Index c = 0; c < sums.cols(); ++c) {
     const float total = found.scores.col(c).squaredNorm(),
@@ -174,20 +184,30 @@ void Screening::studentise(CauseScores& found) const {
     const auto variance = [&](const auto& sum, const auto& with_shares) {
       return total - 2 * sum * with_shares + sum * sum * shares;
     };
+    const float floor = in_.least_deviation * in_.least_deviation;
+    const float least = std::max(least_share * total, floor / wider);
     const float sum = found.scores.col(c).sum();
     found.directions[static_cast<std::size_t>(c)].statistic =
-        sum / std::sqrt(std::max(variance(sum, shared.col(c).sum()), least_variance));
+        sum / std::sqrt(wider * std::max(variance(sum, shared.col(c).sum()), least));
     const auto flipped = sums.col(c).array();
     found.maxima = found.maxima.cwiseMax(
-        (flipped.square() / variance(flipped, shared_sums.col(c).array()).max(least_variance))
+        (flipped.square() / (wider * variance(flipped, shared_sums.col(c).array()).max(least)))
             .matrix());
   }
   found.maxima = found.maxima.cwiseSqrt();
 }
 
+std::size_t best_of(const std::vector<Direction>& directions) {
+  std::size_t best = 0;
+  for (std::size_t d = 1; d < directions.size(); ++d)
+    if (std::abs(directions[d].statistic) > std::abs(directions[best].statistic)) best = d;
+  return best;
+}
+
 } // namespace
 
 double ScreenResult::threshold(double alpha) const {
+  if (flipped_maxima.empty()) return std::numeric_limits<double>::infinity(); // nothing was tried
   const double at = (1 - alpha) * static_cast<double>(flipped_maxima.size() + 1);
   const auto index = static_cast<std::size_t>(std::ceil(at)) - 1;
   return flipped_maxima[std::min(index, flipped_maxima.size() - 1)];
@@ -222,14 +242,12 @@ ScreenResult screen(const ScreenInput& input) {
       next += part.scores.cols();
     }
   }
+  result.best = best_of(result.directions);
+  if (input.flips == 0) return result;
   result.flipped_maxima.assign(maxima.data(), maxima.data() + maxima.size());
   std::sort(result.flipped_maxima.begin(), result.flipped_maxima.end());
-  float most = 0;
-  for (std::size_t d = 0; d < result.directions.size(); ++d)
-    if (std::abs(result.directions[d].statistic) > most) {
-      most = std::abs(result.directions[d].statistic);
-      result.best = d;
-    }
+  const float most =
+      result.directions.empty() ? 0 : std::abs(result.directions[result.best].statistic);
   const auto beyond =
       result.flipped_maxima.end() -
       std::lower_bound(result.flipped_maxima.begin(), result.flipped_maxima.end(), most);

@@ -49,9 +49,12 @@ struct ScreenInput {
   const Eigen::MatrixXd& fitted;      // directions of fitted parameters, not whitened
   // Per experiment, which of them change sign together (all 0, 1, 2, ...: each for itself).
   std::span<const std::size_t> units;
-  std::size_t flips = 999;
+  std::size_t flips = 999; // 0: statistics alone
   std::uint64_t seed = 1;
   bool keep_scores = false;
+  // A sum of scores is divided by no less than so many times its standard deviation under the noise
+  // model: 1 where that is known without the effect that is looked for, else 0.
+  float least_deviation = 0;
 };
 
 ScreenResult screen(const ScreenInput& input);

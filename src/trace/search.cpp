@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -70,9 +71,23 @@ Law with_piece_as_column(const Model& model, const Blocks& blocks, const Dataset
   return surrogate;
 }
 
+std::size_t in_rows(const Dataset& data, std::size_t experiment) {
+  return data.first_row[experiment + 1] - data.first_row[experiment];
+}
+
 } // namespace
 
-Search::Search(const TraceInput& in) : input(in) {
+VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  std::vector<const double*> data;
+  for (const EffectInput& input : effect.inputs)
+    data.push_back(columns.at(symbol_of(input.column)).data());
+  VectorXd factor(columns.begin()->second.size());
+  factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
+                                  fitted_values(effect), factor.data());
+  return factor;
+}
+
+Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
   const std::size_t experiments = in.training.experiments.size();
   if (experiments < trace_experiments)
     throw InputError({"[trace]"},
@@ -86,6 +101,7 @@ Search::Search(const TraceInput& in) : input(in) {
   make_candidates();
   make_campaign();
   fit_base();
+  make_gains();
 }
 
 void Search::make_candidates() {
@@ -96,7 +112,11 @@ void Search::make_candidates() {
   order.column = candidates.order_column;
   causes = all_causes(candidates);
   shapes.resize(causes.size());
-  parallel_for(shapes.size(), [&](std::size_t c) { shapes[c] = shapes_of(causes[c], candidates); });
+  parallel_for(shapes.size(), [&](std::size_t c) {
+    if (causes[c].several() || !constant_in_experiments(causes[c], candidates))
+      shapes[c] = shapes_of(causes[c], candidates);
+  });
+  test_shapes = frictab::test_shapes(candidates, blocks);
 }
 
 void Search::make_campaign() {
@@ -109,7 +129,8 @@ void Search::make_campaign() {
                                                   blocks,
                                                   candidates,
                                                   blocks.mean(input.training.values("tau_R_MPa")),
-                                                  {}});
+                                                  {},
+                                                  effort.earlier != nullptr});
   // What averaging does to a law that bends within a block is taken off once.
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   campaign_->measured -=
@@ -125,10 +146,65 @@ void Search::fit_base() {
   if (is_trained(*model.law))
     trained_ =
         trained_directions(inputs(*model.law, model.conventions), candidates.by_symbol, predicted);
-  const NoiseFit noise =
-      first_noise(campaign_->measured - predicted, predicted, first(), jacobian, trained_);
-  base = fit_rival(*campaign_, {}, {}, model.parameters, noise.noise, NoiseSearch::thorough);
+  const VectorXd residual = campaign_->measured - predicted;
+  const NoiseData data{residual, predicted, blocks, jacobian, trained_};
+  const NoiseModel noise = effort.earlier ? *effort.earlier : fit_noise(data).noise;
+  base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
   move_to(base);
+}
+
+// By relative least squares in which every test weighs the same: the weights of a noise model that
+// was fitted with an effect in the residual would bend the law.
+void Search::make_gains() {
+  const Model& model = input.fit.model;
+  const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
+  NoiseModel relative;
+  relative.slow = 0;
+  relative.scale = tau_scale_MPa;
+  VectorXd weight(campaign_->measured.size());
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    const auto begin = static_cast<Index>(blocks.first[e]);
+    const auto rows = static_cast<double>(in_rows(input.training, e));
+    weight.segment(begin, static_cast<Index>(blocks.first[e + 1]) - begin)
+        .setConstant(std::sqrt(blocks.usual_rows / rows)); // behind a whitening by rows
+  }
+  BlockFit fit;
+  fit.parameters = base.parameters;
+  fit.predicted = base.predicted;
+  for (int round = 0; round < 3; ++round) // the weights follow the law
+    fit = fit_blocks(law, campaign_->measured, Whitener(relative, fit.predicted, blocks),
+                     fit.parameters, {}, weight);
+  Model plain = model;
+  plain.parameters = fit.parameters;
+  gains = test_gains(input.training.values("tau_R_MPa"), predict(plain, input.training),
+                     input.training.first_row);
+  MatrixXd directions = fit.jacobian;
+  append_columns(directions, trained_);
+  const VectorXd floor = fit.predicted.cwiseMax(1e-3 * tau_scale_MPa);
+  law_between_ = blocks.experiment_means(floor.cwiseInverse().asDiagonal() * directions);
+}
+
+MatrixXd Search::known_between() const {
+  MatrixXd known = law_between_;
+  for (const PlacedEffect& effect : last_.effects) {
+    const VectorXd factor = factor_on(effect, candidates.by_symbol);
+    append_columns(known, blocks.experiment_means(factor.array().max(1e-3).log().matrix()));
+  }
+  if (campaign_->nuisance.cols() > 0)
+    append_columns(known, blocks.experiment_means(last_.predicted.cwiseInverse().asDiagonal() *
+                                                  campaign_->nuisance));
+  return known;
+}
+
+Model Search::model_of(const Rival& rival) const {
+  Model model;
+  model.conventions = input.fit.model.conventions;
+  const Law& law = *input.fit.model.law;
+  model.law = made(extended_law(law, model.conventions,
+                                std::span(rival.parameters).first(law.parameters.size()),
+                                rival.effects, law.name + std::string(traced_suffix)));
+  model.parameters = rival.parameters;
+  return model;
 }
 
 void Search::move_to(Rival rival) {
@@ -140,11 +216,11 @@ void Search::move_to(Rival rival) {
 
 void Search::fit_again() {
   move_to(fit_rival(*campaign_, last_.effects, last_.causes, last_.parameters, last_.noise,
-                    NoiseSearch::thorough));
+                    NoiseSearch::again));
 }
 
 Whitener Search::whitener() const {
-  return {last_.noise, last_.predicted, first(), campaign_->nuisance};
+  return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
 }
 
 bool Search::negligible() const {
@@ -153,11 +229,57 @@ bool Search::negligible() const {
          negligible_share * tau_scale_MPa;
 }
 
-ScreenResult screen(const Search& search, bool keep_scores) {
-  const Whitener weights = search.whitener();
+namespace {
+
+ScreenInput screen_input(const Search& search, const Whitener& weights, const VectorXd& residual) {
+  return {search.shapes,  search.sensitivities(), weights, search.first(),   residual,
+          search.known(), search.units,           0,       search.input.seed};
+}
+
+// Behind the leading direction.
+NoiseModel noise_behind(const Search& search, const Direction& leader) {
+  const VectorXd direction = search.sensitivities()[leader.place].cwiseProduct(
+      search.shapes[leader.cause][leader.shape].direction.cast<double>());
+  MatrixXd known = search.known();
+  append_columns(known, direction);
+  MatrixXd all = known;
+  append_columns(all, search.residual());
+  search.whitener().apply(all);
+  const VectorXd coefficients =
+      all.leftCols(known.cols()).colPivHouseholderQr().solve(VectorXd(all.rightCols(1)));
+  const VectorXd left = search.residual() - direction * coefficients(coefficients.size() - 1);
+  MatrixXd fitted = search.last().jacobian;
+  append_columns(fitted, direction);
+  return noise_again(
+      search.campaign(),
+      {left, search.last().predicted, search.blocks, fitted, search.campaign().nuisance, false},
+      search.last().noise);
+}
+
+} // namespace
+
+Screened look_within(const Search& search, bool keep_scores) {
   const VectorXd residual = search.residual();
-  return screen({search.shapes, search.sensitivities(), weights, search.first(), residual,
-                 search.known(), search.units, trace_flips, search.input.seed, keep_scores});
+  Screened found;
+  found.noise = search.last().noise;
+  const Whitener before = search.whitener();
+  found.result = screen(screen_input(search, before, residual));
+  if (found.result.directions.empty()) return found;
+  found.noise = noise_behind(search, found.result.directions[found.result.best]);
+  const Whitener weights(found.noise, search.last().predicted, search.blocks,
+                         search.campaign().nuisance);
+  ScreenInput input = screen_input(search, weights, residual);
+  input.flips = search.effort.flips;
+  input.keep_scores = keep_scores;
+  input.least_deviation = 1;
+  found.result = screen(input);
+  return found;
+}
+
+BetweenResult look_between(const Search& search) {
+  const MatrixXd known = search.known_between();
+  return search_between({search.gains, known, search.test_shapes, search.candidates,
+                         search.family_alpha(), search.effort.permutations, search.input.seed});
 }
 
 } // namespace frictab

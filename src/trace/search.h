@@ -1,8 +1,9 @@
-// The search on blocks: what is missing, one effect at a time.
+// The search on blocks: what is missing, effect after effect.
 #pragma once
 
 #include <memory>
 
+#include "trace/between.h"
 #include "trace/rivals.h"
 #include "trace/trace.h"
 
@@ -12,9 +13,18 @@ namespace frictab {
 struct Finding {
   Rival rival; // the law with all effects so far
   double p_value = 1;
-  double statistic = 0, threshold = 0;
-  std::vector<Rival> others; // the best rival of every other cause, best first
-  std::vector<bool> in_set;  // of `others`
+  double statistic = 0, threshold = 0; // within tests only
+  std::vector<Rival> others;           // the best rival of every other cause, best first
+  std::vector<bool> in_set;            // of `others`
+  bool between = false;                // found on one value per test
+};
+
+// How much a search draws: less where it is repeated for every fold.
+struct Effort {
+  std::size_t permutations = 999; // between tests
+  std::size_t flips = 1999;       // within tests
+  const NoiseModel* earlier =
+      nullptr; // of the law on all tests: noise is found from there, quickly
 };
 
 // Where the search stands.
@@ -22,7 +32,7 @@ class Search {
 public:
   // Candidates, their shapes and the law without effects. Throws InputError where the data have too
   // few experiments. Columns that come from the model (friction work) are those of `input.fit`.
-  explicit Search(const TraceInput& input);
+  explicit Search(const TraceInput& input, const Effort& effort = {});
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
@@ -42,25 +52,41 @@ public:
   const Sensitivities& sensitivities() const { return sensitivities_; }
   // Directions of everything that is fitted in `last`, or could have been.
   const Eigen::MatrixXd& known() const { return known_; }
+  // What a trained law could have absorbed; no columns for others.
+  const Eigen::MatrixXd& trained() const { return trained_; }
+  // Of a rival, as a law like any other.
+  Model model_of(const Rival& rival) const;
+
+  // Per test, what the parameters of the law, the effects in it and the order of tests explain of
+  // the logarithm of its gain.
+  Eigen::MatrixXd known_between() const;
+  // Of each of the two families. That what is found also has to predict tests that the search has
+  // not seen keeps false alarms of both together below it (measured: README).
+  double family_alpha() const { return input.options.alpha; }
 
   const TraceInput& input;
+  Effort effort;
   Blocks blocks;
   Candidates candidates;
   std::vector<Cause> causes;
   std::vector<std::vector<GridShape>> shapes; // per cause; none: not to be considered any more
+  TestGains gains;                            // of the law without effects
+  std::vector<TestShape> test_shapes;
   double tau_scale_MPa = 1;
   Rival base;                    // without effects
   std::vector<Finding> findings; // in the order in which they were added
   OrderStructure order;
   std::vector<std::size_t> units; // per experiment: which of them the screening flips together
-  double last_p_value = 1;        // of what is left
+  double last_p_value = 1;        // of what is left within tests
   ScreenResult last_screen;
+  BetweenResult last_between;
   std::vector<std::string> rejected;
 
 private:
   void make_candidates();
   void make_campaign();
   void fit_base();
+  void make_gains();
 
   Law surrogate_;           // of a trained law: what the training found, as a column
   Eigen::MatrixXd trained_; // what a trained law could have absorbed
@@ -68,13 +94,23 @@ private:
   Rival last_; // with all effects so far
   Sensitivities sensitivities_;
   Eigen::MatrixXd known_;
+  Eigen::MatrixXd law_between_; // per test, directions of the law's parameters
 };
 
-inline constexpr std::size_t trace_flips = 999;
+// Its factor, per block.
+Eigen::VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns);
 
-ScreenResult screen(const Search& search, bool keep_scores = false);
+// Within tests; columns that are the same throughout a test are the other family's. The noise is
+// fitted again with the leading direction in before anything is judged: noise that has swallowed an
+// effect would set a ceiling to its statistic.
+struct Screened {
+  ScreenResult result;
+  NoiseModel noise;
+};
+Screened look_within(const Search& search, bool keep_scores = false);
+BetweenResult look_between(const Search& search);
 
-// To the end: `last` is the law that is delivered.
-std::unique_ptr<Search> search_effects(const TraceInput& input);
+// To the end: `last` is the law with everything that was found.
+std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});
 
 } // namespace frictab

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/quantity.h"
+
 namespace frictab {
 
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // A form with a place and a width has structure of that width there.
 bool is_local(const PlacedEffect& effect) {
@@ -26,10 +29,10 @@ bool is_local(const PlacedEffect& effect) {
 // grows within a test, its pause stands beside the test.
 std::vector<const CandidateColumn*> columns_of(const EffectForm& form, const Cause& cause,
                                                const Candidates& candidates) {
-  std::vector<const CandidateColumn*> columns{&candidates.columns[cause.column]};
-  if (cause.pair()) columns.push_back(&candidates.columns[cause.second]);
-  if (cause.pair() && (!columns[1]->levels.empty() ||
-                       (form.name == "recovery" && !columns[0]->within && columns[1]->within)))
+  std::vector<const CandidateColumn*> columns;
+  for (const std::size_t c : cause.columns)
+    columns.push_back(&candidates.columns[c]);
+  if (columns.size() == 2 && form.name == "recovery" && !columns[0]->within && columns[1]->within)
     std::swap(columns[0], columns[1]);
   return columns;
 }
@@ -67,6 +70,12 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
 
 namespace {
 
+// Distance or time: along anything else a wave is a way to bend.
+bool is_along(const std::string& name) {
+  return name == "s_mm" || name == "time_s" || name == "sliding_distance" ||
+         name == "time_since_start";
+}
+
 // A form that needs positive values, or degrees, is tried where it has a meaning.
 bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
   if (form.name == "arrhenius")
@@ -76,7 +85,7 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
   if (form.name == "saturation" || form.name == "stribeck")
     return x.spread.minimum >= 0 && x.spread.minimum < 0.5 * x.spread.maximum;
   // A wave is seen along an experiment; from test to test it imitates whatever lies between.
-  if (form.name == "periodic") return x.reach > 0.5;
+  if (form.name == "periodic") return x.reach > 0.5 && is_along(x.name);
   if (form.name == "hysteresis") return x.name == "load_ratio";
   return true;
 }
@@ -92,7 +101,8 @@ bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
   const bool slides = slid.name == "s_mm" || slid.name == "sliding_distance";
   const auto is_time = [&](const char* word) { return pause.name.find(word) != std::string::npos; };
   return slides && !pause.within && !pause.derived && pause.spread.minimum >= 0 &&
-         (pause.name.ends_with("_s") || is_time("pause") || is_time("dwell") || is_time("wait"));
+         ((pause.name.ends_with("_s") && !find_quantity(pause.name)) || is_time("pause") ||
+          is_time("dwell") || is_time("wait"));
 }
 
 // Structure between values that were never tested.
@@ -104,15 +114,21 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
   return false;
 }
 
-// One direction per level against the others.
+// One direction per level against the others; of a pair, times the number behind it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  const EffectForm& form = *find_effect(cause.several() ? "category_slope" : "category");
+  VectorXd times = VectorXd::Ones(x.values.size());
+  if (cause.several()) {
+    const CandidateColumn& number = candidates.columns[cause.columns[1]];
+    times = (number.values.array() - number.spread.median) / number.spread.span();
+  }
   std::vector<GridShape> shapes;
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
-    Eigen::VectorXf is = (x.values.array() == static_cast<double>(level)).cast<float>();
+    const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
     shapes.push_back(
-        {start_effect(*find_effect("category"), cause, candidates, "mu", 1), std::move(is)});
+        {start_effect(form, cause, candidates, "mu", 1), is.cwiseProduct(times).cast<float>()});
   }
   return shapes;
 }
@@ -136,6 +152,12 @@ void keep_different(std::vector<GridShape>& shapes) {
 }
 
 } // namespace
+
+MatrixXd roughness_of(const PlacedEffect& effect) {
+  const std::vector<double> rows = effect.form->penalty(effect);
+  const auto size = static_cast<Index>(amplitudes_of(effect));
+  return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
+}
 
 MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
   const Program program = factor_program(effect);
@@ -163,13 +185,24 @@ bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& can
                                  : has_meaning(form, *columns[0]);
 }
 
+namespace {
+
+// Where both change within tests: between tests a threshold in two columns fits anything.
+bool both_move(const Cause& cause, const Candidates& candidates) {
+  return std::all_of(cause.columns.begin(), cause.columns.end(), [&](std::size_t c) {
+    return candidates.columns[c].within && !candidates.columns[c].derived;
+  });
+}
+
+} // namespace
+
 std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& x = candidates.columns[cause.column];
-  if (!x.levels.empty() && !cause.pair()) return level_shapes(cause, candidates);
+  const CandidateColumn& x = candidates.columns[cause.columns[0]];
+  if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
   for (const EffectForm& form : all_effects()) {
-    if (form.parameters_of || form.name == "threshold2" || !form_fits(form, cause, candidates))
-      continue;
+    if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
+    if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
     PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
     std::vector<std::vector<double>> grid;
     if (form.grid) {

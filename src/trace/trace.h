@@ -40,22 +40,25 @@ struct TracedEffect {
   std::vector<std::string> columns; // recorded ones
   std::string derived;              // what was computed from them
   std::vector<TracedParameter> parameters;
-  double p_value = 1; // family-wise, over all candidates
-  double statistic = 0, threshold = 0;
-  double gain_MPa = 0;           // validation MAE without it, all refitted, minus with it
+  bool between = false; // found on one value per test, not on what changes within tests
+  double p_value = 1;   // family-wise, over all candidates of its family
+  double statistic = 0, threshold = 0; // within tests only
+  double gain_MPa = 0;           // MAE on unseen tests without it, all refitted, minus with it
   bool order_confounded = false; // cannot be told from a drift over the order of tests
   std::string discriminating;    // what experiment would decide within the set
   std::vector<Alternative> alternatives;
   EffectCurve curve;
 };
 
-enum class Verdict { effect_added, nothing_missing, unexplained_structure };
+// nothing_missing: what is left agrees with a known repeatability | nothing_found: nothing passed,
+// and whether the scatter between tests is more than repeatability is not known.
+enum class Verdict { effect_added, nothing_missing, nothing_found, unexplained_structure };
 const char* verdict_name(Verdict verdict);
 
 // Structure along the order of tests that no recorded column explains.
 struct OrderStructure {
   bool found = false;
-  std::string column;    // the column that gives the order; empty: the order in the file
+  std::string column;    // the column that gives the order; empty: nobody declared one
   double p_value = 1;    // of no structure
   double size_MPa = 0;   // root mean square over the training rows
   double share = 0;      // the same, relative to tau_R
@@ -72,6 +75,36 @@ struct Detectable {
   bool identifiable = true; // false: recalibration absorbs it, or the column does not vary
 };
 
+// What may be there, but is not in the law, and why not.
+struct Lead {
+  std::vector<std::string> columns; // recorded ones
+  std::string derived;              // what was computed from them; empty: nothing
+  std::string form;
+  bool between = false;
+  double p_value = 1;
+  double share = 0; // change of tau_R over the column's range, relative; 0: not known
+  std::string why;  // "no gain on left-out tests (-0.2 +- 0.3 %)"
+};
+
+// Whether validation differs from training as a whole.
+struct WorldsApart {
+  bool found = false;
+  double shift_MPa = 0; // validation minus training, mean over tests
+  Interval interval;    // 95 %
+  double share = 0;     // relative to tau_R
+  double p_value = 1;
+};
+
+// The search repeated without some of the tests, all of it, judged on those.
+struct NestedCheck {
+  std::size_t folds = 0; // 0: not run, because nothing was found
+  double gain = 0;       // of the mean relative error on left-out tests
+  double std_error = 0;  // over tests
+  double score = 0;      // gain of the log predictive density, mean over tests
+  double score_se = 0;
+  std::size_t offered = 0; // effects that the search found on all tests
+};
+
 struct Remaining {
   bool structure = false;
   double p_value = 1;
@@ -86,17 +119,27 @@ struct TraceErrors {
 struct Trace {
   std::string model;          // the law that was traced
   std::string extended_model; // name of the law with effects; empty: none was added
-  Verdict verdict = Verdict::nothing_missing;
+  Verdict verdict = Verdict::nothing_found;
   std::vector<TracedEffect> effects;
-  TraceErrors before;       // as calibrated
-  TraceErrors recalibrated; // the same law, fitted with the noise model of the extended one
+  // Errors on unseen tests are `validation` here: those of the validation tests, or of left-out
+  // training tests by the nested search where the former are few.
+  TraceErrors as_calibrated; // by the calibration stage; validation tests, whatever `unseen` says
+  TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
-  Difference improvement;              // validation MAE before minus after, paired by experiment
-  NoiseFloor noise_floor;              // from the noise model
+  std::string unseen = "validation"; // | nested_cross_validation
+  Difference improvement;            // MAE on unseen tests before minus after, paired by experiment
+  NestedCheck nested;
+  WorldsApart worlds;
+  std::vector<Lead> leads;             // strongest first
+  NoiseFloor noise_floor;              // from the noise model: if nothing else is missing
   double scatter_between = 0;          // relative scatter between experiments, standard deviation
   Interval scatter_interval;           // 95 %
   double scatter_at_least = 0;         // with 95 % confidence; what repeatability is judged by
-  std::optional<double> repeatability; // what the user gave
+  std::optional<double> repeatability; // what the user gave, or what repeated tests say
+  std::string repeatability_from;      // given | repeats; empty: not known
+  // Relative difference between two halves of the tests, along a column that is constant within
+  // tests, that would have been seen with 80 % probability; infinite: none.
+  double smallest_seen = 0;
   OrderStructure order;
   Remaining remaining;
   std::vector<Detectable> detectable; // by column

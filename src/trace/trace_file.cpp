@@ -21,12 +21,21 @@ double number(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+// (JSON has no infinity: null.)
+double limit(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
 Json derived_json(const std::string& derived) {
   return derived.empty() ? Json() : Json(derived);
 }
 
 std::string parse_derived(const Json& j) {
   return j.is_null() ? "" : j.get<std::string>();
+}
+
+const char* family_name(bool between) {
+  return between ? "between_tests" : "within_tests";
 }
 
 Json parameters_json(const TracedEffect& effect) {
@@ -81,6 +90,7 @@ Json effect_json(const TracedEffect& e) {
           {"formula", formula_text(e.placed)},
           {"acts_on", e.placed.acts_on},
           {"parameters", parameters_json(e)},
+          {"family", family_name(e.between)},
           {"p_value", e.p_value},
           {"statistic", e.statistic},
           {"threshold", e.threshold},
@@ -133,6 +143,7 @@ TracedEffect parse_effect_json(const Json& j) {
   for (const Json& p : j.at("parameters"))
     e.parameters.push_back(
         {p.at("name"), number(p.at("value")), number(p.at("std_error")), p.at("unit")});
+  e.between = j.at("family") == family_name(true);
   e.p_value = number(j.at("p_value"));
   e.statistic = number(j.at("statistic"));
   e.threshold = number(j.at("threshold"));
@@ -147,6 +158,54 @@ TracedEffect parse_effect_json(const Json& j) {
   e.curve = {numbers(c.at("x")),       numbers(c.at("factor")),  numbers(c.at("low_95")),
              numbers(c.at("high_95")), numbers(c.at("point_x")), numbers(c.at("point_factor"))};
   return e;
+}
+
+Json leads_json(const std::vector<Lead>& leads) {
+  Json list = Json::array();
+  for (const Lead& lead : leads)
+    list.push_back({{"columns", lead.columns},
+                    {"derived", derived_json(lead.derived)},
+                    {"form", lead.form},
+                    {"family", family_name(lead.between)},
+                    {"p_value", lead.p_value},
+                    {"share", lead.share},
+                    {"why_not_added", lead.why}});
+  return list;
+}
+
+std::vector<Lead> parse_leads(const Json& j) {
+  std::vector<Lead> leads;
+  for (const Json& lead : j)
+    leads.push_back({lead.at("columns").get<std::vector<std::string>>(),
+                     parse_derived(lead.at("derived")), lead.at("form"),
+                     lead.at("family") == family_name(true), number(lead.at("p_value")),
+                     number(lead.at("share")), lead.at("why_not_added")});
+  return leads;
+}
+
+Json worlds_json(const WorldsApart& w) {
+  return {{"apart", w.found},
+          {"shift_MPa", w.shift_MPa},
+          {"interval_95", {w.interval.low, w.interval.high}},
+          {"share", w.share},
+          {"p_value", w.p_value}};
+}
+
+WorldsApart parse_worlds(const Json& j) {
+  return {j.at("apart"),
+          number(j.at("shift_MPa")),
+          {number(j.at("interval_95").at(0)), number(j.at("interval_95").at(1))},
+          number(j.at("share")),
+          number(j.at("p_value"))};
+}
+
+Json nested_json(const NestedCheck& n) {
+  return {{"folds", n.folds},
+          {"gain", n.gain},
+          {"std_error", n.std_error},
+          {"log_score", n.score},
+          {"log_score_std_error", n.score_se},
+          {"effects_offered", n.offered}};
 }
 
 Json errors_json(const TraceErrors& errors) {
@@ -176,11 +235,11 @@ Json order_json(const OrderStructure& o) {
           {"law_holds_it_at", o.reference}};
 }
 
-const char* const verdicts = "effect_added, nothing_missing, unexplained_structure";
+const char* const verdicts = "effect_added, nothing_missing, nothing_found, unexplained_structure";
 
 Verdict parse_verdict(const std::string& text) {
-  for (const Verdict v :
-       {Verdict::effect_added, Verdict::nothing_missing, Verdict::unexplained_structure})
+  for (const Verdict v : {Verdict::effect_added, Verdict::nothing_missing, Verdict::nothing_found,
+                          Verdict::unexplained_structure})
     if (text == verdict_name(v)) return v;
   throw InputError({"trace.json", 0, 0}, "unknown verdict '" + text + "'",
                    std::string("known: ") + verdicts);
@@ -196,9 +255,13 @@ Json one_json(const Trace& t) {
           {"verdict", verdict_name(t.verdict)},
           {"alpha", t.alpha},
           {"effects", effects},
+          {"unseen", t.unseen},
+          {"as_calibrated", errors_json(t.as_calibrated)},
           {"before", errors_json(t.before)},
-          {"recalibrated", errors_json(t.recalibrated)},
           {"after", errors_json(t.after)},
+          {"nested_cross_validation", nested_json(t.nested)},
+          {"validation_against_training", worlds_json(t.worlds)},
+          {"leads", leads_json(t.leads)},
           {"improvement",
            {{"validation_mae_MPa", t.improvement.value_MPa},
             {"interval_95", {t.improvement.interval.low, t.improvement.interval.high}},
@@ -209,7 +272,9 @@ Json one_json(const Trace& t) {
            {{"share", t.scatter_between},
             {"interval_95", {t.scatter_interval.low, t.scatter_interval.high}},
             {"at_least", t.scatter_at_least},
-            {"repeatability", t.repeatability ? Json(*t.repeatability) : Json()}}},
+            {"repeatability", t.repeatability ? Json(*t.repeatability) : Json()},
+            {"repeatability_from", t.repeatability_from}}},
+          {"smallest_seen_between_halves", t.smallest_seen},
           {"order_of_tests", order_json(t.order)},
           {"remaining",
            {{"structure", t.remaining.structure},
@@ -239,8 +304,19 @@ Trace parse_one(const Json& j) {
   t.alpha = j.at("alpha");
   for (const Json& effect : j.at("effects"))
     t.effects.push_back(parse_effect_json(effect));
+  t.unseen = j.at("unseen");
+  t.as_calibrated = parse_errors(j.at("as_calibrated"));
   t.before = parse_errors(j.at("before"));
-  t.recalibrated = parse_errors(j.at("recalibrated"));
+  const Json& nested = j.at("nested_cross_validation");
+  t.nested = {nested.at("folds"),
+              number(nested.at("gain")),
+              number(nested.at("std_error")),
+              number(nested.at("log_score")),
+              number(nested.at("log_score_std_error")),
+              nested.at("effects_offered")};
+  t.worlds = parse_worlds(j.at("validation_against_training"));
+  t.leads = parse_leads(j.at("leads"));
+  t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
   t.after = parse_errors(j.at("after"));
   const Json& gain = j.at("improvement");
   t.improvement = {number(gain.at("validation_mae_MPa")),
@@ -255,6 +331,7 @@ Trace parse_one(const Json& j) {
                         number(scatter.at("interval_95").at(1))};
   t.scatter_at_least = number(scatter.at("at_least"));
   if (!scatter.at("repeatability").is_null()) t.repeatability = scatter.at("repeatability");
+  t.repeatability_from = scatter.at("repeatability_from");
   t.order = parse_order(j.at("order_of_tests"));
   t.remaining = {j.at("remaining").at("structure"), number(j.at("remaining").at("p_value")),
                  j.at("remaining").at("note")};

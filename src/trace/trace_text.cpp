@@ -11,16 +11,22 @@ namespace frictab {
 
 namespace {
 
+// Three significant digits, or what a larger number has before its point: rigs measure 0.1 MPa as
+// well as 900.
+std::string digits(double value) {
+  if (!std::isfinite(value)) return "-";
+  return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:#.3g}", value);
+}
+
 std::string mae_line(const char* what, const TraceErrors& e) {
   const auto one = [](const Metrics& m) {
-    return fmt::format(
-        "{:8.2f}{:>18}{:9.2f}{:9.2f}", m.mae_MPa,
-        std::isfinite(m.mae_interval.low)
-            ? fmt::format("{:.2f} .. {:.2f}", m.mae_interval.low, m.mae_interval.high)
-            : "-",
-        m.rmse_MPa, m.bias_MPa);
+    return fmt::format("{:>8}{:>18}{:>9}{:>9}", digits(m.mae_MPa),
+                       std::isfinite(m.mae_interval.low)
+                           ? digits(m.mae_interval.low) + " .. " + digits(m.mae_interval.high)
+                           : "-",
+                       digits(m.rmse_MPa), digits(m.bias_MPa));
   };
-  return fmt::format("  {:<14}{}{:10.2f}\n", what, one(e.validation), e.training.mae_MPa);
+  return fmt::format("  {:<14}{}{:>10}\n", what, one(e.validation), digits(e.training.mae_MPa));
 }
 
 std::string place_text(const std::string& acts_on) {
@@ -43,9 +49,9 @@ bool belongs_to_the_experiment(const TracedEffect& effect) {
 }
 
 void add_effect(std::string& out, const TracedEffect& e) {
-  out += fmt::format("  + {}: {}, {}, p = {:.3g}, gains {:.2f} MPa on unseen experiments\n",
-                     cause_text(e), e.placed.form->name, place_text(e.placed.acts_on), e.p_value,
-                     e.gain_MPa);
+  out +=
+      fmt::format("  + {}: {}, {}, p = {:.3g}, gains {} MPa on unseen tests\n", cause_text(e),
+                  e.placed.form->name, place_text(e.placed.acts_on), e.p_value, digits(e.gain_MPa));
   out += fmt::format("      {}: {}\n", formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
@@ -59,6 +65,17 @@ void add_effect(std::string& out, const TracedEffect& e) {
   if (!e.discriminating.empty()) out += fmt::format("      would decide: {}\n", e.discriminating);
 }
 
+// What "unseen" means here.
+std::string unseen_line(const Trace& t) {
+  if (t.unseen == "validation")
+    return fmt::format("  unseen: the {} validation tests; before is the law without the effects, "
+                       "fitted with the same weights\n",
+                       t.after.validation.n_experiments);
+  return fmt::format("  unseen: each of the {} tests predicted by a search without it ({} folds); "
+                     "before is the law without the effects, fitted with the same weights\n",
+                     t.after.validation.n_experiments, t.nested.folds);
+}
+
 } // namespace
 
 std::string cause_text(const TracedEffect& effect) {
@@ -67,13 +84,28 @@ std::string cause_text(const TracedEffect& effect) {
   return text;
 }
 
+const char* headline(const Trace& t) {
+  switch (t.verdict) {
+  case Verdict::effect_added:
+    return "effect added";
+  case Verdict::nothing_missing:
+    return "nothing is missing: what is left is no more than the rig repeats";
+  case Verdict::nothing_found:
+    return t.least_p_value > t.alpha ? "nothing that so few tests can prove" : "nothing was found";
+  case Verdict::unexplained_structure:
+    break;
+  }
+  return "unexplained structure";
+}
+
+std::string lead_name(const Lead& lead) {
+  std::string text = lead.derived.empty() ? join(lead.columns, " x ") : lead.derived;
+  if (!lead.derived.empty()) text += " (from " + join(lead.columns, ", ") + ")";
+  return text;
+}
+
 std::string trace_text(const Trace& t) {
-  std::string out = fmt::format("\nWhat {} lacks, by its residual: {}\n", t.model,
-                                t.verdict == Verdict::effect_added ? "effect added"
-                                : t.verdict == Verdict::nothing_missing && t.least_p_value > t.alpha
-                                    ? "nothing that so few experiments can show"
-                                : t.verdict == Verdict::nothing_missing ? "nothing is missing"
-                                                                        : "unexplained structure");
+  std::string out = fmt::format("\nWhat {} lacks, by its residual: {}\n", t.model, headline(t));
   for (const TracedEffect& effect : t.effects)
     add_effect(out, effect);
   if (!t.extended_model.empty()) {
@@ -83,13 +115,20 @@ std::string trace_text(const Trace& t) {
     out += fmt::format("  {:<14}{:>8}{:>18}{:>9}{:>9}{:>10}\n", "tau_R, MPa", "MAE",
                        "95 % interval", "RMSE", "bias", "train MAE");
     out += mae_line("before", t.before) + mae_line("after", t.after);
-    out += fmt::format("  gained on unseen experiments: {:.2f} MPa (95 %: {:.2f} to {:.2f}, paired "
-                       "by experiment)\n",
-                       t.improvement.value_MPa, t.improvement.interval.low,
-                       t.improvement.interval.high);
+    out += fmt::format("  gained on unseen tests: {} MPa (95 %: {} to {}, paired by test)\n",
+                       digits(t.improvement.value_MPa), digits(t.improvement.interval.low),
+                       digits(t.improvement.interval.high));
+    out += unseen_line(t);
   }
-  out += fmt::format("  noise floor by the noise model: {:.2f} MPa\n", t.noise_floor.mae_MPa);
+  out += fmt::format("  noise floor by the noise model: {} MPa, if nothing else is missing\n",
+                     digits(t.noise_floor.mae_MPa));
   out += "  left: " + t.remaining.note + "\n";
+  for (const Lead& lead : t.leads)
+    out += fmt::format("  lead: {}{}: {}\n", lead_name(lead),
+                       lead.share != 0
+                           ? fmt::format(" ({}, {:.2g} %)", lead.form, 100 * std::abs(lead.share))
+                           : fmt::format(" ({})", lead.form),
+                       lead.why);
   for (const std::string& rejected : t.rejected)
     out += "  not added: " + rejected + "\n";
   out += fmt::format("  tried: {} quantities in {} directions; a false alarm has a probability of "

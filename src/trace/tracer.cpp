@@ -1,164 +1,189 @@
-// Screens, attributes, adds and refits until nothing is left that noise could not be.
+// Between tests, within tests, between once more; then what follows the order of tests.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/progress.h"
-#include "trace/held_out.h"
+#include "trace/choose.h"
 #include "trace/order_search.h"
 
 namespace frictab {
 
 namespace {
 
-constexpr std::size_t most_effects = 5;
-constexpr double declared_lead = 10; // of log likelihood, that a declared wear may lack
+constexpr std::size_t most_within = 4; // effects
+constexpr std::size_t most_rivals = 5; // of an effect between tests, that are fitted as well
 
 class Tracer {
 public:
-  explicit Tracer(Search& search) : s_(search), progress_("tracing", most_effects + 2) {}
+  explicit Tracer(Search& search) : s_(search) {}
 
   void run() {
-    while (add_one())
-      progress_.tick();
-    if (find_order(s_))
-      while (!s_.candidates.order_column.empty() && add_one()) {
-      }
-    drop_what_does_not_pay();
+    find_all();
+    if (find_order(s_)) find_all();
     drop_superseded();
     reconsider_order(s_);
-    forget_overruled();
-    screen_what_is_left();
+    if (s_.campaign().quick) return; // what is left is of no interest to a fold
+    s_.last_screen = look_within(s_, true).result;
+    s_.last_p_value = s_.negligible() ? 1 : s_.last_screen.p_value;
+    s_.last_between = look_between(s_);
   }
 
 private:
-  bool add_one() {
-    if (s_.findings.size() >= most_effects || s_.negligible()) return false;
-    const ScreenResult screened = screen(s_);
-    if (screened.directions.empty() || screened.p_value > s_.input.options.alpha) return false;
-    std::vector<Rival> rivals =
-        find_rivals(s_.campaign(), s_.last(), s_.causes, s_.shapes, screened, s_.tau_scale_MPa);
-    prefer_declared(rivals);
-    if (follows_order(s_, rivals.front()))
-      blame_order(s_, rivals.front(), screened.p_value);
-    else
-      accept(std::move(rivals), screened);
+  void find_all() {
+    find_between();
+    std::size_t within = 0;
+    while (within < most_within && add_within())
+      ++within;
+    if (within > 0) find_between();
+  }
+
+  // --- between tests --------------------------------------------------------------------------
+
+  void find_between() {
+    while (!s_.negligible()) {
+      BetweenResult result = look_between(s_);
+      if (result.found.empty()) return;
+      const auto suspect =
+          std::find_if(result.found.begin(), result.found.end(),
+                       [&](const BetweenFinding& f) { return order_explains(s_, f.shape); });
+      if (suspect == result.found.end()) {
+        add_between(result);
+        return;
+      }
+      blame_order(s_, suspect->shape.cause, suspect->p_value);
+    }
+  }
+
+  void add_between(const BetweenResult& result) {
+    std::vector<PlacedEffect> effects = s_.last().effects;
+    std::vector<Cause> causes = s_.last().causes;
+    const std::size_t before = effects.size();
+    for (const BetweenFinding& finding : result.found) {
+      effects.push_back(plain_effect(finding.shape.cause));
+      causes.push_back(finding.shape.cause);
+    }
+    s_.move_to(
+        fit_rival(s_.campaign(), s_.last(), effects, causes, s_.last().noise, NoiseSearch::again));
+    for (std::size_t i = 0; i < result.found.size(); ++i)
+      s_.move_to(choose_form(s_, s_.last(), before + i).front());
+    s_.fit_again();
+    // (Each finding holds the law up to itself: what the law is worth without the later ones.)
+    std::vector<Finding> found;
+    for (std::size_t i = 0; i < result.found.size(); ++i)
+      found.push_back(finding_of(result.found[i], before + i));
+    for (Finding& finding : found)
+      s_.findings.push_back(std::move(finding));
+  }
+
+  // One parameter, or one per level: the form comes later.
+  PlacedEffect plain_effect(const Cause& cause) const {
+    const bool text = !s_.candidates.columns[cause.columns[0]].levels.empty();
+    const char* form = cause.several() ? text ? "category_slope" : "product"
+                       : text          ? "category"
+                                       : "linear";
+    return start_effect(*find_effect(form), cause, s_.candidates, "mu", s_.tau_scale_MPa);
+  }
+
+  Finding finding_of(const BetweenFinding& found, std::size_t index) const {
+    Finding finding;
+    finding.between = true;
+    finding.p_value = found.p_value;
+    finding.rival = up_to(index);
+    for (const Cause& cause : found.as_good) {
+      if (finding.others.size() >= most_rivals) break;
+      Rival other = finding.rival;
+      std::vector<PlacedEffect> effects = other.effects;
+      effects.back() = plain_effect(cause);
+      std::vector<Cause> causes = other.causes;
+      causes.back() = cause;
+      finding.others.push_back(
+          fit_rival(s_.campaign(), other, effects, causes, other.noise, NoiseSearch::kept));
+      finding.in_set.push_back(true);
+    }
+    return finding;
+  }
+
+  // The law with the effects up to this one.
+  Rival up_to(std::size_t index) const {
+    const Rival& all = s_.last();
+    if (index + 1 == all.effects.size()) return all;
+    const auto count = static_cast<long>(index + 1);
+    return fit_rival(s_.campaign(), all, {all.effects.begin(), all.effects.begin() + count},
+                     {all.causes.begin(), all.causes.begin() + count}, all.noise,
+                     NoiseSearch::again);
+  }
+
+  // --- within tests ---------------------------------------------------------------------------
+
+  bool add_within() {
+    if (s_.negligible()) return false;
+    const auto [screened, noise] = look_within(s_);
+    if (screened.directions.empty() || screened.p_value > s_.family_alpha()) return false;
+    std::vector<Rival> rivals = choose_cause(s_, screened, noise);
+    if (rivals.empty()) return false;
+    prefer_declared(s_, rivals);
+    if (follows_order(s_, rivals.front())) {
+      blame_order(s_, rivals.front().causes.back(), screened.p_value);
+      return true;
+    }
+    const std::vector<Rival> forms =
+        choose_form(s_, rivals.front(), rivals.front().effects.size() - 1);
+    if (!explains_more(forms.front())) return false;
+    accept(std::move(rivals), forms.front(), screened);
     return true;
   }
 
-  std::string name_of(const Rival& rival) const {
-    return cause_name(rival.causes.back(), s_.candidates);
+  // Under its own noise, the law with the effect has to be the likelier one.
+  bool explains_more(const Rival& rival) const {
+    const Rival without = fit_rival(s_.campaign(), s_.last(), s_.last().effects, s_.last().causes,
+                                    rival.noise, NoiseSearch::kept);
+    return rival.penalised > without.penalised + 2;
   }
 
-  // Of two that follow the order of tests alike, the one that the user has declared.
-  void prefer_declared(std::vector<Rival>& rivals) const {
-    if (!constant_in_experiments(rivals.front().causes.back(), s_.candidates)) return;
-    const auto found = std::find_if(rivals.begin(), rivals.end(),
-                                    [&](const Rival& r) { return is_declared(s_, r); });
-    if (found != rivals.end() && found->penalised > rivals.front().penalised - declared_lead)
-      std::rotate(rivals.begin(), found, found + 1);
-  }
-
-  void accept(std::vector<Rival> rivals, const ScreenResult& screened) {
+  void accept(std::vector<Rival> rivals, const Rival& winner, const ScreenResult& screened) {
     Finding finding;
     finding.p_value = screened.p_value;
     finding.statistic = std::abs(screened.directions[screened.best].statistic);
-    finding.threshold = screened.threshold(s_.input.options.alpha);
-    std::set<Cause> seen;
-    std::vector<Rival> best; // of each cause
-    for (Rival& rival : rivals)
-      if (seen.insert(rival.causes.back()).second) best.push_back(std::move(rival));
-    best.front() =
-        find_forms(s_.campaign(), s_.last(), best.front(), s_.causes, s_.shapes, screened).front();
-    finding.in_set = not_told_apart(best, s_.input.seed);
+    finding.threshold = screened.threshold(s_.family_alpha());
+    finding.in_set = not_told_apart(rivals, s_.input.seed);
     finding.in_set.erase(finding.in_set.begin());
-    finding.rival = best.front();
-    finding.others.assign(best.begin() + 1, best.end());
-    s_.move_to(finding.rival);
+    finding.others.assign(rivals.begin() + 1, rivals.end());
+    s_.move_to(fit_rival(s_.campaign(), winner, winner.effects, winner.causes, winner.noise,
+                         NoiseSearch::again));
+    finding.rival = s_.last();
     s_.findings.push_back(std::move(finding));
   }
 
-  // The last ones, as long as they do not pay.
-  void drop_what_does_not_pay() {
-    auto& findings = s_.findings;
-    while (!findings.empty()) {
-      const Rival& before = findings.size() > 1 ? findings[findings.size() - 2].rival : s_.base;
-      const Payment payment = paid(before, findings.back().rival);
-      if (payment.enough) break;
-      reject(findings.size() - 1, payment);
-      findings.pop_back();
-    }
-    s_.move_to(findings.empty() ? s_.base : findings.back().rival);
-  }
+  // --- at the end -----------------------------------------------------------------------------
 
-  // Effects that later ones have made unnecessary, or that do not pay beside them.
+  // Effects that later ones have made unnecessary.
   void drop_superseded() {
-    bool dropped = true;
-    while (dropped && s_.last().effects.size() > 1) {
-      dropped = false;
-      for (std::size_t i = 0; i < s_.last().effects.size() && !dropped; ++i) {
-        Rival without = without_effect(s_.campaign(), s_.last(), i);
-        const Payment payment = paid(without, s_.last());
-        if (without.penalised < s_.last().penalised && payment.enough) continue;
-        reject(i, payment);
-        s_.move_to(std::move(without));
-        s_.findings.erase(s_.findings.begin() + static_cast<long>(i));
-        dropped = true;
+    for (std::size_t i = 0; s_.last().effects.size() > 1 && i < s_.last().effects.size();) {
+      Rival without = without_effect(s_.campaign(), s_.last(), i);
+      if (without.penalised < s_.last().penalised) {
+        ++i;
+        continue;
       }
+      s_.rejected.push_back(
+          fmt::format("{}: significant (p = {:.3g}), but explains nothing more once the later "
+                      "effects are in",
+                      cause_name(s_.last().causes[i], s_.candidates), s_.findings[i].p_value));
+      s_.move_to(std::move(without));
+      s_.findings.erase(s_.findings.begin() + static_cast<long>(i));
+      for (std::size_t f = i; f < s_.findings.size(); ++f)
+        s_.findings[f].rival = up_to(f);
     }
-    if (s_.order.found || !s_.findings.empty()) s_.fit_again();
-  }
-
-  struct Payment {
-    double without_MPa, with_MPa; // errors of cross-validation
-    bool enough;
-  };
-  Payment paid(const Rival& without, const Rival& with) const {
-    const Eigen::VectorXd a = held_out_errors(s_.campaign(), without, s_.input.seed);
-    const Eigen::VectorXd b = held_out_errors(s_.campaign(), with, s_.input.seed);
-    return {a.sum(), b.sum(), pays(a, b)};
-  }
-
-  void reject(std::size_t finding, const Payment& payment) {
-    const Finding& f = s_.findings[finding];
-    const std::string text =
-        fmt::format("{}: significant (p = {:.3g}), but ", name_of(f.rival), f.p_value);
-    s_.rejected.push_back(
-        text + (payment.enough
-                    ? "explains nothing more once the later effects are in"
-                    : fmt::format("no gain in cross-validation over experiments ({:.3f} against "
-                                  "{:.3f} MPa)",
-                                  payment.with_MPa, payment.without_MPa)));
-  }
-
-  // What was turned down first and added later.
-  void forget_overruled() {
-    for (const Cause& cause : s_.last().causes)
-      std::erase_if(s_.rejected, [&](const std::string& text) {
-        return text.starts_with(cause_name(cause, s_.candidates) + ":");
-      });
-  }
-
-  void screen_what_is_left() {
-    // (Before the parameters are delivered: the test belongs to the noise model's weights.)
-    s_.last_screen = screen(s_, true);
-    s_.last_p_value = s_.negligible() ? 1 : s_.last_screen.p_value;
-    s_.base = delivered(s_.campaign(), s_.base, s_.input.seed);
-    s_.move_to(s_.last().effects.empty() && !s_.order.found
-                   ? s_.base
-                   : delivered(s_.campaign(), s_.last(), s_.input.seed));
   }
 
   Search& s_;
-  Progress progress_;
 };
 
 } // namespace
 
-std::unique_ptr<Search> search_effects(const TraceInput& input) {
-  auto search = std::make_unique<Search>(input);
+std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort) {
+  auto search = std::make_unique<Search>(input, effort);
   Tracer(*search).run();
   return search;
 }

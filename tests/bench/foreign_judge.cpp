@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
-#include "trace/trace.h"
+#include "trace/trace_file.h"
 
 namespace frictab::foreign {
 
@@ -62,7 +63,9 @@ void read_verdict(const Trace& trace, Score& score) {
 Trace traced(const Campaign& campaign, const ModelFit& fit, const Options& options, double alpha) {
   TraceOptions how;
   how.alpha = alpha;
-  return trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
+  Trace found = trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
+  if (options.show) std::fputs(trace_text(found).c_str(), stderr);
+  return found;
 }
 
 // --- what is the same column --------------------------------------------------------------------

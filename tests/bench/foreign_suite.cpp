@@ -4,6 +4,7 @@
 //
 // usage: frictab_bench_foreign [--only TEXT] [--seeds N] [--first-seed N] [--nulls N]
 //                              [--masked-seeds N] [--strengths A,B] [--factors A,B] [--alpha A]
+//                              [--show]
 //                              [--threads N] [--csv FILE] [--list]
 #include <cstdio>
 
@@ -23,7 +24,7 @@ struct Arguments {
   double alpha = TraceOptions{}.alpha;
   unsigned threads = 0;
   std::string csv;
-  bool list = false;
+  bool list = false, show = false;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -38,6 +39,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--alpha", arguments.alpha, "family-wise error");
   app.add_option("--threads", arguments.threads, "0: all cores");
   app.add_option("--csv", arguments.csv, "one row per campaign");
+  app.add_flag("--show", arguments.show, "print what tracing says of every campaign (stderr)");
   app.add_flag("--list", arguments.list, "name the campaigns, run nothing");
 }
 
@@ -70,7 +72,9 @@ int main(int argc, char** argv) try {
   declare(app, arguments);
   CLI11_PARSE(app, argc, argv);
   frictab::set_threads(arguments.threads);
-  const auto cases = all_cases(arguments.counts);
+  auto cases = all_cases(arguments.counts);
+  for (Case& c : cases)
+    c.options.show = arguments.show;
   if (arguments.list) {
     for (const Case& c : cases)
       fmt::print("{}\n", line_of(c));

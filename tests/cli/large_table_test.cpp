@@ -22,6 +22,7 @@ training = "data/training.csv"
 [models]
 use = ["log_coulomb"]
 [table]
+model = "log_coulomb"
 memory_limit_MiB = 1.0
 [table.axes]
 sigma_n_MPa = { nodes = 50 }

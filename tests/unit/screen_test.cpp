@@ -1,9 +1,11 @@
 // The screening test by itself: how often noise passes it, whatever its shape, and what it finds.
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "support/blocks.h"
 #include "trace/screen.h"
 
 namespace frictab {
@@ -14,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr std::size_t blocks = 8; // per experiment
+constexpr std::size_t blocks_each = 8; // per experiment
 constexpr double level = 0.05;
 
 // Causes that are constant within experiments or vary at random, one shape each, acting on mu.
@@ -22,29 +24,29 @@ struct Campaign {
   std::vector<std::vector<GridShape>> shapes;
   VectorXd predicted, residual;
   MatrixXd fitted;
-  std::vector<std::size_t> first{0}, units;
+  Blocks blocks;
+  std::vector<std::size_t> units;
   NoiseModel noise;
 
   Campaign(std::size_t experiments, std::size_t causes, std::uint64_t seed) {
     Random random(seed, 11);
-    const auto rows = static_cast<Index>(experiments * blocks);
+    const auto rows = static_cast<Index>(experiments * blocks_each);
     predicted = VectorXd::Constant(rows, 100);
-    for (std::size_t e = 0; e < experiments; ++e)
-      first.push_back(first.back() + blocks);
+    blocks = test::blocks_of(std::vector<std::size_t>(experiments, blocks_each));
     units.resize(experiments);
     std::iota(units.begin(), units.end(), 0);
     fitted = predicted;
-    noise.multiplicative = 0.04;
-    noise.slow = 2;
-    noise.rho = 0.6;
-    noise.white = 1;
+    noise.gain = 0.04;
+    noise.slow = 0.02;
+    noise.length = 0.25;
+    noise.white = 0.01;
     noise.scale = 100;
     for (std::size_t c = 0; c < causes; ++c) {
       GridShape shape;
       shape.direction.resize(rows);
       float held = 0;
       for (Index b = 0; b < rows; ++b) {
-        if (c % 2 == 1 || b % static_cast<Index>(blocks) == 0)
+        if (c % 2 == 1 || b % static_cast<Index>(blocks_each) == 0)
           held = static_cast<float>(random.normal());
         shape.direction(b) = held;
       }
@@ -56,22 +58,23 @@ struct Campaign {
   // Of the noise model; experiment e scatters `times(e)` as much.
   void draw(Random& random, const std::function<double(std::size_t)>& times) {
     residual.resize(predicted.size());
-    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-      const double of_test = noise.multiplicative * random.normal(), by = times(e);
+    const double rho = std::exp(-1 / (blocks_each * noise.length));
+    for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+      const double of_test = noise.gain * random.normal(), by = times(e);
       double slow = noise.slow * random.normal();
-      for (std::size_t b = first[e]; b < first[e + 1]; ++b) {
+      for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b) {
         const auto i = static_cast<Index>(b);
-        residual(i) = by * (of_test * predicted(i) + slow + noise.white * random.normal());
-        slow =
-            noise.rho * slow + noise.slow * std::sqrt(1 - noise.rho * noise.rho) * random.normal();
+        residual(i) = by * predicted(i) * (of_test + slow + noise.white * random.normal());
+        slow = rho * slow + noise.slow * std::sqrt(1 - rho * rho) * random.normal();
       }
     }
   }
 
   ScreenResult run(std::size_t flips = 199) const {
     const Sensitivities sensitivities = {predicted, VectorXd(), VectorXd()};
-    const Whitener whitener(noise, predicted, first);
-    return screen({shapes, sensitivities, whitener, first, residual, fitted, units, flips, 1});
+    const Whitener whitener(noise, predicted, blocks);
+    return screen(
+        {shapes, sensitivities, whitener, blocks.first, residual, fitted, units, flips, 1});
   }
 };
 
@@ -111,11 +114,36 @@ TEST(Screen, FindsACauseAmongOthersAndSaysHowLarge) {
   }
 }
 
+// Up and down within the first `experiments` tests, which a factor of the law cannot imitate.
+VectorXf wave(const Campaign& campaign, std::size_t experiments) {
+  VectorXf direction = VectorXf::Zero(campaign.predicted.size());
+  for (std::size_t b = 0; b < campaign.blocks.first[experiments]; ++b)
+    direction(static_cast<Index>(b)) = b % 2 ? 1.0f : -1.0f;
+  return direction;
+}
+
 TEST(Screen, NeverGivesASmallerProbabilityThanSoFewExperimentsCan) {
-  Campaign campaign(5, 4, 3);
+  Campaign campaign(8, 4, 3);
+  campaign.shapes[1][0].direction = wave(campaign, 8);
   campaign.residual +=
       campaign.predicted.cwiseProduct(campaign.shapes[1][0].direction.cast<double>());
-  EXPECT_GE(campaign.run(999).p_value, 1.0 / 16);
+  const ScreenResult result = campaign.run(999);
+  EXPECT_EQ(result.directions[result.best].cause, 1u);
+  EXPECT_GE(result.p_value, 1.0 / 128);
+  EXPECT_LE(result.p_value, 3.0 / 128) << "all patterns of signs but few are behind the truth";
+}
+
+TEST(Screen, LeavesOutWhatLivesOnFewerThanSevenTests) {
+  Campaign campaign(40, 3, 2);
+  campaign.shapes[0][0].direction = wave(campaign, 6);
+  campaign.shapes[1][0].direction = wave(campaign, 8);
+  campaign.residual += // however large it is there
+      campaign.predicted.cwiseProduct(campaign.shapes[0][0].direction.cast<double>());
+  const ScreenResult result = campaign.run();
+  std::vector<std::size_t> kept;
+  for (const Direction& direction : result.directions)
+    kept.push_back(direction.cause);
+  EXPECT_EQ(kept, (std::vector<std::size_t>{1, 2}));
 }
 
 TEST(Screen, LeavesOutWhatFittedParametersImitate) {
@@ -131,12 +159,16 @@ TEST(Screen, ScatterThatTheEffectItselfMakesDoesNotCount) {
   Campaign campaign(40, 1, 9);
   auto& direction = campaign.shapes[0][0].direction;
   for (Index b = 0; b < direction.size(); ++b)
-    direction(b) = (b / static_cast<Index>(blocks)) % 2 ? 1.0f : -1.0f;
-  const double small = std::abs(campaign.run().directions[0].statistic);
-  campaign.residual +=
-      0.2 * campaign.predicted.cwiseProduct(direction.cast<double>()); // five times the scatter
-  const double large = std::abs(campaign.run().directions[0].statistic);
-  EXPECT_GT(large, 25 + small) << "sqrt(40) is the most that scores over their own norm reach";
+    direction(b) = (b / static_cast<Index>(blocks_each)) % 2 ? 1.0f : -1.0f;
+  const VectorXd noise = campaign.residual;
+  const auto statistic_at = [&](double size) {
+    campaign.residual = noise + size * campaign.predicted.cwiseProduct(direction.cast<double>());
+    return std::abs(campaign.run().directions[0].statistic);
+  };
+  // Five times the scatter; sqrt(40) is the most that scores over their own norm reach.
+  EXPECT_GT(statistic_at(0.2), 25 + statistic_at(0));
+  // No ceiling: in proportion but for the noise, which adds 1 or takes it off.
+  EXPECT_NEAR(statistic_at(0.8) / statistic_at(0.08), 10, 2);
 }
 
 } // namespace

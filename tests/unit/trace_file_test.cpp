@@ -1,4 +1,6 @@
 // Effects in trace.json read back as they were.
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "trace/trace_file.h"
@@ -51,6 +53,40 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   EXPECT_EQ(again.front().effects[1].placed.tau_scale_MPa, 37.5);
   EXPECT_EQ(again.front().effects[1].placed.pressure_MPa, 12);
   EXPECT_EQ(trace_json(again, true), text);
+}
+
+TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
+  Trace trace;
+  trace.model = "coulomb";
+  trace.unseen = "nested_cross_validation";
+  trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3};
+  trace.worlds = {true, 57, {41, 76}, 0.21, 1e-6};
+  trace.leads = {{{"tool"}, "", "category", true, 0.004, 0, "contradicted by the validation tests"},
+                 {{"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3"}};
+  trace.scatter_between = 0.04;
+  trace.scatter_interval = {0.03, 0.06};
+  trace.scatter_at_least = 0.032;
+  trace.repeatability = 0.05;
+  trace.repeatability_from = "repeats";
+  trace.order.column = "run_no";
+  trace.order.p_value = 0.4;
+  trace.remaining = {true, 0.2, "the validation tests lie beside"};
+  for (const double seen : {0.08, std::numeric_limits<double>::infinity()})
+    for (const Verdict verdict : {Verdict::effect_added, Verdict::nothing_missing,
+                                  Verdict::nothing_found, Verdict::unexplained_structure}) {
+      trace.smallest_seen = seen;
+      trace.verdict = verdict;
+      const std::string text = trace_json({trace}, false);
+      const Trace again = parse_traces(text, "trace.json").front();
+      EXPECT_EQ(again.verdict, verdict);
+      EXPECT_EQ(again.smallest_seen, seen);
+      EXPECT_EQ(again.nested.offered, 3u);
+      EXPECT_EQ(again.leads.at(1).columns, trace.leads[1].columns);
+      EXPECT_EQ(again.leads.at(0).why, trace.leads[0].why);
+      EXPECT_TRUE(again.leads.at(0).between);
+      EXPECT_EQ(trace_json({again}, false), text);
+      EXPECT_EQ(trace_text(again), trace_text(trace));
+    }
 }
 
 } // namespace

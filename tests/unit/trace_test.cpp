@@ -1,5 +1,7 @@
 // The trace stage on synthetic campaigns whose truth is known.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,6 +9,7 @@
 
 #include "calibrate/input_columns.h"
 #include "core/parallel.h"
+#include "core/random.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
 #include "twin/twin.h"
@@ -15,30 +18,75 @@ namespace frictab {
 namespace {
 
 using testing::Contains;
-using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// 54 tests of 25 rows: large enough for every claim here, small enough for a search that is
+// repeated twenty times.
+constexpr const char* design = "p=500,1200,2750;psi=1,4.47,20;v=5,500;T=20,110,200;points=25";
+constexpr double tests = 54;
 
 TwinOptions campaign(const std::string& law, std::uint64_t seed, const std::string& effect = "") {
   TwinOptions options;
   options.seed = seed;
   options.law = law;
-  options.design = parse_design("p=500,1625,2750;points=110", default_design(twin_set("D")));
+  options.design = parse_design(design, default_design(twin_set("D")));
   options.profile = "varied";
   options.more_bystanders = true;
-  options.scatter = parse_scatter("test=0.04,slow=0.04,rho=0.8,white=0.015");
+  options.scatter = parse_scatter("test=0.04,slow=0.03,rho=0.8,white=0.015");
   if (!effect.empty()) options.effects.push_back(parse_effect(effect));
   return options;
 }
 
-Trace traced(const TwinOptions& options, TraceOptions how = {}) {
-  const Twin twin = make_twin(options);
+struct Data {
+  Dataset training, validation;
+};
+
+Data data_of(const TwinOptions& options) {
+  Twin twin = make_twin(options);
+  return {std::move(twin.training.data), std::move(twin.validation.data)};
+}
+
+Trace traced(const Data& data, const std::string& law, const TraceOptions& how = {}) {
   ModelOptions models;
-  models.use = {options.law};
+  models.use = {law};
   CalibrationOptions calibration;
   calibration.bootstrap = 100;
-  const Calibration calibrated =
-      calibrate({twin.training.data, twin.validation.data, models, calibration});
-  return trace({twin.training.data, twin.validation.data, calibrated.fits.front(), how, 100, 1});
+  const Calibration calibrated = calibrate({data.training, data.validation, models, calibration});
+  return trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
+}
+
+Trace traced(const TwinOptions& options, const TraceOptions& how = {}) {
+  return traced(data_of(options), options.law, how);
+}
+
+// The order of the twin's tests counts the validation tests, too: it has to be declared.
+TraceOptions declared_order() {
+  TraceOptions how;
+  how.order = "run_order";
+  return how;
+}
+
+Column& column(Dataset& data, const std::string& name) {
+  return *std::find_if(data.columns.begin(), data.columns.end(),
+                       [&](const Column& c) { return c.name == name; });
+}
+
+void scale(Dataset& data, const std::string& name, double by) {
+  for (double& value : column(data, name).values)
+    value *= by;
+}
+
+// As an effect, or among what the data cannot tell from it.
+bool names(const Trace& trace, const std::string& column) {
+  for (const TracedEffect& effect : trace.effects) {
+    if (effect.placed.inputs[0].column == column) return true;
+    for (const Alternative& other : effect.alternatives)
+      if (other.in_set && (other.derived == column || other.columns == std::vector{column}))
+        return true;
+  }
+  return false;
 }
 
 std::vector<std::string> causes(const Trace& trace) {
@@ -48,18 +96,54 @@ std::vector<std::string> causes(const Trace& trace) {
   return names;
 }
 
-TEST(Trace, SaysThatNothingIsMissingWhereTheLawIsTheTruth) {
+TEST(Trace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
   for (const char* law : {"coulomb", "orowan", "log_coulomb", "exp_coulomb"}) {
     const Trace t = traced(campaign(law, 11));
-    EXPECT_EQ(t.verdict, Verdict::nothing_missing) << law << trace_text(t);
+    EXPECT_EQ(t.verdict, Verdict::nothing_found) << law << trace_text(t);
     EXPECT_TRUE(t.effects.empty());
     EXPECT_EQ(t.extended_model, "");
     EXPECT_FALSE(t.remaining.structure);
-    EXPECT_GT(t.remaining.p_value, t.alpha);
-    // The floor is known here: what the true law leaves.
-    EXPECT_NEAR(t.noise_floor.mae_MPa / t.before.training.mae_MPa, 1, 0.06) << law;
-    EXPECT_THAT(t.remaining.note, HasSubstr("cannot be told from noise"));
+    EXPECT_GT(t.remaining.p_value, 0.002) << "two families of four laws: below it in 1.6 %";
+    // The floor is known here: what the true law leaves. The noise model pools all tests, while a
+    // third of them, at the highest pressure, make most of the error: 1 / sqrt(2 * 18) = 17 %.
+    EXPECT_NEAR(t.noise_floor.mae_MPa / t.before.training.mae_MPa, 1, 0.2) << law;
+    EXPECT_THAT(t.remaining.note, HasSubstr("that nothing explains"));
+    EXPECT_THAT(t.remaining.note, HasSubstr("repeat tests, or give trace.repeatability"));
+    EXPECT_GT(t.smallest_seen, 0.02) << "tests differ by 4 %";
+    EXPECT_LT(t.smallest_seen, 0.2);
+    EXPECT_EQ(t.nested.folds, 0u);
+    EXPECT_FALSE(t.worlds.found);
   }
+}
+
+TEST(Trace, ScatterIsJudgedByTheRepeatability) {
+  TraceOptions how;
+  how.repeatability = 0.05;
+  const Trace null = traced(campaign("log_coulomb", 4), how);
+  EXPECT_EQ(null.verdict, Verdict::nothing_missing) << null.remaining.note;
+  EXPECT_EQ(null.repeatability_from, "given");
+  TwinOptions options = campaign("log_coulomb", 4, "form=linear,column=film_um,strength=0.6");
+  options.hide = {"film_um", "film2_um"};
+  const Trace t = traced(options, how);
+  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+  EXPECT_GT(t.scatter_between, 0.05) << "the film's scatter is left between experiments";
+  EXPECT_GT(t.scatter_at_least, 0.05);
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
+  EXPECT_THAT(t.remaining.note, HasSubstr("something that no column recorded differs"));
+}
+
+TEST(Trace, RepeatedTestsSayWhatTheRigRepeats) {
+  TwinOptions options = campaign("log_coulomb", 4);
+  options.profile = "constant";
+  options.bystanders = options.more_bystanders = false; // tests with other tools are no repeats
+  options.design =
+      parse_design("p=500,2750;psi=1,20;v=5,500;T=20,200;replicates=2;points=40", *options.design);
+  const Trace t = traced(options);
+  EXPECT_EQ(t.repeatability_from, "repeats");
+  ASSERT_TRUE(t.repeatability.has_value());
+  // Of 16 pairs: three standard errors are 53 %.
+  EXPECT_NEAR(*t.repeatability, 0.04, 0.02);
+  EXPECT_EQ(t.verdict, Verdict::nothing_missing) << trace_text(t);
 }
 
 struct Planted {
@@ -76,12 +160,16 @@ TEST_P(TracePlanted, EffectIsFoundPlacedAndRemoved) {
   ASSERT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
   EXPECT_EQ(t.effects.front().placed.inputs[0].column, p.column) << trace_text(t);
   EXPECT_EQ(t.effects.front().placed.acts_on, p.acts_on);
-  EXPECT_LE(t.effects.front().p_value, t.alpha);
+  EXPECT_LE(t.effects.front().p_value, 0.5 * t.alpha);
   EXPECT_EQ(t.extended_model, "log_coulomb_traced");
+  EXPECT_EQ(t.unseen, "validation");
   EXPECT_LT(t.after.validation.mae_MPa, t.before.validation.mae_MPa);
   EXPECT_GT(t.improvement.interval.low, 0);
-  EXPECT_NEAR(t.after.training.mae_MPa / t.noise_floor.mae_MPa, 1, 0.06);
+  EXPECT_GT(t.nested.gain, t.nested.std_error);
+  EXPECT_EQ(t.nested.folds, 20u);
+  EXPECT_NEAR(t.noise_floor.mae_MPa / t.after.training.mae_MPa, 1, 0.2); // as of the truth
   EXPECT_GT(t.effects.front().gain_MPa, 0);
+  EXPECT_FALSE(t.worlds.found);
 }
 
 std::string name_of(const testing::TestParamInfo<Planted>& test) {
@@ -90,41 +178,21 @@ std::string name_of(const testing::TestParamInfo<Planted>& test) {
   return name + std::to_string(test.index);
 }
 
+// Twice as large as an 81-test campaign needs them.
 INSTANTIATE_TEST_SUITE_P(
     Effects, TracePlanted,
-    testing::Values(Planted{"form=saturation,column=s_mm,strength=0.3", "s_mm", "mu"},
-                    Planted{"form=power,column=humidity_pct,strength=0.3", "humidity_pct", "mu"},
-                    Planted{"form=category,column=tool,strength=0.3", "tool", "mu"},
-                    Planted{"form=linear,column=film_um,strength=0.3", "film_um", "mu"},
-                    Planted{"form=hinge,column=psi,strength=0.3", "psi", "mu"},
-                    Planted{"form=linear,column=peak_sigma_n,strength=0.3", "peak_sigma_n", "mu"},
-                    Planted{"form=periodic,column=s_mm,strength=0.3", "s_mm", "mu"},
-                    Planted{"form=logarithmic,column=dwell_s,strength=0.3", "dwell_s", "mu"}),
+    testing::Values(Planted{"form=saturation,column=s_mm,strength=0.6", "s_mm", "mu"},
+                    Planted{"form=power,column=humidity_pct,strength=0.6", "humidity_pct", "mu"},
+                    Planted{"form=category,column=tool,strength=0.6", "tool", "mu"},
+                    Planted{"form=hinge,column=psi,strength=0.6", "psi", "mu"},
+                    Planted{"form=linear,column=peak_sigma_n,strength=0.6", "peak_sigma_n", "mu"},
+                    Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", "mu"}),
     name_of);
 
-TEST(Trace, DoesNotBlameARecordedColumnForAnUnrecordedCause) {
-  TwinOptions options = campaign("log_coulomb", 4, "form=linear,column=film_um,strength=0.3");
-  options.hide = {"film_um", "film2_um"};
-  const Trace t = traced(options);
-  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
-  EXPECT_GT(t.scatter_between, 0.05) << "the film's scatter is left between experiments";
-}
-
-TEST(Trace, ScatterAboveTheRepeatabilityIsCalledUnrecorded) {
-  TwinOptions options = campaign("log_coulomb", 4, "form=linear,column=film_um,strength=0.3");
-  options.hide = {"film_um", "film2_um"};
-  TraceOptions how;
-  how.repeatability = 0.04;
-  const Trace t = traced(options, how);
-  EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
-  EXPECT_THAT(t.remaining.note, HasSubstr("something that no column recorded differs"));
-  const Trace null = traced(campaign("log_coulomb", 4), how);
-  EXPECT_EQ(null.verdict, Verdict::nothing_missing) << null.remaining.note;
-}
-
-TEST(Trace, DriftAlongTheOrderOfTestsIsReportedNotShipped) {
-  const Trace t =
-      traced(campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.3"));
+TEST(Trace, DriftAlongADeclaredOrderIsReportedNotShipped) {
+  const TwinOptions options =
+      campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.6");
+  const Trace t = traced(options, declared_order());
   EXPECT_EQ(t.verdict, Verdict::unexplained_structure) << trace_text(t);
   EXPECT_TRUE(t.order.found);
   EXPECT_EQ(t.order.column, "run_order");
@@ -133,23 +201,89 @@ TEST(Trace, DriftAlongTheOrderOfTestsIsReportedNotShipped) {
   // The law keeps its form; its parameters are those of a campaign without the drift.
   EXPECT_EQ(t.extended_model, "log_coulomb_traced");
   EXPECT_EQ(parameter_names(*t.extended.model.law), parameter_names(*find_law("log_coulomb")));
-  EXPECT_LT(t.after.validation.mae_MPa, 1.02 * t.before.validation.mae_MPa);
+  EXPECT_LT(t.after.validation.mae_MPa, 1.05 * t.before.validation.mae_MPa);
+
+  // The same drift in a file that nobody said anything about: files are sorted in many ways.
+  Data data = data_of(options);
+  for (Dataset* part : {&data.training, &data.validation}) {
+    std::vector<std::size_t> by(part->experiments.size());
+    std::iota(by.begin(), by.end(), 0);
+    const auto place = [&](std::size_t e) { return part->values("run_order")[part->first_row[e]]; };
+    std::stable_sort(by.begin(), by.end(),
+                     [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    *part = part->subset(by);
+    std::erase_if(part->columns, [](const Column& c) {
+      return c.name == "run_order" || c.name == "batch" || c.name == "lab_T_C";
+    });
+    for (std::size_t e = 0; e < part->experiments.size(); ++e)
+      part->experiments[e] = fmt::format("{:03}", e);
+  }
+  const Trace unsaid = traced(data, "log_coulomb");
+  EXPECT_FALSE(unsaid.order.found) << trace_text(unsaid);
+  EXPECT_EQ(unsaid.order.column, "");
+  EXPECT_THAT(unsaid.remaining.note, Not(HasSubstr("order of tests")));
+}
+
+// Tests numbered 1, 2, ... in each file, in the twin's order.
+void number_tests(Dataset& part, const std::string& name) {
+  std::vector<double>& places = column(part, "run_order").values;
+  const std::vector<double> before = places;
+  for (std::size_t e = 0; e < part.experiments.size(); ++e) {
+    double place = 1;
+    for (std::size_t other = 0; other < part.experiments.size(); ++other)
+      place += before[part.first_row[other]] < before[part.first_row[e]];
+    std::fill(places.begin() + static_cast<long>(part.first_row[e]),
+              places.begin() + static_cast<long>(part.first_row[e + 1]), place);
+  }
+  column(part, "run_order").name = name;
+}
+
+TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
+  Data data =
+      data_of(campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.6"));
+  for (Dataset* part : {&data.training, &data.validation})
+    number_tests(*part, "Test_No");
+  const Trace t = traced(data, "log_coulomb");
+  EXPECT_TRUE(t.order.found) << trace_text(t);
+  EXPECT_EQ(t.order.column, "Test_No");
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
+}
+
+// Also where a search sees a part of the tests only, which are not numbered without gaps.
+TEST(Trace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
+  TwinOptions options = campaign("log_coulomb", 6, "form=category,column=tool,strength=0.6");
+  options.effects.push_back(parse_effect("form=linear,column=latent,latent=drift,strength=0.6"));
+  options.design = parse_design("points=15", *options.design);
+  Data data = data_of(options);
+  for (Dataset* part : {&data.training, &data.validation})
+    number_tests(*part, "Test_No");
+  const Trace by_name = traced(data, "log_coulomb");
+  ASSERT_EQ(by_name.verdict, Verdict::effect_added) << trace_text(by_name);
+  EXPECT_TRUE(by_name.order.found);
+  TraceOptions how;
+  how.order = "Test_No";
+  const Trace by_job = traced(data, "log_coulomb", how);
+  EXPECT_EQ(by_name.nested.gain, by_job.nested.gain);
+  EXPECT_EQ(by_name.nested.std_error, by_job.nested.std_error);
+  EXPECT_EQ(trace_json({by_name}, true), trace_json({by_job}, true));
 }
 
 TEST(Trace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
   for (const char* hidden : {"latent=order,on=tau", "latent=batch"}) {
-    const Trace t = traced(campaign(
-        "log_coulomb", 3, fmt::format("form=linear,column=latent,{},strength=0.3", hidden)));
+    const Trace t =
+        traced(campaign("log_coulomb", 3,
+                        fmt::format("form=linear,column=latent,{},strength=0.6", hidden)),
+               declared_order());
     EXPECT_TRUE(t.effects.empty()) << trace_text(t);
     EXPECT_TRUE(t.order.found) << hidden;
   }
 }
 
 TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
-  TraceOptions how;
+  TraceOptions how = declared_order();
   how.tool_distance = "run_order";
   const Trace t =
-      traced(campaign("log_coulomb", 6, "form=linear,column=run_order,strength=0.3"), how);
+      traced(campaign("log_coulomb", 6, "form=linear,column=run_order,strength=0.6"), how);
   EXPECT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
 }
 
@@ -157,8 +291,8 @@ TEST(Trace, IgnoredColumnsCannotBeACause) {
   TraceOptions how;
   how.ignore = {"humidity_pct"};
   const Trace t =
-      traced(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.3"), how);
-  EXPECT_THAT(causes(t), testing::Not(Contains("humidity_pct")));
+      traced(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6"), how);
+  EXPECT_THAT(causes(t), Not(Contains("humidity_pct")));
   how.ignore = {"humidity"};
   try {
     traced(campaign("log_coulomb", 4), how);
@@ -168,52 +302,150 @@ TEST(Trace, IgnoredColumnsCannotBeACause) {
   }
 }
 
-TEST(Trace, IsTheSameForAnyNumberOfThreads) {
+// One trace for what would cost three.
+TEST(Trace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
   const TwinOptions options =
-      campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.15");
+      campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
   set_threads(1);
-  const std::string one = trace_json({traced(options)}, true);
+  const Trace t = traced(options);
+  const std::string one = trace_json({t}, true);
   set_threads(2);
   EXPECT_EQ(trace_json({traced(options)}, true), one);
   set_threads(0);
-}
-
-TEST(Trace, IsReadBackFromItsFile) {
-  const Trace t = traced(campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.3"));
   const std::string text = trace_json({t, t}, true);
   const std::vector<Trace> back = parse_traces(text, "trace.json");
   ASSERT_EQ(back.size(), 2u);
-  EXPECT_EQ(trace_json(back, true).substr(0, 2000), text.substr(0, 2000));
   EXPECT_EQ(trace_text(back[0]), trace_text(t));
+  EXPECT_EQ(back[0].as_calibrated.training.mae_MPa, t.as_calibrated.training.mae_MPa);
+  EXPECT_EQ(back[0].nested.gain, t.nested.gain);
+  EXPECT_EQ(back[0].nested.std_error, t.nested.std_error);
+}
+
+// Verdict and columns of a campaign with an effect.
+void expect_same(const Trace& one, const Trace& other, const char* what) {
+  EXPECT_EQ(one.verdict, other.verdict) << what;
+  EXPECT_EQ(causes(one), causes(other)) << what;
+  const auto named = [](const Trace& t) {
+    std::vector<std::string> forms;
+    for (const TracedEffect& e : t.effects)
+      forms.push_back(e.placed.form->name + " on " + e.placed.acts_on);
+    return forms;
+  };
+  EXPECT_EQ(named(one), named(other)) << what;
+}
+
+// (Coulomb's law: log_coulomb bounds the stress in its logarithm at 1 kPa, which a unit moves.)
+TEST(Trace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
+  TwinOptions options = campaign("coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
+  options.design = parse_design("points=15", *options.design); // five traces
+  const Data data = data_of(options);
+  const Trace plain = traced(data, "coulomb");
+  ASSERT_EQ(plain.verdict, Verdict::effect_added) << trace_text(plain);
+  for (const double unit : {1e-6, 1e6}) {
+    Data scaled = data;
+    for (Dataset* part : {&scaled.training, &scaled.validation})
+      for (const char* stress : {"sigma_n_MPa", "sigma_f_MPa", "tau_R_MPa"})
+        scale(*part, stress, unit);
+    const Trace t = traced(scaled, "coulomb");
+    expect_same(t, plain, unit > 1 ? "1e6" : "1e-6");
+    // Errors are in that unit, to what the fits converge to.
+    EXPECT_NEAR(t.after.validation.mae_MPa / unit / plain.after.validation.mae_MPa, 1, 1e-3);
+  }
+  Data noisy = data;
+  Random random(1, 2);
+  for (double& tau : column(noisy.training, "tau_R_MPa").values)
+    tau *= 1 + 1e-7 * random.normal();
+  expect_same(traced(noisy, "coulomb"), plain, "1e-7");
+  Data shuffled = data;
+  std::vector<std::size_t> order(data.training.experiments.size());
+  std::iota(order.begin(), order.end(), 0);
+  random.shuffle(std::span(order));
+  shuffled.training = data.training.subset(order);
+  random.shuffle(std::span(shuffled.training.columns));
+  expect_same(traced(shuffled, "coulomb"), plain, "order");
+}
+
+// The law, a factor of its own in each test, and a column for it.
+Data with_factor(double size, double in_validation) {
+  TwinOptions options = campaign("log_coulomb", 8);
+  options.design->validation = 12;
+  Data data = data_of(options);
+  Random random(8, 3);
+  for (Dataset* part : {&data.training, &data.validation}) {
+    Column wire{"wire", "", {}, {}};
+    std::vector<double>& tau = column(*part, "tau_R_MPa").values;
+    for (std::size_t e = 0; e < part->experiments.size(); ++e) {
+      const double z = random.normal();
+      for (std::size_t i = part->first_row[e]; i < part->first_row[e + 1]; ++i) {
+        tau[i] *= std::exp(size * z);
+        wire.values.push_back(10 + (part == &data.training ? z : in_validation * z));
+      }
+    }
+    part->columns.push_back(std::move(wire));
+  }
+  return data;
+}
+
+TEST(Trace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
+  const Trace good = traced(with_factor(0.3, 1), "log_coulomb");
+  EXPECT_EQ(good.verdict, Verdict::effect_added) << trace_text(good);
+  EXPECT_EQ(causes(good), std::vector<std::string>{"wire"});
+  const Trace t = traced(with_factor(0.3, -1), "log_coulomb");
+  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+  EXPECT_EQ(t.extended_model, "");
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure);
+  ASSERT_FALSE(t.leads.empty());
+  EXPECT_EQ(t.leads.front().columns, std::vector<std::string>{"wire"});
+  EXPECT_THAT(t.leads.front().why, StartsWith("contradicted by the validation tests"));
+  EXPECT_THAT(t.remaining.note, HasSubstr("the validation tests contradict"));
+}
+
+TEST(Trace, AValidationFromAnotherWorldIsCalledThat) {
+  Data data = data_of(campaign("log_coulomb", 11));
+  for (double& tau : column(data.validation, "tau_R_MPa").values)
+    tau += 57;
+  const Trace t = traced(data, "log_coulomb");
+  EXPECT_EQ(t.verdict, Verdict::unexplained_structure) << trace_text(t);
+  EXPECT_TRUE(t.worlds.found);
+  EXPECT_GT(t.worlds.interval.low, 0);
+  EXPECT_THAT(t.remaining.note,
+              HasSubstr(fmt::format("lie {:+.3g} MPa beside the training tests as a whole",
+                                    t.worlds.shift_MPa)));
+  // A shift of ln(tau), brought back to MPa: the same for tests of equal stress only.
+  EXPECT_NEAR(t.worlds.shift_MPa, 57, 20);
+  EXPECT_TRUE(t.effects.empty());
 }
 
 TEST(Trace, SaysWhatItCouldHaveSeen) {
   const Trace t = traced(campaign("log_coulomb", 11));
-  const auto find = [&](const std::string& column) {
+  const auto find = [&](const std::string& name) {
     return *std::find_if(t.detectable.begin(), t.detectable.end(),
-                         [&](const Detectable& d) { return d.column == column; });
+                         [&](const Detectable& d) { return d.column == name; });
   };
   EXPECT_TRUE(find("humidity_pct").identifiable);
-  // A difference between experiments that scatter by 4 % needs about 4.7 standard errors of 81.
-  EXPECT_NEAR(find("film_um").share, 4.7 * 0.045 / 9, 0.008);
+  // A difference between experiments that scatter by 4 % needs about 4.7 standard errors.
+  EXPECT_NEAR(find("film_um").share, 4.7 * 0.045 / std::sqrt(tests), 0.012);
   EXPECT_LT(find("s_mm").share, find("film_um").share)
       << "what changes within every experiment is seen better";
 }
 
-TEST(Trace, FewExperimentsGiveALeadAndNoEffect) {
+TEST(Trace, FewExperimentsProveNothingAndSaySo) {
   TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
-  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=110;validation=3",
+  options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
                                 default_design(twin_set("D")));
   const Trace t = traced(options);
   EXPECT_TRUE(t.effects.empty());
-  EXPECT_THAT(t.remaining.note, HasSubstr("the strongest lead is "));
-  EXPECT_THAT(t.remaining.note,
-              HasSubstr("4 experiments can give no p below 0.12: it takes 7 to add an effect"));
+  EXPECT_THAT(trace_text(t), HasSubstr("lacks, by its residual: nothing that so few tests can"));
+  EXPECT_EQ(t.least_p_value, 0.125);
+  // Twelve tests, which all show the same effect.
+  options.design = parse_design("T=20,56,92,128,164,200", *options.design);
+  const Trace more = traced(options);
+  EXPECT_TRUE(names(more, "s_mm")) << trace_text(more); // the contact heats up as it slides
+  EXPECT_EQ(more.unseen, "nested_cross_validation") << "three validation tests judge nothing";
 }
 
 TEST(Trace, TwoExperimentsAreRefused) {
   TwinOptions options = campaign("coulomb", 1);
-  options.law = "coulomb";
   options.design = parse_design("p=500,2750;psi=1;v=5;T=20;points=60;validation=3",
                                 default_design(twin_set("D")));
   try {
@@ -225,47 +457,41 @@ TEST(Trace, TwoExperimentsAreRefused) {
 }
 
 // Rates over small campaigns; frictab_bench_trace has the large set and the table.
-bool names(const Trace& trace, const std::string& column) {
-  for (const TracedEffect& effect : trace.effects) {
-    if (effect.placed.inputs[0].column == column) return true;
-    for (const Alternative& other : effect.alternatives)
-      if (other.in_set && (other.derived == column || other.columns == std::vector{column}))
-        return true;
-  }
-  return false;
-}
-
-TEST(TraceRates, ElevenOfTwelvePlantedEffectsAreFoundInTheNamedSet) {
+TEST(TraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   const std::pair<const char*, const char*> planted[] = {
       {"exponential", "T_tool_C"}, {"linear", "Ra_um"},
-      {"logarithmic", "film_um"},  {"step", "T_contact_C"},
-      {"bump", "T_contact_C"},     {"stribeck", "v_rel_mm_s"},
-      {"periodic", "s_mm"},        {"category", "direction"},
-      {"linear", "vib"},           {"saturation", "friction_work"},
-      {"linear", "mean_sigma_n"},  {"saturation", "time_s"}};
+      {"logarithmic", "film_um"},  {"bump", "T_contact_C"},
+      {"linear", "vib"},           {"category", "direction"},
+      {"linear", "mean_sigma_n"},  {"saturation", "friction_work"}};
   int detected = 0, named = 0;
   for (const auto& [form, column] : planted) {
-    const Trace t = traced(
-        campaign("log_coulomb", 21, fmt::format("form={},column={},strength=0.15", form, column)));
+    TwinOptions options =
+        campaign("log_coulomb", 21, fmt::format("form={},column={},strength=0.6", form, column));
+    options.design->points = 15; // eight searches, each repeated twenty times
+    const Trace t = traced(options);
     detected += t.verdict == Verdict::effect_added;
     named += names(t, column);
   }
-  EXPECT_GE(detected, 11);
-  EXPECT_GE(named, 11);
+  EXPECT_GE(detected, 7);
+  EXPECT_GE(named, 7);
 }
 
 TEST(TraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
-  int alarms = 0, flagged = 0;
+  int found = 0, added = 0, flagged = 0;
   for (std::uint64_t seed = 31; seed < 41; ++seed)
     for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
       TwinOptions options = campaign(seed % 2 ? "orowan" : "exp_coulomb", seed);
       options.noise = noise;
       const Trace t = traced(options);
-      alarms += !t.effects.empty();
+      found += t.nested.offered > 0;
+      added += !t.effects.empty();
       flagged += t.verdict == Verdict::unexplained_structure;
+      for (const Lead& lead : t.leads)
+        EXPECT_LT(std::abs(lead.share), 3) << seed << noise << trace_text(t);
     }
   // Binomial, 30 at 0.02 and at 0.01: more than 3 in 0.2 %.
-  EXPECT_LE(alarms, 3);
+  EXPECT_LE(found, 3);
+  EXPECT_LE(added, 2) << "what the search finds has to predict left-out tests as well";
   EXPECT_LE(flagged, 3);
 }
 
@@ -273,12 +499,13 @@ TEST(TraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
   for (const char* hidden : {"direction", "dwell_s", "film_um"})
     for (const std::uint64_t seed : {51u, 52u}) {
       TwinOptions options =
-          campaign("log_coulomb", seed, fmt::format("form=linear,column={},strength=0.15", hidden));
+          campaign("log_coulomb", seed, fmt::format("form=linear,column={},strength=0.3", hidden));
       if (std::string(hidden) == "direction")
-        options.effects = {parse_effect("form=category,column=direction,strength=0.15")};
+        options.effects = {parse_effect("form=category,column=direction,strength=0.3")};
       options.hide = {hidden};
       if (std::string(hidden) == "film_um") options.hide.push_back("film2_um"); // goes with it
-      EXPECT_TRUE(traced(options).effects.empty()) << hidden << seed;
+      const Trace t = traced(options);
+      EXPECT_TRUE(t.effects.empty()) << hidden << seed << trace_text(t);
     }
 }
 

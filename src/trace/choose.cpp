@@ -1,0 +1,329 @@
+// Short list, penalised smooths under common noise, then closed forms.
+#include "trace/choose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/parallel.h"
+#include "trace/smooth.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t short_list = 8;    // causes
+constexpr float least_of_best = 0.6f;    // statistic
+constexpr std::size_t most_joined = 3;   // of them, tried together with other columns
+constexpr std::size_t fitted_rivals = 6; // of which a set is made
+constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
+// Of penalised log likelihood: where the data cannot tell places apart, an effect acts on mu.
+constexpr std::array place_margins = {0.0, 0.5, 1.5};
+constexpr std::size_t forms_tried = 6; // in each place
+
+// One way to explain the residual, linear in its coefficients.
+struct Option {
+  Cause cause;
+  PlacedEffect effect;
+  MatrixXd basis; // per block, not whitened
+  MatrixXd penalty;
+  SmoothFit fit;
+  double criterion = 0;
+};
+
+using Options = std::vector<Option>;
+
+bool is_numeric(const Cause& cause, const Candidates& candidates) {
+  return std::all_of(cause.columns.begin(), cause.columns.end(),
+                     [&](std::size_t c) { return candidates.columns[c].levels.empty(); });
+}
+
+// The best direction of each cause and place.
+std::map<std::pair<Cause, std::size_t>, const Direction*>
+best_directions(const Search& search, const ScreenResult& screened) {
+  std::map<std::pair<Cause, std::size_t>, const Direction*> best;
+  for (const Direction& d : screened.directions) {
+    const Direction*& here = best[{search.causes[d.cause], d.place}];
+    if (!here || std::abs(d.statistic) > std::abs(here->statistic)) here = &d;
+  }
+  return best;
+}
+
+// Causes near the best, best first.
+std::vector<Cause> near_the_best(const Search& search, const ScreenResult& screened,
+                                 double threshold) {
+  std::map<Cause, float> best;
+  for (const Direction& d : screened.directions) {
+    float& here = best[search.causes[d.cause]];
+    here = std::max(here, std::abs(d.statistic));
+  }
+  std::vector<std::pair<float, Cause>> sorted;
+  for (const auto& [cause, statistic] : best)
+    sorted.emplace_back(-statistic, cause);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Cause> list;
+  for (const auto& [statistic, cause] : sorted) {
+    const float least = std::min(static_cast<float>(threshold), -least_of_best * sorted[0].first);
+    if (list.size() < short_list && -statistic >= least) list.push_back(cause);
+  }
+  return list;
+}
+
+// Single columns together with what the law takes, and with what is in already.
+std::vector<Cause> with_partners(const Search& search, const std::vector<Cause>& list) {
+  const Candidates& candidates = search.candidates;
+  std::set<std::size_t> partners;
+  for (std::size_t c = 0; c < candidates.columns.size(); ++c)
+    if (candidates.columns[c].in_law && search.last().effects.empty()) partners.insert(c);
+  for (const Cause& cause : search.last().causes)
+    if (cause.columns.size() == 1) partners.insert(cause.columns[0]);
+  std::vector<Cause> more = list;
+  std::size_t taken = 0;
+  for (const Cause& cause : list) {
+    if (cause.columns.size() != 1 || taken++ >= most_joined) continue;
+    for (const std::size_t partner : partners) {
+      Cause both = joined(cause, partner, candidates);
+      if (partner == cause.columns[0] || !may_join(both, candidates)) continue;
+      if (std::find(more.begin(), more.end(), both) == more.end()) more.push_back(both);
+    }
+  }
+  return more;
+}
+
+MatrixXd ridge(Index count) {
+  return 1e-3 * MatrixXd::Identity(count, count);
+}
+
+Option option_of(const Search& search, const Cause& cause, PlacedEffect effect) {
+  const VectorXd& sensitivity = search.sensitivities()[place_of(effect)];
+  Option option{cause, std::move(effect), {}, {}, {}, 0};
+  option.basis =
+      sensitivity.asDiagonal() * amplitude_basis(option.effect, search.candidates.by_symbol);
+  option.penalty =
+      option.effect.form->penalty ? roughness_of(option.effect) : ridge(option.basis.cols());
+  return option;
+}
+
+// Per cause and place a smooth, and the shape that the screening liked best: a wave is no smooth.
+Options all_options(const Search& search, const ScreenResult& screened,
+                    const std::vector<Cause>& causes) {
+  const auto best = best_directions(search, screened);
+  Options options;
+  for (const Cause& cause : causes)
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (search.sensitivities()[p].size() == 0) continue;
+      const auto found = best.find({cause, p});
+      if (p > 0 && found == best.end()) continue;
+      if (cause.columns.size() < 3) // (three of them have one closed form)
+        options.push_back(option_of(search, cause, smooth_effect(search, cause, places[p])));
+      if (found == best.end() || !is_numeric(cause, search.candidates)) continue;
+      const Direction& d = *found->second;
+      PlacedEffect shape = search.shapes[d.cause][d.shape].effect;
+      shape.acts_on = places[p];
+      shape.tau_scale_MPa = search.tau_scale_MPa;
+      options.push_back(option_of(search, cause, std::move(shape)));
+    }
+  return options;
+}
+
+// Under one noise model.
+void fit_options(const Search& search, const NoiseModel& noise, Options& options) {
+  const Campaign& campaign = search.campaign();
+  const Whitener whitener(noise, search.last().predicted, campaign.blocks, campaign.nuisance);
+  MatrixXd known = search.last().jacobian;
+  append_columns(known, search.trained());
+  whitener.apply(known);
+  known = orthonormal(known);
+  MatrixXd residual = search.residual();
+  whitener.apply(residual);
+  parallel_for(options.size(), [&](std::size_t i) {
+    Option& option = options[i];
+    MatrixXd basis = option.basis;
+    whitener.apply(basis);
+    option.fit = fit_smooth(residual.col(0), basis, option.penalty, known);
+    option.criterion =
+        option.fit.criterion + per_complexity * complexity(option.cause, search.candidates);
+  });
+}
+
+void sort_options(Options& options) {
+  std::stable_sort(options.begin(), options.end(),
+                   [](const Option& a, const Option& b) { return a.criterion < b.criterion; });
+}
+
+Rival rival_of(const Search& search, const Option& option, const NoiseModel& noise) {
+  std::vector<PlacedEffect> effects = search.last().effects;
+  std::vector<Cause> causes = search.last().causes;
+  PlacedEffect effect = option.effect;
+  if (effect.form->penalty) {
+    effect.stiffness = option.fit.stiffness;
+    std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
+    set_fitted(effect, start);
+  } else if (amplitudes_of(effect) == 1 && !effect.form->categorical)
+    effect.parameters[0] = std::clamp(option.fit.coefficients(0), -0.5, 0.5);
+  effects.push_back(std::move(effect));
+  causes.push_back(option.cause);
+  return fit_rival(search.campaign(), search.last(), std::move(effects), std::move(causes), noise,
+                   NoiseSearch::kept);
+}
+
+} // namespace
+
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on) {
+  const Candidates& candidates = search.candidates;
+  std::size_t text = 0;
+  for (const std::size_t c : cause.columns)
+    text += !candidates.columns[c].levels.empty();
+  const char* form = cause.columns.size() == 3               ? "product3"
+                     : cause.columns.size() == 2 && text > 0 ? "spline_by_level"
+                     : cause.columns.size() == 2             ? "surface"
+                     : text > 0                              ? "category"
+                                                             : "spline";
+  return start_effect(*find_effect(form), cause, candidates, acts_on, search.tau_scale_MPa);
+}
+
+std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
+                                const NoiseModel& noise) {
+  const double alpha = search.family_alpha();
+  const std::vector<Cause> list =
+      with_partners(search, near_the_best(search, screened, screened.threshold(alpha)));
+  Options options = all_options(search, screened, list);
+  if (options.empty()) return {};
+  fit_options(search, noise, options);
+  sort_options(options);
+  Options best; // of each cause
+  for (Option& option : options)
+    if (std::none_of(best.begin(), best.end(),
+                     [&](const Option& o) { return o.cause == option.cause; }) &&
+        best.size() < (search.campaign().quick ? 1 : fitted_rivals))
+      best.push_back(std::move(option));
+  std::vector<Rival> rivals(best.size());
+  parallel_for(best.size(), [&](std::size_t i) { rivals[i] = rival_of(search, best[i], noise); });
+  for (std::size_t i = 0; i < best.size(); ++i)
+    rivals[i].criterion = best[i].criterion;
+  return rivals;
+}
+
+namespace {
+
+// What the effect `index` and the residual behind it come to: what any form of it has to explain.
+VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
+  const PlacedEffect& effect = winner.effects[index];
+  const VectorXd& sensitivity = search.sensitivities()[place_of(effect)];
+  const VectorXd change =
+      factor_on(effect, search.candidates.by_symbol).array() - 1; // of the place
+  return search.campaign().measured - winner.predicted + sensitivity.cwiseProduct(change);
+}
+
+// A start for each form and place, and how well its best shape of the grid does: larger is better.
+struct Start {
+  PlacedEffect effect;
+  double explained;
+};
+
+class FormStarts {
+public:
+  FormStarts(const Search& search, const Rival& winner, std::size_t index)
+      : s_(search), cause_(winner.causes[index]),
+        whitener_(winner.noise, winner.predicted, search.blocks, search.campaign().nuisance) {
+    MatrixXd known = search.base.jacobian;
+    append_columns(known, search.trained());
+    for (std::size_t i = 0; i < winner.effects.size(); ++i)
+      if (i != index)
+        append_columns(known, search.sensitivities()[place_of(winner.effects[i])].asDiagonal() *
+                                  amplitude_basis(winner.effects[i], search.candidates.by_symbol));
+    whitener_.apply(known);
+    known_ = orthonormal(known);
+    MatrixXd target = to_explain(search, winner, index);
+    whitener_.apply(target);
+    target_ = target.col(0) - known_ * (known_.transpose() * target.col(0));
+  }
+
+  std::vector<Start> run() const {
+    std::vector<Start> starts;
+    const auto shapes = shapes_of(cause_, s_.candidates);
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (s_.sensitivities()[p].size() == 0) continue;
+      add_closed(shapes, p, starts);
+      if (cause_.columns.size() < 3) add_smooth(p, starts);
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Start& a, const Start& b) { return a.explained > b.explained; });
+    return starts;
+  }
+
+private:
+  void add_closed(const std::vector<GridShape>& shapes, std::size_t place,
+                  std::vector<Start>& starts) const {
+    std::map<const EffectForm*, Start> best;
+    MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      basis.col(static_cast<Index>(i)) =
+          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[place]);
+    whitener_.apply(basis);
+    basis -= known_ * (known_.transpose() * basis).eval();
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const auto column = basis.col(static_cast<Index>(i));
+      const double size = column.squaredNorm(), along = column.dot(target_);
+      if (!(size > 0)) continue;
+      Start start{shapes[i].effect, along * along / size};
+      start.effect.acts_on = places[place];
+      start.effect.tau_scale_MPa = s_.tau_scale_MPa;
+      if (!start.effect.form->categorical)
+        start.effect.parameters[0] = std::clamp(along / size, -0.5, 0.5);
+      const auto [at, is_new] = best.try_emplace(start.effect.form, start);
+      if (!is_new && start.explained > at->second.explained) at->second = start;
+    }
+    for (auto& [form, start] : best)
+      starts.push_back(std::move(start));
+  }
+
+  // With the stiffness that the residual asks for.
+  void add_smooth(std::size_t place, std::vector<Start>& starts) const {
+    Option option = option_of(s_, cause_, smooth_effect(s_, cause_, places[place]));
+    if (!option.effect.form->penalty) return; // a text column has one form
+    whitener_.apply(option.basis);
+    const SmoothFit fit = fit_smooth(target_, option.basis, option.penalty, known_);
+    Start start{std::move(option.effect), fit.without - fit.criterion};
+    start.effect.stiffness = fit.stiffness;
+    set_fitted(start.effect, std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
+    starts.push_back(std::move(start));
+  }
+
+  const Search& s_;
+  const Cause& cause_;
+  Whitener whitener_;
+  MatrixXd known_;
+  VectorXd target_;
+};
+
+} // namespace
+
+std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
+  std::vector<Start> starts = FormStarts(search, winner, index).run();
+  std::map<std::string, std::size_t> tried;
+  std::erase_if(starts,
+                [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
+  std::vector<Rival> rivals(starts.size());
+  parallel_for(starts.size(), [&](std::size_t i) {
+    std::vector<PlacedEffect> effects = winner.effects;
+    effects[index] = starts[i].effect;
+    rivals[i] = fit_rival(search.campaign(), winner, std::move(effects), winner.causes,
+                          winner.noise, NoiseSearch::kept);
+    if (starts[i].effect.form->penalty) rivals[i].penalised -= smooth_margin;
+    rivals[i].penalised -= place_margins[place_of(starts[i].effect)];
+  });
+  rivals.push_back(winner);
+  rivals.back().penalised -= place_margins[place_of(winner.effects[index])];
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
+  return rivals;
+}
+
+} // namespace frictab

@@ -1,0 +1,25 @@
+// Which quantity explains what a screening found, and in which form?
+#pragma once
+
+#include "trace/search.h"
+
+namespace frictab {
+
+// Rivals with one more effect than `search.last()`, one per cause, best first, all under one noise
+// model, which was fitted with the leading direction in. Causes are compared by penalised smooths
+// (restricted likelihood), so that the choice does not hang on a form; short-listed are those whose
+// statistic is near the best, what they may form with inputs of the law, and with what is in.
+std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
+                                const NoiseModel& noise);
+
+// The last effect of `winner` in every closed form that its columns allow and in the places where
+// it may act; a closed form takes the place of a smooth where it is as good within the cost of
+// `smooth_margin` of penalised log likelihood. Best first; `index`: which effect.
+std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index);
+
+inline constexpr double smooth_margin = 3;
+
+// The effect with which a cause is compared: a spline, a surface, one factor per level, ...
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on);
+
+} // namespace frictab

@@ -1,0 +1,224 @@
+// Nested cross-validation decides how many effects there are; validation may veto them.
+#include "trace/delivery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include "calibrate/comparison.h"
+#include "calibrate/metrics.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double apart_level = 1e-3; // p-value at which validation is another world
+
+class Deliverer {
+public:
+  Deliverer(const Search& search, Trace& trace) : s_(search), in_(search.input), t_(trace) {}
+
+  Delivery run() {
+    t_.as_calibrated = {in_.fit.training, in_.fit.validation};
+    const std::size_t found = s_.findings.size();
+    NestedErrors::Best best;
+    if (found > 0) {
+      d_.nested = nested_errors(s_);
+      best = d_.nested.best();
+      const std::size_t shown = best.effects > 0 ? best.effects : found;
+      const NestedErrors::Gain gain = d_.nested.gain(shown, best.weights);
+      t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score, gain.score_se, found};
+    }
+    use(best.effects, best.weights);
+    drop_contradicted();
+    judge();
+    if (!d_.findings.empty() && by_validation() && t_.improvement.interval.high < 0)
+      take_all_back();
+    add_leads();
+    return std::move(d_);
+  }
+
+private:
+  Rival weighted(const Rival& rival) const {
+    return weights_ == 0 ? rival : with_weights(s_.campaign(), rival, rows_alike(rival.noise));
+  }
+
+  void use(std::size_t effects, std::size_t weights) {
+    weights_ = weights;
+    d_.findings.resize(effects);
+    std::iota(d_.findings.begin(), d_.findings.end(), 0);
+    d_.baseline = weighted(s_.base);
+    d_.rival = effects == 0                    ? d_.baseline
+               : effects == s_.findings.size() ? weighted(s_.last())
+                                               : weighted(s_.findings[effects - 1].rival);
+  }
+
+  Metrics errors(const Dataset& data, const Rival& rival) const {
+    return metrics(data.values("tau_R_MPa"), predict(s_.model_of(rival), data), data.first_row,
+                   in_.bootstrap, in_.seed);
+  }
+
+  bool by_validation() const { return in_.validation.experiments.size() >= enough_validation; }
+
+  std::vector<ErrorSums> on_validation(const Rival& rival) const {
+    return error_sums(in_.validation.values("tau_R_MPa"),
+                      predict(s_.model_of(rival), in_.validation), in_.validation.first_row);
+  }
+
+  // What `with` gains against `without` on the same tests.
+  Difference gained(const std::vector<ErrorSums>& with,
+                    const std::vector<ErrorSums>& without) const {
+    const LawErrors laws[] = {{"after", with}, {"before", without}};
+    const Comparisons compared = compare(laws, in_.bootstrap, in_.seed);
+    return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
+  }
+
+  // Effect by effect: what the validation tests say is worse than nothing goes.
+  void drop_contradicted() {
+    if (!by_validation()) {
+      for (const std::size_t f : d_.findings)
+        d_.gain_MPa.push_back(nested_mae(f) - nested_mae(f + 1));
+      return;
+    }
+    for (std::size_t i = 0; i < d_.findings.size();) {
+      const Rival without = weighted(without_effect(s_.campaign(), d_.rival, i));
+      const Difference gain = gained(on_validation(d_.rival), on_validation(without));
+      if (gain.interval.high < 0) {
+        contradictions_[d_.findings[i]] = contradiction(gain);
+        d_.rival = without;
+        d_.findings.erase(d_.findings.begin() + static_cast<long>(i));
+        d_.gain_MPa.clear();
+        i = 0;
+        continue;
+      }
+      d_.gain_MPa.push_back(gain.value_MPa);
+      ++i;
+    }
+  }
+
+  double nested_mae(std::size_t effects) const {
+    return metrics(d_.nested.sums[weights_][effects], 0, in_.seed).mae_MPa;
+  }
+
+  // On the validation tests, or on left-out ones.
+  void judge() {
+    const bool nested = !by_validation() && d_.nested.folds > 0;
+    if (nested) t_.unseen = "nested_cross_validation";
+    const auto unseen = [&](const Rival& rival, std::size_t effects) {
+      return nested ? d_.nested.sums[weights_][effects] : on_validation(rival);
+    };
+    const std::vector<ErrorSums> with = unseen(d_.rival, d_.findings.size()),
+                                 without = unseen(d_.baseline, 0);
+    t_.before = {errors(in_.training, d_.baseline), metrics(without, in_.bootstrap, in_.seed)};
+    t_.after = t_.before;
+    if (d_.findings.empty()) return;
+    t_.after = {errors(in_.training, d_.rival), metrics(with, in_.bootstrap, in_.seed)};
+    t_.improvement = gained(with, without);
+  }
+
+  static std::string contradiction(const Difference& gain) {
+    return fmt::format(
+        "contradicted by the validation tests: {:.3g} MPa worse there (95 %: {:.3g} to {:.3g}); "
+        "another campaign, or not the cause but something that went with it in training",
+        -gain.value_MPa, -gain.interval.high, -gain.interval.low);
+  }
+
+  void take_all_back() {
+    for (const std::size_t f : d_.findings)
+      contradictions_[f] = contradiction(t_.improvement);
+    t_.improvement = {};
+    d_.gain_MPa.clear();
+    use(0, 0);
+    judge();
+  }
+
+  void add_leads() {
+    for (std::size_t i = 0; i < s_.findings.size(); ++i) {
+      if (std::find(d_.findings.begin(), d_.findings.end(), i) != d_.findings.end()) continue;
+      const Finding& finding = s_.findings[i];
+      Lead lead = lead_of(s_, finding.rival.causes.back());
+      lead.form = finding.rival.effects.back().form->name;
+      lead.between = finding.between;
+      lead.p_value = finding.p_value;
+      const auto against = contradictions_.find(i);
+      lead.why = against == contradictions_.end() ? does_not_pay() : against->second;
+      t_.leads.push_back(std::move(lead));
+    }
+  }
+
+  std::string does_not_pay() const {
+    return fmt::format("does not predict tests that the search has not seen any better: error "
+                       "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
+                       "{} folds",
+                       -100 * t_.nested.gain, 100 * t_.nested.std_error, t_.nested.score,
+                       t_.nested.score_se, t_.nested.folds);
+  }
+
+  const Search& s_;
+  const TraceInput& in_;
+  Trace& t_;
+  Delivery d_;
+  std::size_t weights_ = 0;
+  std::map<std::size_t, std::string> contradictions_; // by finding
+};
+
+} // namespace
+
+Delivery deliver(const Search& search, Trace& trace) {
+  return Deliverer(search, trace).run();
+}
+
+Lead lead_of(const Search& search, const Cause& cause) {
+  Lead lead;
+  for (const std::size_t c : cause.columns) {
+    const CandidateColumn& column = search.candidates.columns[c];
+    for (const std::string& name : column.recorded)
+      if (std::find(lead.columns.begin(), lead.columns.end(), name) == lead.columns.end())
+        lead.columns.push_back(name);
+    if (column.derived) lead.derived += (lead.derived.empty() ? "" : ", ") + column.name;
+  }
+  return lead;
+}
+
+WorldsApart worlds_apart(const Search& search, const Rival& rival) {
+  const TraceInput& in = search.input;
+  const std::size_t tests = in.validation.experiments.size();
+  WorldsApart apart;
+  if (tests < 3) return apart;
+  const Model model = search.model_of(rival);
+  const auto tau = in.validation.values("tau_R_MPa");
+  const std::vector<double> predicted = predict(model, in.validation);
+  const TestGains seen = test_gains(in.training.values("tau_R_MPa"), predict(model, in.training),
+                                    in.training.first_row);
+  const TestGains unseen = test_gains(tau, predicted, in.validation.first_row);
+  const double free = std::max(1.0, static_cast<double>(seen.gain.size()) - rival.freedom);
+  const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
+  const auto n = static_cast<double>(tests);
+  const double own = square(unseen.gain) / (n - 1);
+  const double of_law = square(seen.gain) / free;
+  // (What the parameters leave open, as if the validation tests were like the training tests.)
+  const double open = of_law * std::max(1.0, rival.freedom) / static_cast<double>(seen.gain.size());
+  const double se = std::sqrt(std::max(own, of_law) / n + open);
+  const double shift = unseen.gain.mean() - seen.gain.mean();
+  const double degrees = std::min(free, n - 1);
+  apart.p_value = 2 * gsl_cdf_tdist_Q(std::abs(shift) / std::max(se, 1e-300), degrees);
+  apart.found = apart.p_value < apart_level;
+  double mean = 0;
+  for (const double value : predicted)
+    mean += value / static_cast<double>(predicted.size());
+  const double t = gsl_cdf_tdist_Qinv(0.025, degrees);
+  apart.share = std::expm1(shift);
+  apart.shift_MPa = mean * apart.share;
+  apart.interval = {mean * std::expm1(shift - t * se), mean * std::expm1(shift + t * se)};
+  return apart;
+}
+
+} // namespace frictab

@@ -1,0 +1,164 @@
+// A search for every fold, its laws evaluated on what it has not seen.
+#include "trace/nested.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "calibrate/folds.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t all_alone = 40, many_folds = 20;
+constexpr double least_of_law = 1e-3;
+
+VectorXd relative_errors(const Dataset& data, const std::vector<double>& predicted) {
+  const auto measured = data.values("tau_R_MPa");
+  VectorXd errors(static_cast<Index>(data.experiments.size()));
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    double sum = 0;
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      const double law = std::max(predicted[i], 1e-300);
+      sum += std::abs(std::log(std::max(measured[i] / law, least_of_law)));
+    }
+    errors(static_cast<Index>(e)) =
+        sum / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
+  }
+  return errors;
+}
+
+// Log density per test, but for a constant.
+VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const NoiseModel& noise,
+                double usual_rows) {
+  Blocks blocks = make_blocks(data);
+  blocks.usual_rows = usual_rows; // what the noise model's white part belongs to
+  const VectorXd law = blocks.mean(predicted);
+  MatrixXd residual = blocks.mean(data.values("tau_R_MPa")) - law;
+  const Whitener whitener(noise, law, blocks);
+  whitener.apply(residual);
+  VectorXd score = -0.5 * whitener.log_det();
+  for (std::size_t e = 0; e < blocks.experiments(); ++e)
+    score(static_cast<Index>(e)) -=
+        0.5 * residual.col(0)
+                  .segment(static_cast<Index>(blocks.first[e]),
+                           static_cast<Index>(blocks.first[e + 1] - blocks.first[e]))
+                  .squaredNorm();
+  return score;
+}
+
+// Of one fold, for each weighting and number of effects: predictions of the left-out rows.
+struct FoldErrors {
+  std::vector<std::vector<ErrorSums>> sums[2];
+  std::vector<VectorXd> relative[2], score[2];
+};
+
+FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset& left_out) {
+  const TraceInput& input = all.input;
+  const std::size_t most = all.findings.size();
+  TraceOptions options = input.options;
+  options.order = all.candidates.order_column; // a part of the tests is not numbered from 1 to n
+  const TraceInput part{training, input.validation, input.fit,
+                        options,  input.bootstrap,  input.seed};
+  const auto search = search_effects(part, {199, 299, &all.base.noise});
+  FoldErrors errors;
+  const auto evaluate = [&](const Rival& rival, std::size_t weights) {
+    const std::vector<double> predicted = predict(search->model_of(rival), left_out);
+    errors.sums[weights].push_back(
+        error_sums(left_out.values("tau_R_MPa"), predicted, left_out.first_row));
+    errors.relative[weights].push_back(relative_errors(left_out, predicted));
+    errors.score[weights].push_back(
+        scores(left_out, predicted, rival.noise, search->blocks.usual_rows));
+  };
+  for (std::size_t k = 0; k <= most; ++k) {
+    const std::size_t have = std::min(k, search->findings.size());
+    if (have < k) { // as with fewer
+      for (const std::size_t w : {0, 1}) {
+        errors.sums[w].push_back(errors.sums[w].back());
+        errors.relative[w].push_back(errors.relative[w].back());
+        errors.score[w].push_back(errors.score[w].back());
+      }
+      continue;
+    }
+    const Rival& rival = k == 0                         ? search->base
+                         : k == search->findings.size() ? search->last()
+                                                        : search->findings[k - 1].rival;
+    evaluate(rival, 0);
+    evaluate(with_weights(search->campaign(), rival, rows_alike(rival.noise)), 1);
+  }
+  return errors;
+}
+
+} // namespace
+
+NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights) const {
+  const VectorXd score_gain = score[weights][effects] - score[weights][0];
+  const VectorXd error_gain = relative[weights][0] - relative[weights][effects];
+  const auto n = static_cast<double>(score_gain.size());
+  if (n < 2) return {};
+  const auto std_error = [&](const VectorXd& x) {
+    return std::sqrt((x.array() - x.mean()).square().sum() / (n - 1) / n);
+  };
+  return {score_gain.mean(), std_error(score_gain), error_gain.mean(), std_error(error_gain),
+          static_cast<std::size_t>(score_gain.size())};
+}
+
+NestedErrors::Best NestedErrors::best() const {
+  constexpr double clearly = 0.96; // of the error, that plain weights must reach to be used
+  Best found;
+  double most = 0;
+  for (const std::size_t w : {0, 1}) {
+    if (found.effects > 0) break; // plain weights only where the noise model's let nothing pay
+    for (std::size_t k = 1; k < lengths(); ++k)
+      if (const Gain gained = gain(k, w); gained.pays() && gained.size() > most) {
+        most = gained.size();
+        found = {k, w};
+      }
+  }
+  const bool plain =
+      relative[1][found.effects].mean() < clearly * relative[0][found.effects].mean();
+  if (plain && (found.effects == 0 || gain(found.effects, 1).pays())) found.weights = 1;
+  return found;
+}
+
+NestedErrors nested_errors(const Search& search) {
+  const TraceInput& input = search.input;
+  const std::size_t most = search.findings.size();
+  const std::size_t tests = input.training.experiments.size();
+  const std::size_t folds = tests <= all_alone ? tests : many_folds;
+  const auto fold = experiment_folds(tests, folds, input.seed, 0);
+  std::vector<FoldErrors> parts(folds);
+  std::vector<std::vector<std::size_t>> out(folds);
+  Progress progress("tracing without some tests", folds);
+  parallel_for(folds, [&](std::size_t f) {
+    std::vector<std::size_t> kept;
+    for (std::size_t e = 0; e < tests; ++e)
+      (fold[e] == f ? out[f] : kept).push_back(e);
+    parts[f] = fold_errors(search, input.training.subset(kept), input.training.subset(out[f]));
+    progress.tick();
+  });
+  NestedErrors all;
+  all.folds = folds;
+  for (const std::size_t w : {0, 1}) {
+    all.sums[w].assign(most + 1, std::vector<ErrorSums>(tests));
+    all.relative[w].assign(most + 1, VectorXd(static_cast<Index>(tests)));
+    all.score[w] = all.relative[w];
+    for (std::size_t f = 0; f < folds; ++f)
+      for (std::size_t k = 0; k <= most; ++k)
+        for (std::size_t i = 0; i < out[f].size(); ++i) {
+          all.sums[w][k][out[f][i]] = parts[f].sums[w][k][i];
+          const auto to = static_cast<Index>(out[f][i]), from = static_cast<Index>(i);
+          all.relative[w][k](to) = parts[f].relative[w][k](from);
+          all.score[w][k](to) = parts[f].score[w][k](from);
+        }
+  }
+  return all;
+}
+
+} // namespace frictab

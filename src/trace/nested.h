@@ -1,0 +1,53 @@
+// What the search is worth on tests it has not seen: the whole of it - columns, forms, noise - once
+// for every part of the tests that is left out.
+#pragma once
+
+#include <algorithm>
+
+#include "calibrate/resampling.h"
+#include "trace/search.h"
+
+namespace frictab {
+
+// Errors on left-out tests, for the law with its first 0, 1, 2, ... effects, each as the search of
+// that fold found them (its last law, where it found fewer).
+struct NestedErrors {
+  // [weights: 0 the noise model's, 1 all rows alike][number of effects][test]
+  std::vector<std::vector<ErrorSums>> sums[2];
+  std::vector<Eigen::VectorXd> relative[2]; // mean of |ln(measured / predicted)| over a test's rows
+  // Log density of the test's block means under the fold's law and noise model: a shape that is
+  // right within tests shows in it, although tests lie high or low as a whole.
+  std::vector<Eigen::VectorXd> score[2];
+  std::size_t folds = 0;
+
+  std::size_t lengths() const { return sums[0].size(); }
+  // Mean over tests of what the first `effects` gain against none, with standard errors. They pay
+  // where the error falls by more than a standard error, or, with tests enough to know that error
+  // by, where the score gains as much and the error does not grow by half of one.
+  struct Gain {
+    double score = 0, score_se = 0;
+    double error = 0, error_se = 0; // relative, smaller by so much
+    std::size_t tests = 0;
+    bool pays() const {
+      constexpr std::size_t enough = 20;
+      return error > error_se || (tests >= enough && score > score_se && error > -0.5 * error_se);
+    }
+    // In standard errors, of both.
+    double size() const {
+      return error / std::max(error_se, 1e-300) + score / std::max(score_se, 1e-300);
+    }
+  };
+  Gain gain(std::size_t effects, std::size_t weights) const;
+  // The number of effects that predicts left-out tests best, with the weights that do; 0 where the
+  // gain is no more than a standard error.
+  struct Best {
+    std::size_t effects = 0, weights = 0;
+  };
+  Best best() const;
+};
+
+// Leave-one-test-out, or 20 folds above 40 tests. `all`: the search on all tests, which says how
+// many effects to look at and where to start the noise.
+NestedErrors nested_errors(const Search& all);
+
+} // namespace frictab

@@ -1,0 +1,158 @@
+// Verdict, leads and the sentences about what is left.
+#include "trace/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "trace/delivery.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr std::size_t most_leads = 6;
+
+// "12.6 %", "0.034 %": three digits.
+std::string percent(double share) {
+  return fmt::format("{:.3g} %", 100 * share);
+}
+
+bool is_listed(const Trace& trace, const Lead& lead) {
+  const auto same = [&](const auto& other) {
+    return other.columns == lead.columns && other.derived == lead.derived;
+  };
+  return std::any_of(trace.leads.begin(), trace.leads.end(), same) ||
+         std::any_of(trace.effects.begin(), trace.effects.end(), same);
+}
+
+void add_lead(Trace& trace, Lead lead) {
+  if (trace.leads.size() < most_leads && !is_listed(trace, lead))
+    trace.leads.push_back(std::move(lead));
+}
+
+// How many tests it takes for a p-value at which an effect is added.
+std::string too_few(const Trace& trace, std::size_t tests) {
+  const double alpha = trace.alpha;
+  if (trace.least_p_value <= alpha) return "";
+  return fmt::format("; {} tests can give no p below {:.2g}: it takes {:.0f} that show it to add "
+                     "an effect",
+                     tests, trace.least_p_value, std::ceil(1 - std::log2(alpha)));
+}
+
+void add_between_leads(Trace& trace, const Search& search) {
+  for (const TestShape& shape : search.last_between.leads) {
+    Lead lead = lead_of(search, shape.cause);
+    lead.form = shape.form;
+    lead.between = true;
+    lead.p_value = search.last_between.last_p_value;
+    lead.why = fmt::format("p = {:.2g} over all columns between tests", lead.p_value);
+    add_lead(trace, std::move(lead));
+  }
+}
+
+// Of every cause its best direction, strongest first.
+void add_within_leads(Trace& trace, const Search& search) {
+  std::vector<const Direction*> sorted;
+  for (const Direction& d : search.last_screen.directions)
+    sorted.push_back(&d);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Direction* a, const Direction* b) {
+    return std::abs(a->statistic) > std::abs(b->statistic);
+  });
+  const std::size_t wanted = trace.leads.size() + 3;
+  for (std::size_t i = 0; i < sorted.size() && trace.leads.size() < wanted; ++i) {
+    const Direction& d = *sorted[i];
+    const GridShape& shape = search.shapes[d.cause][d.shape];
+    Lead lead = lead_of(search, search.causes[d.cause]);
+    lead.form = shape.effect.form->name;
+    lead.p_value = search.last_p_value;
+    const Eigen::VectorXf& x = shape.direction;
+    const double amplitude = d.statistic / std::max(d.size, 1e-30f);
+    lead.share = amplitude * static_cast<double>(x.maxCoeff() - x.minCoeff());
+    if (!(std::abs(lead.share) < 10)) lead.share = 0; // hardly there in these data
+    lead.why = fmt::format("p = {:.2g} over all that changes within tests{}", search.last_p_value,
+                           too_few(trace, search.blocks.experiments()));
+    add_lead(trace, std::move(lead));
+  }
+}
+
+bool scatters_more(const Trace& t) {
+  return t.repeatability && t.scatter_at_least > *t.repeatability;
+}
+
+// (Few repeats cannot refute much: what is left has to be about as large as well.)
+bool agrees_with_repeats(const Trace& t) {
+  constexpr double about = 1.2;
+  return t.repeatability && !scatters_more(t) && t.scatter_between <= about * *t.repeatability;
+}
+
+std::string scatter_sentence(const Trace& t) {
+  std::string text = fmt::format("tests differ by {} that nothing explains (95 %: {} to {})",
+                                 percent(t.scatter_between), percent(t.scatter_interval.low),
+                                 percent(t.scatter_interval.high));
+  if (std::isfinite(t.smallest_seen))
+    text += fmt::format("; a column that splits the tests in halves would have been seen (80 %) "
+                        "from {} on",
+                        percent(t.smallest_seen));
+  if (!t.repeatability)
+    text += "; whether that is more than the rig repeats is not known: repeat tests, or give "
+            "trace.repeatability";
+  return text;
+}
+
+std::string order_sentence(const OrderStructure& order) {
+  return fmt::format("friction follows the order of tests ({}), {:.2g} MPa or {} root mean square: "
+                     "drift, wear or batch; no recorded column explains it beside that; the law "
+                     "holds it at {}",
+                     order.column, order.size_MPa, percent(order.share), order.reference);
+}
+
+std::string worlds_sentence(const WorldsApart& worlds) {
+  return fmt::format("the validation tests lie {:+.3g} MPa beside the training tests as a whole "
+                     "(95 %: {:+.3g} to {:+.3g} MPa, {:+.3g} %): another lubricant, tool, rig or "
+                     "unit; errors on them say nothing about a law until that is settled",
+                     worlds.shift_MPa, worlds.interval.low, worlds.interval.high,
+                     100 * worlds.share);
+}
+
+std::string excess_sentence(const Trace& t) {
+  return fmt::format("tests scatter by {} (at least {}, with 95 % confidence), more than the "
+                     "repeatability of {} ({}): something that no column recorded differs between "
+                     "them",
+                     percent(t.scatter_between), percent(t.scatter_at_least),
+                     percent(*t.repeatability),
+                     t.repeatability_from == "given" ? "given" : "from repeated tests");
+}
+
+} // namespace
+
+void add_leads(Trace& trace, const Search& search) {
+  add_between_leads(trace, search);
+  if (!search.negligible()) add_within_leads(trace, search);
+}
+
+void add_verdict(Trace& t, const Search& search) {
+  const bool excess = scatters_more(t);
+  const bool contradicted =
+      t.effects.empty() && std::any_of(t.leads.begin(), t.leads.end(), [](const Lead& lead) {
+        return lead.why.starts_with("contradicted");
+      });
+  t.remaining.p_value = std::min(search.last_p_value, search.last_between.last_p_value);
+  t.remaining.structure = t.order.found || excess || t.worlds.found || contradicted;
+  std::vector<std::string> notes;
+  if (t.worlds.found) notes.push_back(worlds_sentence(t.worlds));
+  if (t.order.found) notes.push_back(order_sentence(t.order));
+  if (excess) notes.push_back(excess_sentence(t));
+  if (contradicted)
+    notes.push_back("what the training tests show, the validation tests contradict");
+  if (!excess) notes.push_back(scatter_sentence(t));
+  t.remaining.note = join(notes, "; ");
+  t.verdict = !t.effects.empty()       ? Verdict::effect_added
+              : t.remaining.structure  ? Verdict::unexplained_structure
+              : agrees_with_repeats(t) ? Verdict::nothing_missing
+                                       : Verdict::nothing_found;
+}
+
+} // namespace frictab
