@@ -34,7 +34,8 @@ public:
     fitted_ = fitted.cols();
     columns_.resize(data.residual.size(), fitted_ + 3);
     columns_.col(0) = data.residual.array() / d;
-    columns_.middleCols(1, fitted_) = fitted * std::sqrt(static_cast<double>(fitted.rows()));
+    if (fitted_ > 0)
+      columns_.middleCols(1, fitted_) = fitted * std::sqrt(static_cast<double>(fitted.rows()));
     columns_.col(fitted_ + 1) = data.tau.array() / d;
     columns_.col(fitted_ + 2) = data.tau.array() * data.blocks.position.array() / d;
     log_d_ = d.log().sum();
