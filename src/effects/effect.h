@@ -50,7 +50,8 @@ struct EffectInput {
 struct PlacedEffect {
   const EffectForm* form = nullptr;
   std::vector<EffectInput> inputs; // as many as the form takes: x, x2, x3
-  // mu: the tabulated piece, before any limit | m: the limit | tau: added, in units of tau_scale
+  // mu: the tabulated piece, before any limit | m: the limit | mu+m: both, where a law has a limit
+  // of its own | tau: added, in units of tau_scale
   std::string acts_on = "mu";
   std::vector<double> parameters; // as parameters_of lists them
   double tau_scale_MPa = 1;

@@ -62,13 +62,16 @@ Factors collect(std::span<const PlacedEffect> effects) {
   Factors all;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Expr factor = factor_of(effects[i], prefix_of(i));
-    if (effects[i].acts_on == "mu") {
+    const std::string& place = effects[i].acts_on;
+    if (place == "mu" || place == "mu+m") {
       all.mu = all.on_mu ? all.mu * factor : factor;
       all.on_mu = true;
-    } else if (effects[i].acts_on == "m") {
+    }
+    if (place == "m" || place == "mu+m") {
       all.m = all.on_m ? all.m * factor : factor;
       all.on_m = true;
-    } else {
+    }
+    if (place == "tau") {
       const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * fading(effects[i]);
       all.tau = all.on_tau ? all.tau + shift : shift;
       all.on_tau = true;
@@ -200,7 +203,8 @@ std::string effect_text(const PlacedEffect& effect) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
       text += fmt::format("; {} = {:.4g}", parameters[i].name, effect.parameters[i]);
   }
-  return effect.acts_on == "tau" ? text : text + "; acts on " + effect.acts_on;
+  if (effect.acts_on == "tau") return text;
+  return text + "; acts on " + (effect.acts_on == "mu+m" ? "mu and m" : effect.acts_on);
 }
 
 std::string columns_text(const PlacedEffect& effect) {
@@ -211,8 +215,11 @@ std::string columns_text(const PlacedEffect& effect) {
 }
 
 bool has_limit(const Law& law, const Conventions& conventions) {
-  return law.quantity == "mu" &&
-         (own_limit(law, law.build(conventions)) || conventions.shear_limit);
+  return has_own_limit(law, conventions) || (law.quantity == "mu" && conventions.shear_limit);
+}
+
+bool has_own_limit(const Law& law, const Conventions& conventions) {
+  return law.quantity == "mu" && own_limit(law, law.build(conventions));
 }
 
 Law extended_law(const Law& law, const Conventions& conventions, std::span<const double> start,

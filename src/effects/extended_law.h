@@ -38,6 +38,8 @@ std::string columns_text(const PlacedEffect& effect);
 
 // Whether an effect on the limit m is another one than on mu: not for laws that are m k themselves.
 bool has_limit(const Law& law, const Conventions& conventions);
+// Whether that limit is the law's own, m k: an effect may act on mu and on m alike.
+bool has_own_limit(const Law& law, const Conventions& conventions);
 
 // The law with all effects, named `name`. Parameters: the law's own, then per effect its fitted
 // ones as e1_a, e1_x0, e2_a, ...; where an effect acts on a limit that the law does not have, the

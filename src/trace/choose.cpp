@@ -24,7 +24,7 @@ constexpr std::size_t most_joined = 3;   // of them, tried together with other c
 constexpr std::size_t fitted_rivals = 6; // of which a set is made
 constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
 // Of penalised log likelihood: where the data cannot tell places apart, an effect acts on mu.
-constexpr std::array place_margins = {0.0, 0.5, 1.5};
+constexpr std::array<double, places.size()> place_margins = {0.0, 0.5, 1.5, 0.25};
 constexpr std::size_t forms_tried = 6; // in each place
 
 // One way to explain the residual, linear in its coefficients.
@@ -174,6 +174,16 @@ Rival rival_of(const Search& search, const Option& option, const NoiseModel& noi
 }
 
 } // namespace
+
+PlacedEffect plain_effect(const Search& search, const Cause& cause) {
+  const bool text = !search.candidates.columns[cause.columns[0]].levels.empty();
+  const char* form = cause.several() ? text ? "category_slope" : "product"
+                     : text          ? "category"
+                                     : "linear";
+  const bool both = search.sensitivities()[on_both].size() > 0;
+  return start_effect(*find_effect(form), cause, search.candidates, places[both ? on_both : on_mu],
+                      search.tau_scale_MPa);
+}
 
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on) {
   const Candidates& candidates = search.candidates;

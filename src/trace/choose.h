@@ -19,6 +19,9 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
 
 inline constexpr double smooth_margin = 3;
 
+// One parameter, or one per level: what is between tests is fitted with at first.
+PlacedEffect plain_effect(const Search& search, const Cause& cause);
+
 // The effect with which a cause is compared: a spline, a surface, one factor per level, ...
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on);
 

@@ -97,11 +97,12 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
     return VectorXd((up - on.predict(at)) / (2 * step));
   };
   Sensitivities all;
-  all[0] = change("mu");
+  all[on_mu] = change("mu");
   if (has_limit(campaign.law, campaign.conventions)) {
     all[1] = change("m");
     if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
   }
+  if (has_own_limit(campaign.law, campaign.conventions)) all[on_both] = change("mu+m");
   all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
   return all;
 }

@@ -112,7 +112,8 @@ private:
     Index next = 0;
     for (std::size_t s = 0; s < shapes.size(); ++s)
       for (std::size_t p = 0; p < places.size(); ++p) {
-        if (sensitivity_[p].size() == 0 || (p > 0 && shapes[s].effect.inputs.size() > 1)) continue;
+        const bool several = shapes[s].effect.inputs.size() > 1;
+        if (sensitivity_[p].size() == 0 || (several && p != on_mu && p != on_both)) continue;
         x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
         directions.push_back({cause, s, p});
       }
@@ -164,7 +165,7 @@ private:
   const ScreenInput& in_;
   MatrixXf q_, signs_;
   VectorXf residual_;
-  std::array<VectorXf, 3> sensitivity_;
+  std::array<VectorXf, places.size()> sensitivity_;
 };
 
 // A sum of scores over its standard deviation as the experiments themselves show it: where some

@@ -13,10 +13,14 @@
 
 namespace frictab {
 
-inline constexpr std::array<const char*, 3> places = {"mu", "m", "tau"};
+// Where an effect may act (PlacedEffect::acts_on). On mu and the limit alike only where a law has a
+// limit of its own: what lubricates worse does so before and behind saturation.
+inline constexpr std::array<const char*, 4> places = {"mu", "m", "tau", "mu+m"};
+inline constexpr std::size_t on_mu = 0, on_both = 3;
 
-// What tau_R changes, per block, where an effect's factor changes by 1: on mu, on the limit, added.
-using Sensitivities = std::array<Eigen::VectorXd, 3>; // of size 0 where there is no such place
+// What tau_R changes, per block, where an effect's factor changes by 1, in each place.
+using Sensitivities =
+    std::array<Eigen::VectorXd, places.size()>; // of size 0 where there is no such place
 
 struct Direction {
   std::size_t cause = 0; // in the list of causes

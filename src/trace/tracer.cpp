@@ -61,7 +61,7 @@ private:
     std::vector<Cause> causes = s_.last().causes;
     const std::size_t before = effects.size();
     for (const BetweenFinding& finding : result.found) {
-      effects.push_back(plain_effect(finding.shape.cause));
+      effects.push_back(plain_effect(s_, finding.shape.cause));
       causes.push_back(finding.shape.cause);
     }
     s_.move_to(
@@ -77,15 +77,6 @@ private:
       s_.findings.push_back(std::move(finding));
   }
 
-  // One parameter, or one per level: the form comes later.
-  PlacedEffect plain_effect(const Cause& cause) const {
-    const bool text = !s_.candidates.columns[cause.columns[0]].levels.empty();
-    const char* form = cause.several() ? text ? "category_slope" : "product"
-                       : text          ? "category"
-                                       : "linear";
-    return start_effect(*find_effect(form), cause, s_.candidates, "mu", s_.tau_scale_MPa);
-  }
-
   Finding finding_of(const BetweenFinding& found, std::size_t index) const {
     Finding finding;
     finding.between = true;
@@ -95,7 +86,7 @@ private:
       if (finding.others.size() >= most_rivals) break;
       Rival other = finding.rival;
       std::vector<PlacedEffect> effects = other.effects;
-      effects.back() = plain_effect(cause);
+      effects.back() = plain_effect(s_, cause);
       std::vector<Cause> causes = other.causes;
       causes.back() = cause;
       finding.others.push_back(

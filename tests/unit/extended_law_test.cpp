@@ -65,7 +65,7 @@ double tau(const Law& law, double sigma, double column, double second = 0.25) {
 TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
   for (const Law& law : all_laws())
     for (const EffectForm& form : all_effects())
-      for (const char* place : {"mu", "m", "tau"}) {
+      for (const char* place : {"mu", "m", "mu+m", "tau"}) {
         const PlacedEffect neutral[] = {effect(form.name.c_str(), place, 0)};
         const Law extended = extended_law(law, {}, starts_of(law), neutral, "extended");
         for (const double sigma : {0.0, 300.0, 900.0, 2700.0})
@@ -98,6 +98,15 @@ TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
   const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
   EXPECT_EQ(tau(extended, 100, 55), tau(orowan, 100, 55));
   EXPECT_NEAR(tau(extended, 5000, 55) / tau(orowan, 5000, 55), 1.25, 1e-12);
+}
+
+TEST(ExtendedLaw, AnEffectOnMuAndTheLimitActsOnTheLawAsAWhole) {
+  const Law& orowan = *find_law("orowan");
+  const PlacedEffect half[] = {effect("linear", "mu+m", 0.5)};
+  const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
+  EXPECT_EQ(extended.parameters.size(), orowan.parameters.size() + 1);
+  for (const double sigma : {100.0, 5000.0})
+    EXPECT_NEAR(tau(extended, sigma, 55) / tau(orowan, sigma, 55), 1.25, 1e-12) << sigma;
 }
 
 TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
