@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t all_alone = 40, many_folds = 20;
 constexpr double least_of_law = 1e-3;
+constexpr double score_freedom = 5; // of Student's t
 
 VectorXd relative_errors(const Dataset& data, const std::vector<double>& predicted) {
   const auto measured = data.values("tau_R_MPa");
@@ -34,7 +35,8 @@ VectorXd relative_errors(const Dataset& data, const std::vector<double>& predict
   return errors;
 }
 
-// Log density per test, but for a constant.
+// Log density per test, but for a constant: Student's t over the test as a whole, so that one test
+// for which a fold's noise model is too sure of itself does not outweigh all others.
 VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const NoiseModel& noise,
                 double usual_rows) {
   Blocks blocks = make_blocks(data);
@@ -44,12 +46,13 @@ VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const
   const Whitener whitener(noise, law, blocks);
   whitener.apply(residual);
   VectorXd score = -0.5 * whitener.log_det();
-  for (std::size_t e = 0; e < blocks.experiments(); ++e)
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    const auto size = static_cast<Index>(blocks.first[e + 1] - blocks.first[e]);
+    const double squares =
+        residual.col(0).segment(static_cast<Index>(blocks.first[e]), size).squaredNorm();
     score(static_cast<Index>(e)) -=
-        0.5 * residual.col(0)
-                  .segment(static_cast<Index>(blocks.first[e]),
-                           static_cast<Index>(blocks.first[e + 1] - blocks.first[e]))
-                  .squaredNorm();
+        0.5 * (score_freedom + static_cast<double>(size)) * std::log1p(squares / score_freedom);
+  }
   return score;
 }
 
@@ -97,9 +100,10 @@ FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset
 
 } // namespace
 
-NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights) const {
-  const VectorXd score_gain = score[weights][effects] - score[weights][0];
-  const VectorXd error_gain = relative[weights][0] - relative[weights][effects];
+NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights,
+                                      std::size_t before) const {
+  const VectorXd score_gain = score[weights][effects] - score[weights][before];
+  const VectorXd error_gain = relative[weights][before] - relative[weights][effects];
   const auto n = static_cast<double>(score_gain.size());
   if (n < 2) return {};
   const auto std_error = [&](const VectorXd& x) {
@@ -112,14 +116,10 @@ NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights) 
 NestedErrors::Best NestedErrors::best() const {
   constexpr double clearly = 0.96; // of the error, that plain weights must reach to be used
   Best found;
-  double most = 0;
   for (const std::size_t w : {0, 1}) {
     if (found.effects > 0) break; // plain weights only where the noise model's let nothing pay
     for (std::size_t k = 1; k < lengths(); ++k)
-      if (const Gain gained = gain(k, w); gained.pays() && gained.size() > most) {
-        most = gained.size();
-        found = {k, w};
-      }
+      if (gain(k, w).pays() && gain(k, w, found.effects).pays()) found = {k, w};
   }
   const bool plain =
       relative[1][found.effects].mean() < clearly * relative[0][found.effects].mean();

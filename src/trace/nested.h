@@ -21,9 +21,10 @@ struct NestedErrors {
   std::size_t folds = 0;
 
   std::size_t lengths() const { return sums[0].size(); }
-  // Mean over tests of what the first `effects` gain against none, with standard errors. They pay
-  // where the error falls by more than a standard error, or, with tests enough to know that error
-  // by, where the score gains as much and the error does not grow by half of one.
+  // Mean over tests of what the first `effects` gain against the first `before` of them, with
+  // standard errors. They pay where the error falls by more than a standard error, or, with tests
+  // enough to know that error by, where the score gains as much and the error does not grow by half
+  // of one.
   struct Gain {
     double score = 0, score_se = 0;
     double error = 0, error_se = 0; // relative, smaller by so much
@@ -32,14 +33,10 @@ struct NestedErrors {
       constexpr std::size_t enough = 20;
       return error > error_se || (tests >= enough && score > score_se && error > -0.5 * error_se);
     }
-    // In standard errors, of both.
-    double size() const {
-      return error / std::max(error_se, 1e-300) + score / std::max(score_se, 1e-300);
-    }
   };
-  Gain gain(std::size_t effects, std::size_t weights) const;
-  // The number of effects that predicts left-out tests best, with the weights that do; 0 where the
-  // gain is no more than a standard error.
+  Gain gain(std::size_t effects, std::size_t weights, std::size_t before = 0) const;
+  // So many effects that the next ones do not pay, with the weights that predict left-out tests
+  // best; 0 where none do.
   struct Best {
     std::size_t effects = 0, weights = 0;
   };
