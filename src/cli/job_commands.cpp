@@ -43,7 +43,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
 
 void all_stages(Pipeline& p) {
   p.calibrate();
-  p.trace(false);
+  p.trace();
   p.check_sizes();
   p.tabulate();
   p.generate();

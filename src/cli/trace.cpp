@@ -23,7 +23,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   return [arguments, &common] {
     std::string power;
     const int code = run_stages(arguments->file, common, [&](Pipeline& p) {
-      p.trace(true);
+      p.trace();
       if (arguments->power && !common.json)
         for (const Trace& trace : p.traces())
           power += power_text(trace);

@@ -75,10 +75,9 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
       }
   const double margin = 0.6 * (high - low);
   const PlacedEffect& placed = effect.placed;
-  const std::string what = placed.acts_on == "m" ? "factor on the limit"
-                           : placed.acts_on == "tau"
+  const std::string what = placed.acts_on == "tau"
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
-                               : "factor on mu";
+                               : "factor " + place_text(placed.acts_on);
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
@@ -160,26 +159,49 @@ std::string alternatives_of(const TracedEffect& effect) {
   }
   std::string text;
   if (!same.empty()) text += "These experiments cannot tell it from: " + same + ". ";
-  if (!effect.discriminating.empty())
-    text += "Would decide: " + svg::escape(effect.discriminating) + ". ";
   if (!others.empty()) text += "Explain less: " + others + ".";
   return text;
 }
 
+// What tests would settle it: a sentence and a table; empty where there are none.
+std::string design_of(const Design& design) {
+  if (design.tests.empty()) return "";
+  const auto row = [](const std::vector<std::string>& cells, const char* tag) {
+    std::string text = "<tr>";
+    for (const std::string& cell : cells)
+      text += fmt::format("<{0}>{1}</{0}>", tag, svg::escape(cell));
+    return text + "</tr>";
+  };
+  std::string text = "<p>" + svg::escape(design_sentence(design)) + ":</p><table><thead>" +
+                     row(design.columns, "th") + "</thead><tbody>";
+  for (const std::vector<std::string>& test : design.tests)
+    text += row(test, "td");
+  return text + "</tbody></table>";
+}
+
+TemplateValues lead_values(const Lead& lead) {
+  TemplateValues values;
+  const std::string size =
+      lead.share != 0 ? fmt::format(", {:.2g} %", 100 * std::abs(lead.share)) : "";
+  values.text = {{"cause", svg::escape(lead_name(lead))},
+                 {"form", lead.form + size},
+                 {"why", svg::escape(lead.why)},
+                 {"design", design_of(lead.design)}};
+  return values;
+}
+
 TemplateValues effect_values(const ReportInput& input, const Trace& trace,
                              const TracedEffect& effect, int decimals) {
-  const char* place = effect.placed.acts_on == "mu"  ? "on &#956;"
-                      : effect.placed.acts_on == "m" ? "on the limit"
-                                                     : "added to &#964;<sub>R</sub>";
   TemplateValues values;
   values.text = {{"cause", svg::escape(cause_text(effect))},
                  {"form", effect.placed.form->title},
-                 {"place", place},
+                 {"place", place_text(effect.placed.acts_on)},
                  {"formula", svg::escape(formula_text(effect.placed))},
                  {"parameters", parameters_of(effect)},
                  {"p", p_text(effect.p_value)},
                  {"gain", fixed(effect.gain_MPa, decimals)},
                  {"alternatives", alternatives_of(effect)},
+                 {"design", design_of(effect.design)},
                  {"plots", effect_plots(input, trace, effect)}};
   return values;
 }
@@ -215,6 +237,10 @@ TemplateValues trace_values(const ReportInput& input, const Trace& trace, int de
                                trace.after, decimals));
   for (const TracedEffect& effect : trace.effects)
     values.lists["effects"].push_back(effect_values(input, trace, effect, decimals));
+  for (const Lead& lead : trace.leads)
+    values.lists["leads"].push_back(lead_values(lead));
+  values.flags["has_leads"] = !trace.leads.empty();
+  values.lists["leads"];
   auto& detectable = values.lists["detectable"];
   for (const Detectable& d : trace.detectable)
     detectable.push_back({{{"column", svg::escape(d.column)},

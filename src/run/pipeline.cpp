@@ -226,15 +226,9 @@ std::vector<const ModelFit*> Pipeline::fits_to_trace() const {
   return chosen;
 }
 
-void Pipeline::trace(bool required) {
+void Pipeline::trace() {
   need_data();
   need_calibration();
-  if (!required && training_->experiments.size() < trace_experiments) {
-    not_traced_ =
-        fmt::format("{} experiments are too few to tell an effect from noise (at least {})",
-                    training_->experiments.size(), trace_experiments);
-    return;
-  }
   std::erase_if(calibration_->fits, is_traced); // of an earlier trace
   for (const std::string& name : model_names())
     output_.remove_old("models/" + name + ".json");

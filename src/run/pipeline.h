@@ -25,9 +25,8 @@ public:
 
   // Stages; each stages its files in the output directory. Nothing appears there before commit().
   void calibrate();
-  // Searches the residuals of trace.models; laws with effects join the calibration. With too few
-  // experiments: an InputError where `required`, else a line of the summary.
-  void trace(bool required);
+  // Searches the residuals of trace.models; laws with effects join the calibration.
+  void trace();
   // Throws InputError where a table that tabulate() would stream to disk is too large for the
   // sources that are asked for: before hours of sampling.
   void check_sizes();
@@ -45,7 +44,6 @@ public:
   const std::optional<Dataset>& validation() const { return validation_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const std::vector<Trace>& traces() const { return traces_; }
-  const std::string& not_traced() const { return not_traced_; } // why; empty: traced, or not asked
   const std::vector<Table>& tables() const { return tables_; }
   const std::optional<Verification>& verification() const { return verification_; }
   // Tables made in this run that drift further than allowed, in words.
@@ -87,7 +85,6 @@ private:
   std::optional<Calibration> calibration_;
   bool new_calibration_ = false; // what lies in the directory belongs to another one
   std::vector<Trace> traces_;
-  std::string not_traced_;
   std::vector<Table> tables_;
   std::map<std::string, DriftRecord> compared_; // each new table with its law, by name
   std::vector<std::string> missed_;

@@ -276,7 +276,6 @@ std::string summary_text(const Pipeline& p) {
   }
   for (const Trace& trace : p.traces())
     out += trace_text(trace);
-  if (!p.not_traced().empty()) out += "\nThe residual was not traced: " + p.not_traced() + "\n";
   add_tables(out, p);
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
   if (!p.forms().empty()) out += "\n" + forms_text(p.forms());

@@ -1,12 +1,8 @@
-// Curves with bands, partial residuals, deciding experiments.
+// Curves with bands, partial residuals.
 #include "trace/curve.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
-
-#include "core/text.h"
 
 namespace frictab {
 
@@ -103,66 +99,6 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
     }
   }
   return curve;
-}
-
-namespace {
-
-using Names = std::vector<std::string>;
-
-Names recorded_behind(const Cause& cause, const Candidates& candidates) {
-  Names names;
-  for (const std::size_t c : cause.columns)
-    for (const std::string& name : candidates.columns[c].recorded)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  return names;
-}
-
-Names without(const Names& these, const Names& those) {
-  Names left;
-  std::copy_if(these.begin(), these.end(), std::back_inserter(left), [&](const std::string& name) {
-    return std::find(those.begin(), those.end(), name) == those.end();
-  });
-  return left;
-}
-
-// A number that a test sets: what is said of it can be done.
-bool is_set(const Cause& cause, const Candidates& candidates) {
-  const CandidateColumn& column = candidates.columns[cause.columns[0]];
-  return !cause.several() && column.levels.empty() && !column.derived && !column.within;
-}
-
-// Where two factors of one column each are furthest apart, at the ends of what was tested.
-std::string furthest_apart(const PlacedEffect& a, const PlacedEffect& b) {
-  const Program fa = factor_program(a), fb = factor_program(b);
-  const EffectInput &x = a.inputs[0], &y = b.inputs[0];
-  double most = -1;
-  std::string text;
-  for (const bool high : {false, true}) {
-    const double xa = high ? x.high : x.low, xb = high ? y.low : y.high;
-    const double apart = std::abs(factor_at(fa, a, xa) - factor_at(fb, b, xb));
-    if (apart <= most) continue;
-    most = apart;
-    text = fmt::format("tests with {} near {:.4g} and {} near {:.4g}: the two differ there by "
-                       "{:.2g} %",
-                       x.column, xa, y.column, xb, 100 * apart);
-  }
-  return text;
-}
-
-} // namespace
-
-std::string deciding_experiment(const Rival& one, const Rival& other,
-                                const Candidates& candidates) {
-  const Cause &a = one.causes.back(), &b = other.causes.back();
-  if (is_set(a, candidates) && is_set(b, candidates))
-    return furthest_apart(one.effects.back(), other.effects.back());
-  const Names of_a = recorded_behind(a, candidates), of_b = recorded_behind(b, candidates);
-  const Names only_a = without(of_a, of_b), only_b = without(of_b, of_a);
-  if (only_a.empty() && only_b.empty()) return ""; // two readings of the same columns
-  const Names& varies = only_a.empty() ? only_b : only_a;
-  const Names& stays = only_a.empty() ? of_a : of_b;
-  return fmt::format("tests in which {} varies while {} runs alike", join(varies, " and "),
-                     join(stays, ", "));
 }
 
 } // namespace frictab

@@ -11,6 +11,7 @@
 
 #include "calibrate/comparison.h"
 #include "calibrate/metrics.h"
+#include "trace/design.h"
 
 namespace frictab {
 
@@ -150,6 +151,7 @@ private:
       lead.p_value = finding.p_value;
       const auto against = contradictions_.find(i);
       lead.why = against == contradictions_.end() ? does_not_pay() : against->second;
+      if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));
     }
   }

@@ -177,8 +177,8 @@ bool follows_order(const Search& search, const Rival& rival) {
 
 void blame_order(Search& search, const Cause& cause, double p_value) {
   if (!is_order(search, cause))
-    search.rejected.push_back(cause_name(cause, search.candidates) +
-                              ": cannot be told from a drift over the order of tests");
+    search.confounded.push_back(
+        {cause, p_value, constant_in_experiments(cause, search.candidates)});
   forbid(search, [&](const Cause& other) { return other == cause; });
   take_order_out(search, p_value, 0);
 }

@@ -89,12 +89,6 @@ VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
 
 Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
   const std::size_t experiments = in.training.experiments.size();
-  if (experiments < trace_experiments)
-    throw InputError({"[trace]"},
-                     fmt::format("{} experiments are too few to trace a residual", experiments),
-                     fmt::format("at least {}: an effect has to show in several experiments, "
-                                 "whatever the number of rows",
-                                 trace_experiments));
   units.resize(experiments);
   std::iota(units.begin(), units.end(), 0);
   blocks = make_blocks(in.training);

@@ -30,8 +30,8 @@ struct Effort {
 // Where the search stands.
 class Search {
 public:
-  // Candidates, their shapes and the law without effects. Throws InputError where the data have too
-  // few experiments. Columns that come from the model (friction work) are those of `input.fit`.
+  // Candidates, their shapes and the law without effects. Columns that come from the model
+  // (friction work) are those of `input.fit`.
   explicit Search(const TraceInput& input, const Effort& effort = {});
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
@@ -81,6 +81,13 @@ public:
   ScreenResult last_screen;
   BetweenResult last_between;
   std::vector<std::string> rejected;
+  // Causes that a drift over the order of tests explains as well.
+  struct Confounded {
+    Cause cause;
+    double p_value = 1;
+    bool between = false;
+  };
+  std::vector<Confounded> confounded;
 
 private:
   void make_candidates();

@@ -17,6 +17,8 @@
 #include "data/quantity.h"
 #include "trace/curve.h"
 #include "trace/delivery.h"
+#include "trace/design.h"
+#include "trace/leads.h"
 #include "trace/power.h"
 #include "trace/scatter.h"
 #include "trace/verdict.h"
@@ -208,9 +210,8 @@ private:
            finding.in_set[i]
                ? fmt::format("cannot be told from {} by these experiments", name)
                : fmt::format("explains less than {} (log likelihood {:.1f} lower)", name, behind)});
-      if (finding.in_set[i] && effect.discriminating.empty())
-        effect.discriminating = deciding_experiment(finding.rival, other, search_.candidates);
     }
+    effect.design = design_for(search_, finding);
     effect.order_confounded =
         search_.order.found &&
         constant_in_experiments(finding.rival.causes.back(), search_.candidates);
@@ -238,6 +239,10 @@ Dataset in_order_of_names(const Dataset& data) {
 }
 
 } // namespace
+
+double tests_for(double alpha) {
+  return std::ceil(1 - std::log2(alpha));
+}
 
 const char* verdict_name(Verdict verdict) {
   switch (verdict) {

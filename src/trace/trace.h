@@ -35,6 +35,16 @@ struct EffectCurve {
   std::vector<double> point_x, point_factor; // partial residuals of blocks, binned per experiment
 };
 
+// Tests to run next: what would settle what these leave open.
+struct Design {
+  std::vector<std::string> columns;            // what they vary
+  std::vector<std::vector<std::string>> tests; // per test a value of each; none: nothing settles it
+  std::string like;                            // the test that all else is taken from
+  std::vector<std::string> settles; // causes that they tell apart; one: whether it is there
+  double probability = 0;           // that they do, if the effect is as large as fitted
+  double tests_needed = 0;          // like these, for a probability of 80 %
+};
+
 struct TracedEffect {
   PlacedEffect placed;
   std::vector<std::string> columns; // recorded ones
@@ -45,7 +55,7 @@ struct TracedEffect {
   double statistic = 0, threshold = 0; // within tests only
   double gain_MPa = 0;           // MAE on unseen tests without it, all refitted, minus with it
   bool order_confounded = false; // cannot be told from a drift over the order of tests
-  std::string discriminating;    // what experiment would decide within the set
+  Design design;                 // what would decide within the set
   std::vector<Alternative> alternatives;
   EffectCurve curve;
 };
@@ -84,6 +94,7 @@ struct Lead {
   double p_value = 1;
   double share = 0; // change of tau_R over the column's range, relative; 0: not known
   std::string why;  // "no gain on left-out tests (-0.2 +- 0.3 %)"
+  Design design;    // of the strongest, where there is a point in it
 };
 
 // Whether validation differs from training as a whole.
@@ -161,12 +172,12 @@ struct TraceInput {
   std::uint64_t seed = 1;
 };
 
-// With fewer experiments there is nothing to weigh against each other. An effect that shows in all
-// of E experiments has a p-value of 2^(1-E) at best, so that it takes 7 to add one at 0.02.
-inline constexpr std::size_t trace_experiments = 3;
+// An effect that shows in all of E experiments has a p-value of 2^(1-E) at best: how many of them
+// it takes to add one, 7 at 0.02. With fewer there are only leads.
+double tests_for(double alpha);
 
-// Deterministic by seed for any number of threads. Throws InputError where the data have too few
-// experiments to tell anything, or options name columns they do not have.
+// Deterministic by seed for any number of threads. Throws InputError where options name columns
+// they do not have.
 Trace trace(const TraceInput& input);
 
 } // namespace frictab

@@ -83,6 +83,41 @@ Json curve_json(const EffectCurve& c) {
           {"high_95", c.high}, {"point_x", c.point_x}, {"point_factor", c.point_factor}};
 }
 
+// null: there is nothing to settle, or nothing that would settle it.
+Json design_json(const Design& d) {
+  if (d.tests.empty()) return nullptr;
+  Json tests = Json::array();
+  for (const std::vector<std::string>& values : d.tests) {
+    Json test;
+    for (std::size_t c = 0; c < values.size(); ++c)
+      test[d.columns[c]] = values[c];
+    tests.push_back(test);
+  }
+  return {{"settles", d.settles},
+          {"columns", d.columns},
+          {"tests", tests},
+          {"all_else_as_in", d.like},
+          {"probability", d.probability},
+          {"tests_for_80_percent", d.tests_needed}};
+}
+
+Design parse_design(const Json& j) {
+  if (j.is_null()) return {};
+  Design d{j.at("columns").get<std::vector<std::string>>(),
+           {},
+           j.at("all_else_as_in"),
+           j.at("settles").get<std::vector<std::string>>(),
+           number(j.at("probability")),
+           number(j.at("tests_for_80_percent"))};
+  for (const Json& test : j.at("tests")) {
+    std::vector<std::string> values;
+    for (const std::string& column : d.columns)
+      values.push_back(test.at(column));
+    d.tests.push_back(std::move(values));
+  }
+  return d;
+}
+
 Json effect_json(const TracedEffect& e) {
   return {{"columns", e.columns},
           {"derived", derived_json(e.derived)},
@@ -96,7 +131,7 @@ Json effect_json(const TracedEffect& e) {
           {"threshold", e.threshold},
           {"gain_MPa", e.gain_MPa},
           {"order_confounded", e.order_confounded},
-          {"discriminating_experiment", e.discriminating},
+          {"discriminating_design", design_json(e.design)},
           {"alternatives", alternatives_json(e)},
           {"in_the_law", placed_json(e.placed)},
           {"curve", curve_json(e.curve)}};
@@ -149,7 +184,7 @@ TracedEffect parse_effect_json(const Json& j) {
   e.threshold = number(j.at("threshold"));
   e.gain_MPa = number(j.at("gain_MPa"));
   e.order_confounded = j.at("order_confounded");
-  e.discriminating = j.at("discriminating_experiment");
+  e.design = parse_design(j.at("discriminating_design"));
   for (const Json& a : j.at("alternatives"))
     e.alternatives.push_back({a.at("columns").get<std::vector<std::string>>(),
                               parse_derived(a.at("derived")), a.at("form"), a.at("acts_on"),
@@ -169,17 +204,18 @@ Json leads_json(const std::vector<Lead>& leads) {
                     {"family", family_name(lead.between)},
                     {"p_value", lead.p_value},
                     {"share", lead.share},
-                    {"why_not_added", lead.why}});
+                    {"why_not_added", lead.why},
+                    {"design", design_json(lead.design)}});
   return list;
 }
 
 std::vector<Lead> parse_leads(const Json& j) {
   std::vector<Lead> leads;
   for (const Json& lead : j)
-    leads.push_back({lead.at("columns").get<std::vector<std::string>>(),
-                     parse_derived(lead.at("derived")), lead.at("form"),
-                     lead.at("family") == family_name(true), number(lead.at("p_value")),
-                     number(lead.at("share")), lead.at("why_not_added")});
+    leads.push_back(
+        {lead.at("columns").get<std::vector<std::string>>(), parse_derived(lead.at("derived")),
+         lead.at("form"), lead.at("family") == family_name(true), number(lead.at("p_value")),
+         number(lead.at("share")), lead.at("why_not_added"), parse_design(lead.at("design"))});
   return leads;
 }
 

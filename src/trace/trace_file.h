@@ -19,6 +19,14 @@ std::string trace_text(const Trace& trace);
 // `frictab trace --power`: what this campaign could have shown, and what would help.
 std::string power_text(const Trace& trace);
 
+// "humidity_pct", "friction_work (from s_mm)".
+std::string lead_name(const Lead& lead);
+// What its tests are for, without them.
+std::string design_sentence(const Design& design);
+
+// "on mu", "on the limit", "added to tau_R".
+std::string place_text(const std::string& acts_on);
+
 // "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
 std::string cause_text(const TracedEffect& effect);
 

@@ -29,10 +29,6 @@ std::string mae_line(const char* what, const TraceErrors& e) {
   return fmt::format("  {:<14}{}{:>10}\n", what, one(e.validation), digits(e.training.mae_MPa));
 }
 
-std::string place_text(const std::string& acts_on) {
-  return acts_on == "mu" ? "on mu" : acts_on == "m" ? "on the limit" : "added to tau_R";
-}
-
 std::string parameter_text(const TracedEffect& effect) {
   std::string text;
   for (const TracedParameter& p : effect.parameters)
@@ -46,6 +42,22 @@ bool belongs_to_the_experiment(const TracedEffect& effect) {
   const DerivedQuantity* derived =
       effect.derived.empty() ? nullptr : find_derived(effect.placed.inputs[0].column);
   return derived && derived->continuation.rule == Continuation::none;
+}
+
+// The tests one below the other, aligned under the names of what they vary.
+std::string design_lines(const Design& d, const std::string& indent) {
+  if (d.tests.empty()) return "";
+  std::string out = indent + design_sentence(d) + ":\n";
+  const auto line = [&](const std::vector<std::string>& cells) {
+    out += indent + " ";
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      out += fmt::format(" {:>{}}", cells[c], std::max<std::size_t>(d.columns[c].size(), 9));
+    out += "\n";
+  };
+  line(d.columns);
+  for (const std::vector<std::string>& test : d.tests)
+    line(test);
+  return out;
 }
 
 void add_effect(std::string& out, const TracedEffect& e) {
@@ -62,7 +74,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
     out += fmt::format("      no simulation has a {}: it is a property or constant of routines; "
                        "[trace] ignore leaves it out\n",
                        e.derived);
-  if (!e.discriminating.empty()) out += fmt::format("      would decide: {}\n", e.discriminating);
+  out += design_lines(e.design, "      ");
 }
 
 // What "unseen" means here.
@@ -78,9 +90,25 @@ std::string unseen_line(const Trace& t) {
 
 } // namespace
 
+std::string place_text(const std::string& acts_on) {
+  if (acts_on == "mu+m") return "on mu and the limit";
+  return acts_on == "mu" ? "on mu" : acts_on == "m" ? "on the limit" : "added to tau_R";
+}
+
 std::string cause_text(const TracedEffect& effect) {
   std::string text = columns_text(effect.placed);
   if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
+  return text;
+}
+
+std::string design_sentence(const Design& d) {
+  const bool one = d.settles.size() == 1;
+  std::string text = fmt::format("{} with a probability of {:.0f} %, if it is as large as it "
+                                 "looks: {} tests like {} but for",
+                                 one ? "would show it" : "would tell them apart",
+                                 100 * d.probability, d.tests.size(), d.like);
+  if (d.tests_needed > static_cast<double>(d.tests.size()))
+    text += fmt::format(" (80 % take about {:.0f} such tests)", d.tests_needed);
   return text;
 }
 
@@ -123,12 +151,14 @@ std::string trace_text(const Trace& t) {
   out += fmt::format("  noise floor by the noise model: {} MPa, if nothing else is missing\n",
                      digits(t.noise_floor.mae_MPa));
   out += "  left: " + t.remaining.note + "\n";
-  for (const Lead& lead : t.leads)
+  for (const Lead& lead : t.leads) {
     out += fmt::format("  lead: {}{}: {}\n", lead_name(lead),
                        lead.share != 0
                            ? fmt::format(" ({}, {:.2g} %)", lead.form, 100 * std::abs(lead.share))
                            : fmt::format(" ({})", lead.form),
                        lead.why);
+    out += design_lines(lead.design, "      ");
+  }
   for (const std::string& rejected : t.rejected)
     out += "  not added: " + rejected + "\n";
   out += fmt::format("  tried: {} quantities in {} directions; a false alarm has a probability of "

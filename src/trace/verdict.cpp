@@ -1,4 +1,4 @@
-// Verdict, leads and the sentences about what is left.
+// Verdict and the sentences about what is left.
 #include "trace/verdict.h"
 
 #include <algorithm>
@@ -7,75 +7,14 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "trace/delivery.h"
 
 namespace frictab {
 
 namespace {
 
-constexpr std::size_t most_leads = 6;
-
 // "12.6 %", "0.034 %": three digits.
 std::string percent(double share) {
   return fmt::format("{:.3g} %", 100 * share);
-}
-
-bool is_listed(const Trace& trace, const Lead& lead) {
-  const auto same = [&](const auto& other) {
-    return other.columns == lead.columns && other.derived == lead.derived;
-  };
-  return std::any_of(trace.leads.begin(), trace.leads.end(), same) ||
-         std::any_of(trace.effects.begin(), trace.effects.end(), same);
-}
-
-void add_lead(Trace& trace, Lead lead) {
-  if (trace.leads.size() < most_leads && !is_listed(trace, lead))
-    trace.leads.push_back(std::move(lead));
-}
-
-// How many tests it takes for a p-value at which an effect is added.
-std::string too_few(const Trace& trace, std::size_t tests) {
-  const double alpha = trace.alpha;
-  if (trace.least_p_value <= alpha) return "";
-  return fmt::format("; {} tests can give no p below {:.2g}: it takes {:.0f} that show it to add "
-                     "an effect",
-                     tests, trace.least_p_value, std::ceil(1 - std::log2(alpha)));
-}
-
-void add_between_leads(Trace& trace, const Search& search) {
-  for (const TestShape& shape : search.last_between.leads) {
-    Lead lead = lead_of(search, shape.cause);
-    lead.form = shape.form;
-    lead.between = true;
-    lead.p_value = search.last_between.last_p_value;
-    lead.why = fmt::format("p = {:.2g} over all columns between tests", lead.p_value);
-    add_lead(trace, std::move(lead));
-  }
-}
-
-// Of every cause its best direction, strongest first.
-void add_within_leads(Trace& trace, const Search& search) {
-  std::vector<const Direction*> sorted;
-  for (const Direction& d : search.last_screen.directions)
-    sorted.push_back(&d);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Direction* a, const Direction* b) {
-    return std::abs(a->statistic) > std::abs(b->statistic);
-  });
-  const std::size_t wanted = trace.leads.size() + 3;
-  for (std::size_t i = 0; i < sorted.size() && trace.leads.size() < wanted; ++i) {
-    const Direction& d = *sorted[i];
-    const GridShape& shape = search.shapes[d.cause][d.shape];
-    Lead lead = lead_of(search, search.causes[d.cause]);
-    lead.form = shape.effect.form->name;
-    lead.p_value = search.last_p_value;
-    const Eigen::VectorXf& x = shape.direction;
-    const double amplitude = d.statistic / std::max(d.size, 1e-30f);
-    lead.share = amplitude * static_cast<double>(x.maxCoeff() - x.minCoeff());
-    if (!(std::abs(lead.share) < 10)) lead.share = 0; // hardly there in these data
-    lead.why = fmt::format("p = {:.2g} over all that changes within tests{}", search.last_p_value,
-                           too_few(trace, search.blocks.experiments()));
-    add_lead(trace, std::move(lead));
-  }
 }
 
 bool scatters_more(const Trace& t) {
@@ -89,6 +28,7 @@ bool agrees_with_repeats(const Trace& t) {
 }
 
 std::string scatter_sentence(const Trace& t) {
+  if (t.noise_floor.n_experiments < 2) return "one test says nothing about how tests differ";
   std::string text = fmt::format("tests differ by {} that nothing explains (95 %: {} to {})",
                                  percent(t.scatter_between), percent(t.scatter_interval.low),
                                  percent(t.scatter_interval.high));
@@ -127,11 +67,6 @@ std::string excess_sentence(const Trace& t) {
 }
 
 } // namespace
-
-void add_leads(Trace& trace, const Search& search) {
-  add_between_leads(trace, search);
-  if (!search.negligible()) add_within_leads(trace, search);
-}
 
 void add_verdict(Trace& t, const Search& search) {
   const bool excess = scatters_more(t);

@@ -5,9 +5,6 @@
 
 namespace frictab {
 
-// Behind the leads that are there already: what is left, strongest first, whatever chance may say.
-void add_leads(Trace& trace, const Search& search);
-
 // Fills verdict and remaining. `trace` is complete but for those.
 void add_verdict(Trace& trace, const Search& search);
 

@@ -61,8 +61,10 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
   trace.unseen = "nested_cross_validation";
   trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3};
   trace.worlds = {true, 57, {41, 76}, 0.21, 1e-6};
-  trace.leads = {{{"tool"}, "", "category", true, 0.004, 0, "contradicted by the validation tests"},
-                 {{"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3"}};
+  const Design design{{"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
+  trace.leads = {
+      {{"tool"}, "", "category", true, 0.004, 0, "contradicted by the validation tests", design},
+      {{"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3", {}}};
   trace.scatter_between = 0.04;
   trace.scatter_interval = {0.03, 0.06};
   trace.scatter_at_least = 0.032;

@@ -287,6 +287,47 @@ TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
   EXPECT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
 }
 
+// Not the twin's: its effects act on one of the two branches.
+TEST(Trace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
+  Data data = data_of(campaign("orowan", 6));
+  for (Dataset* part : {&data.training, &data.validation}) {
+    const auto humidity = part->values("humidity_pct");
+    std::vector<double>& tau = column(*part, "tau_R_MPa").values;
+    for (std::size_t i = 0; i < tau.size(); ++i)
+      tau[i] *= 1 - 0.01 * (humidity[i] - 45);
+  }
+  const Trace t = traced(data, "orowan");
+  EXPECT_THAT(causes(t), testing::ElementsAre("humidity_pct")) << trace_text(t);
+  ASSERT_FALSE(t.effects.empty());
+  EXPECT_EQ(t.effects.front().placed.acts_on, "mu+m");
+  EXPECT_LT(t.after.validation.mae_MPa, 0.7 * t.before.validation.mae_MPa);
+}
+
+// A humidity that rises with the order of tests, or is set in turn.
+TEST(Trace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDecide) {
+  Data data = data_of(campaign("log_coulomb", 6));
+  std::vector<double> humidity;
+  for (Dataset* part : {&data.training, &data.validation}) {
+    const auto place = part->values("run_order");
+    std::vector<double>& of_part = column(*part, "humidity_pct").values;
+    std::vector<double>& tau = column(*part, "tau_R_MPa").values;
+    for (std::size_t i = 0; i < tau.size(); ++i) {
+      of_part[i] = 30 + 0.3 * place[i] + 0.5 * std::fmod(place[i], 3);
+      tau[i] *= 1 + 0.01 * (of_part[i] - 45);
+    }
+  }
+  const Trace t = traced(data, "log_coulomb", declared_order());
+  EXPECT_TRUE(t.effects.empty()) << trace_text(t);
+  ASSERT_FALSE(t.leads.empty());
+  const Lead& lead = t.leads.front();
+  EXPECT_THAT(lead.columns, testing::ElementsAre("humidity_pct")) << trace_text(t);
+  EXPECT_THAT(lead.why, HasSubstr("order of tests (run_order) explains it as well"));
+  EXPECT_THAT(lead.design.settles, testing::ElementsAre("humidity_pct", "run_order"));
+  ASSERT_GE(lead.design.tests.size(), 4u);
+  for (std::size_t i = 1; i < lead.design.tests.size(); ++i)
+    EXPECT_NE(lead.design.tests[i], lead.design.tests[i - 1]) << "low and high in turn";
+}
+
 TEST(Trace, IgnoredColumnsCannotBeACause) {
   TraceOptions how;
   how.ignore = {"humidity_pct"};
@@ -444,15 +485,15 @@ TEST(Trace, FewExperimentsProveNothingAndSaySo) {
   EXPECT_EQ(more.unseen, "nested_cross_validation") << "three validation tests judge nothing";
 }
 
-TEST(Trace, TwoExperimentsAreRefused) {
+TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {
   TwinOptions options = campaign("coulomb", 1);
-  options.design = parse_design("p=500,2750;psi=1;v=5;T=20;points=60;validation=3",
-                                default_design(twin_set("D")));
-  try {
-    traced(options);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("2 experiments are too few"));
+  for (const char* pressures : {"p=500", "p=500,2750"}) {
+    options.design = parse_design(std::string(pressures) + ";psi=1;v=5;T=20;points=60;validation=3",
+                                  default_design(twin_set("D")));
+    const Trace t = traced(options);
+    EXPECT_TRUE(t.effects.empty());
+    EXPECT_FALSE(t.leads.empty());
+    EXPECT_THAT(trace_text(t), HasSubstr("it takes 7 that show it to add an effect"));
   }
 }
 

@@ -1,0 +1,344 @@
+// Information of every candidate test, and the exchange that finds the best few.
+#include "trace/design.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <gsl/gsl_cdf.h>
+
+#include "trace/candidate_tests.h"
+
+namespace frictab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t least_tests = 3, most_tests = 6;
+constexpr std::size_t most_rivals = 4;
+constexpr double wanted = 0.8;     // probability
+constexpr double two_sided = 1.96; // 5 %
+constexpr double tiny = 1e-9;      // of a parameter's information: what nothing tells of is kept
+constexpr double costs_nothing = 0.97; // of the standardised amplitude, for one setting fewer
+constexpr double hopeless = 1000;      // tests
+
+double prior(bool with) {
+  return with ? 1 : 0; // an amplitude is of the order of 1, whatever the data say
+}
+
+// What tau_R changes, per block, with each parameter that all rivals share, and with each rival.
+class Directions {
+public:
+  Directions(const Search& search, const std::vector<const Rival*>& rivals)
+      : search_(search), rivals_(rivals) {}
+
+  std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
+
+  // usual rows of a block: as in the campaign, of rows that were thinned out.
+  MatrixXd whitened(const Dataset& data, double usual_rows) const {
+    Blocks blocks = make_blocks(data);
+    if (usual_rows > 0) blocks.usual_rows = usual_rows;
+    const Rival& first = *rivals_[0];
+    const Model model = search_.model_of(first);
+    const std::vector<double> tau = predict(model, data);
+    MatrixXd columns(static_cast<Index>(blocks.count()), 0);
+    for (std::size_t p = 0; p < first.parameters.size(); ++p)
+      if (!is_of_last(first, p)) append_columns(columns, slope(model, p, data, tau, blocks));
+    for (const Rival* rival : rivals_)
+      append_columns(columns, blocks.mean(of_last_effect(*rival, data)));
+    const Whitener whitener(first.noise, blocks.mean(tau), blocks);
+    whitener.apply(columns);
+    first_ = blocks.first;
+    return columns;
+  }
+  // Of the data that were whitened last, per test its first block.
+  const std::vector<std::size_t>& first() const { return first_; }
+
+private:
+  static std::size_t last_count(const Rival& rival) {
+    return fitted_parameters(rival.effects.back()).size();
+  }
+
+  std::size_t last_begin(const Rival& rival) const {
+    std::size_t begin = search_.input.fit.model.law->parameters.size();
+    for (std::size_t i = 0; i + 1 < rival.effects.size(); ++i)
+      begin += fitted_parameters(rival.effects[i]).size();
+    return begin;
+  }
+
+  bool is_of_last(const Rival& rival, std::size_t p) const {
+    const std::size_t begin = last_begin(rival);
+    return p >= begin && p < begin + last_count(rival);
+  }
+
+  static VectorXd slope(Model model, std::size_t p, const Dataset& data,
+                        const std::vector<double>& tau, const Blocks& blocks) {
+    const double step = 1e-5 * std::max(std::abs(model.parameters[p]), 1e-3);
+    model.parameters[p] += step;
+    std::vector<double> moved = predict(model, data);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i] = (moved[i] - tau[i]) / step;
+    return blocks.mean(moved);
+  }
+
+  std::vector<double> of_last_effect(const Rival& rival, const Dataset& data) const {
+    Model model = search_.model_of(rival);
+    std::vector<double> with = predict(model, data);
+    const std::size_t begin = last_begin(rival);
+    for (std::size_t i = 0; i < amplitudes_of(rival.effects.back()); ++i)
+      model.parameters[begin + i] = 0;
+    const std::vector<double> without = predict(model, data);
+    for (std::size_t i = 0; i < with.size(); ++i)
+      with[i] -= without[i];
+    return with;
+  }
+
+  const Search& search_;
+  const std::vector<const Rival*>& rivals_;
+  mutable std::vector<std::size_t> first_;
+};
+
+class Designer {
+public:
+  Designer(const Search& search, const std::vector<const Rival*>& rivals, double threshold)
+      : search_(search), rivals_(rivals), threshold_(threshold), directions_(search, rivals_) {}
+
+  Design run() {
+    std::vector<Setting> settings = settings_of(search_.input.training, recorded());
+    if (settings.empty()) return {};
+    Plan plan = best_plan(settings);
+    if (probability(plan.before) >= wanted) return {}; // these data would tell, if it were so large
+    // One setting fewer is an easier design.
+    for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
+      std::vector<Setting> fewer = settings;
+      fewer.erase(fewer.begin() + static_cast<long>(s));
+      Plan simpler = best_plan(fewer);
+      if (simpler.tests.size() > plan.tests.size() ||
+          simpler.amplitude < costs_nothing * plan.amplitude)
+        continue;
+      settings = std::move(fewer);
+      plan = std::move(simpler);
+    }
+    return in_words(plan);
+  }
+
+private:
+  struct Plan {
+    CandidateTests candidates;
+    std::vector<std::size_t> tests; // of the candidates
+    double amplitude = 0;           // standardised, with those tests
+    double before = 0;              // and without them
+  };
+
+  std::vector<std::string> recorded() const {
+    std::vector<std::string> names;
+    for (const Rival* rival : rivals_)
+      for (const std::size_t c : rival->causes.back().columns)
+        for (const std::string& name : search_.candidates.columns[c].recorded)
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    return names;
+  }
+
+  Plan best_plan(std::vector<Setting> settings) {
+    Plan plan;
+    plan.candidates = candidate_tests(search_.input.training, std::move(settings));
+    if (plan.candidates.at.empty()) return plan;
+    add_information(plan.candidates);
+    plan.before = amplitude(known_);
+    for (std::size_t n = least_tests; n <= most_tests; ++n) {
+      plan.tests = exchange(n);
+      plan.amplitude = amplitude(information(plan.tests));
+      if (probability(plan.amplitude) >= wanted) break;
+    }
+    return plan;
+  }
+
+  // Of the campaign, and of each candidate; all parameters in units in which they are comparable.
+  void add_information(const CandidateTests& candidates) {
+    const MatrixXd d = directions_.whitened(search_.input.training, 0);
+    known_ = d.transpose() * d;
+    const auto rows = static_cast<double>(candidates.data.first_row[1]);
+    const double blocks = std::min(rows, 40.0);
+    const MatrixXd c = directions_.whitened(candidates.data, rows / blocks);
+    each_.clear();
+    const std::vector<std::size_t>& first = directions_.first();
+    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+      const MatrixXd part =
+          c.middleRows(static_cast<Index>(first[e]), static_cast<Index>(first[e + 1] - first[e]));
+      each_.push_back(part.transpose() * part);
+    }
+    const auto shared = static_cast<Index>(directions_.shared());
+    VectorXd scale = known_.diagonal();
+    for (Index p = 0; p < shared; ++p)
+      scale(p) = scale(p) > 0 ? 1 / std::sqrt(scale(p)) : 1;
+    scale.tail(scale.size() - shared).setOnes();
+    for (MatrixXd* m : all())
+      *m = (scale.asDiagonal() * *m * scale.asDiagonal()).eval();
+    for (Index p = 0; p < shared; ++p)
+      known_(p, p) += tiny;
+  }
+
+  std::vector<MatrixXd*> all() {
+    std::vector<MatrixXd*> matrices{&known_};
+    for (MatrixXd& m : each_)
+      matrices.push_back(&m);
+    return matrices;
+  }
+
+  MatrixXd information(const std::vector<std::size_t>& tests) const {
+    MatrixXd sum = known_;
+    for (const std::size_t t : tests)
+      sum += each_[t];
+    return sum;
+  }
+
+  // Of the rivals' amplitudes, with what the shared parameters take off it.
+  MatrixXd of_rivals(const MatrixXd& all, bool with_prior) const {
+    const auto shared = static_cast<Index>(directions_.shared());
+    const Index count = all.rows() - shared;
+    MatrixXd left = all.bottomRightCorner(count, count);
+    if (shared > 0)
+      left -= all.bottomLeftCorner(count, shared) *
+              all.topLeftCorner(shared, shared).ldlt().solve(all.topRightCorner(shared, count));
+    left.diagonal().array() += prior(with_prior);
+    return left;
+  }
+
+  double log_det(const std::vector<std::size_t>& tests) const {
+    const MatrixXd left = of_rivals(information(tests), true);
+    return left.ldlt().vectorD().array().max(1e-300).log().sum();
+  }
+
+  // Greedy, then one test at a time against all candidates, until none of them is better.
+  std::vector<std::size_t> exchange(std::size_t tests) const {
+    std::vector<std::size_t> design;
+    while (design.size() < tests) {
+      design.push_back(0);
+      improve(design, design.size() - 1);
+    }
+    for (bool better = true; better;) {
+      better = false;
+      for (std::size_t i = 0; i < design.size(); ++i)
+        better = improve(design, i) || better;
+    }
+    std::sort(design.begin(), design.end());
+    return design;
+  }
+
+  bool improve(std::vector<std::size_t>& design, std::size_t place) const {
+    constexpr double clearly = 1e-6;
+    const std::size_t before = design[place];
+    double most = log_det(design);
+    std::size_t best = before;
+    for (std::size_t c = 0; c < each_.size(); ++c) {
+      design[place] = c;
+      const double value = log_det(design);
+      if (value <= most + clearly) continue;
+      most = value;
+      best = c;
+    }
+    design[place] = best;
+    return best != before;
+  }
+
+  // Amplitude of 1 over its standard error: of the only rival; else beside each of the others, and
+  // each of them beside the first: the least of all.
+  double amplitude(const MatrixXd& all) const {
+    const MatrixXd left = of_rivals(all, false);
+    if (left.rows() == 1) return std::sqrt(std::max(left(0, 0), 0.0));
+    double least = std::numeric_limits<double>::infinity();
+    for (Index j = 1; j < left.rows(); ++j) {
+      const double shared = left(0, j) * left(0, j);
+      for (const auto& [own, other] : {std::pair{left(0, 0), left(j, j)}, {left(j, j), left(0, 0)}})
+        least = std::min(least, other > 0 ? own - shared / other : own);
+    }
+    return std::sqrt(std::max(least, 0.0));
+  }
+
+  double limit() const { return rivals_.size() > 1 ? two_sided : threshold_; }
+  double probability(double standardised) const {
+    return gsl_cdf_ugaussian_P(standardised - limit());
+  }
+
+  Design in_words(const Plan& plan) const {
+    Design design;
+    if (plan.tests.empty()) return design;
+    // Information grows in proportion to the number of tests like these.
+    const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
+                        static_cast<double>(plan.tests.size());
+    const double target = limit() + gsl_cdf_ugaussian_Pinv(wanted);
+    const double tests = (target * target - plan.before * plan.before) / std::max(each, 1e-300);
+    if (tests > hopeless) return design;
+    design.probability = probability(plan.amplitude);
+    design.tests_needed = std::max(std::ceil(tests), 1.0);
+    design.like = plan.candidates.like;
+    for (const Setting& setting : plan.candidates.settings)
+      design.columns.push_back(setting.column);
+    for (const std::size_t t : plan.tests) {
+      std::vector<std::string> row;
+      for (std::size_t s = 0; s < design.columns.size(); ++s)
+        row.push_back(plan.candidates.settings[s].text[plan.candidates.at[t][s]]);
+      design.tests.push_back(std::move(row));
+    }
+    for (const Rival* rival : rivals_)
+      design.settles.push_back(cause_name(rival->causes.back(), search_.candidates));
+    return design;
+  }
+
+  const Search& search_;
+  std::vector<const Rival*> rivals_;
+  double threshold_;
+  Directions directions_;
+  MatrixXd known_;             // information, of the campaign
+  std::vector<MatrixXd> each_; // and of every candidate test
+};
+
+} // namespace
+
+Design design_tests(const Search& search, const std::vector<const Rival*>& rivals,
+                    double threshold) {
+  std::vector<const Rival*> some = rivals;
+  if (some.size() > most_rivals) some.resize(most_rivals);
+  return Designer(search, some, threshold).run();
+}
+
+namespace {
+
+// (What takes the finding's columns and another one has it as a special case: not a rival.)
+bool contains(const Cause& larger, const Cause& smaller) {
+  return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
+    return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
+  });
+}
+
+} // namespace
+
+Design design_for(const Search& search, const Finding& finding) {
+  std::vector<const Rival*> rivals{&finding.rival};
+  for (std::size_t i = 0; i < finding.others.size(); ++i)
+    if (finding.in_set[i] &&
+        !contains(finding.others[i].causes.back(), finding.rival.causes.back()))
+      rivals.push_back(&finding.others[i]);
+  return rivals.size() > 1 ? design_tests(search, rivals, two_sided) : Design{};
+}
+
+Design design_for_lead(const Search& search, const PlacedEffect& effect, const Cause& cause,
+                       double threshold) {
+  const Rival& last = search.last();
+  std::vector<PlacedEffect> effects = last.effects;
+  std::vector<Cause> causes = last.causes;
+  effects.push_back(effect);
+  causes.push_back(cause);
+  const Rival with =
+      fit_rival(search.campaign(), last, effects, causes, last.noise, NoiseSearch::kept);
+  Design design = design_tests(search, {&with}, threshold);
+  const double short_of =
+      tests_for(search.input.options.alpha) - static_cast<double>(search.blocks.experiments());
+  design.tests_needed = std::max(design.tests_needed, short_of);
+  return design;
+}
+
+} // namespace frictab

@@ -1,0 +1,14 @@
+// What may be there, but is not in the law.
+#pragma once
+
+#include "trace/search.h"
+
+namespace frictab {
+
+// Causes that the order of tests explains as well, each with the tests that would decide; then,
+// behind the leads that are there already (findings that did not pay): what is left, strongest
+// first, whatever chance may say. Where the tests are too few for any p-value, the strongest
+// structures of single quantities, a recorded one before what is computed from it.
+void add_leads(Trace& trace, const Search& search);
+
+} // namespace frictab
