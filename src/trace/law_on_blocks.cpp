@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <unordered_map>
 
 #include <Eigen/Cholesky>

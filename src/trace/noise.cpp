@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
@@ -102,10 +101,6 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
   if (nuisance.cols() == 0) return;
   MatrixXd whitened = nuisance;
   apply(whitened);
-  const Eigen::LLT<MatrixXd> information(whitened.transpose() * whitened +
-                                         1e-10 * (whitened.transpose() * whitened).trace() *
-                                             MatrixXd::Identity(whitened.cols(), whitened.cols()));
-  nuisance_log_det_ = 2 * MatrixXd(information.matrixL()).diagonal().array().log().sum();
   directions_.nuisance = orthonormal(whitened);
   directions_f_.nuisance = directions_.nuisance.cast<float>();
 }

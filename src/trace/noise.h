@@ -46,8 +46,6 @@ public:
   void apply(Eigen::Ref<Eigen::MatrixXf> columns) const;
   // Log determinant of V, per experiment.
   const Eigen::VectorXd& log_det() const { return log_det_; }
-  // Log determinant of what the data say about the nuisance columns' coefficients.
-  double nuisance_log_det() const { return nuisance_log_det_; }
   // Variance of each block mean.
   const Eigen::VectorXd& variance() const { return variance_; }
 
@@ -75,7 +73,6 @@ private:
   Eigen::VectorXd log_det_, variance_;
   Directions<double> directions_;
   Directions<float> directions_f_;
-  double nuisance_log_det_ = 0;
 };
 
 // Where a residual (per block) comes from: what the noise is fitted to.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include <Eigen/Cholesky>
 #include <gsl/gsl_cdf.h>

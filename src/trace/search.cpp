@@ -1,7 +1,6 @@
 // What a search starts from: candidates, the law on blocks, its fit without effects.
 #include "trace/search.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/progress.h"
 #include "trace/choose.h"
 #include "trace/order_search.h"
 
