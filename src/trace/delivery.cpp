@@ -41,8 +41,13 @@ public:
     use(best.effects, best.weights);
     drop_contradicted();
     judge();
-    if (!d_.findings.empty() && by_validation() && t_.improvement.interval.high < 0)
-      take_all_back();
+    if (!d_.findings.empty() && by_validation()) {
+      if (against_calibrated().value_MPa <= 0 && weights_ == 0) try_plain_weights();
+      if (t_.improvement.interval.high < 0)
+        take_all_back(contradiction(t_.improvement));
+      else if (const Difference gain = against_calibrated(); gain.value_MPa <= 0)
+        take_all_back(gain.interval.high < 0 ? contradiction(gain) : no_better(gain));
+    }
     add_leads();
     return std::move(d_);
   }
@@ -93,7 +98,7 @@ private:
       const Rival without = weighted(without_effect(s_.campaign(), d_.rival, i));
       const Difference gain = gained(on_validation(d_.rival), on_validation(without));
       if (gain.interval.high < 0) {
-        contradictions_[d_.findings[i]] = contradiction(gain);
+        against_[d_.findings[i]] = contradiction(gain);
         d_.rival = without;
         d_.findings.erase(d_.findings.begin() + static_cast<long>(i));
         d_.gain_MPa.clear();
@@ -132,9 +137,31 @@ private:
         -gain.value_MPa, -gain.interval.high, -gain.interval.low);
   }
 
-  void take_all_back() {
+  // Against the law as the calibration stage handed it on: what weights make worse is not excused
+  // by effects.
+  Difference against_calibrated() const {
+    return gained(on_validation(d_.rival),
+                  error_sums(in_.validation.values("tau_R_MPa"),
+                             predict(in_.fit.model, in_.validation), in_.validation.first_row));
+  }
+
+  // The same effects with all rows alike.
+  void try_plain_weights() {
+    weights_ = 1;
+    d_.baseline = weighted(s_.base);
+    d_.rival = weighted(d_.rival);
+    judge();
+  }
+
+  static std::string no_better(const Difference& gain) {
+    return fmt::format("predicts the validation tests no better than the law as it was calibrated: "
+                       "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
+                       -gain.value_MPa, -gain.interval.high, -gain.interval.low);
+  }
+
+  void take_all_back(const std::string& why) {
     for (const std::size_t f : d_.findings)
-      contradictions_[f] = contradiction(t_.improvement);
+      against_[f] = why;
     t_.improvement = {};
     d_.gain_MPa.clear();
     use(0, 0);
@@ -149,8 +176,8 @@ private:
       lead.form = finding.rival.effects.back().form->name;
       lead.between = finding.between;
       lead.p_value = finding.p_value;
-      const auto against = contradictions_.find(i);
-      lead.why = against == contradictions_.end() ? does_not_pay() : against->second;
+      const auto against = against_.find(i);
+      lead.why = against == against_.end() ? does_not_pay() : against->second;
       if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));
     }
@@ -169,7 +196,7 @@ private:
   Trace& t_;
   Delivery d_;
   std::size_t weights_ = 0;
-  std::map<std::size_t, std::string> contradictions_; // by finding
+  std::map<std::size_t, std::string> against_; // by finding
 };
 
 } // namespace
@@ -180,6 +207,7 @@ Delivery deliver(const Search& search, Trace& trace) {
 
 Lead lead_of(const Search& search, const Cause& cause) {
   Lead lead;
+  lead.name = cause_name(cause, search.candidates);
   for (const std::size_t c : cause.columns) {
     const CandidateColumn& column = search.candidates.columns[c];
     for (const std::string& name : column.recorded)

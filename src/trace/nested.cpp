@@ -2,7 +2,6 @@
 #include "trace/nested.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "calibrate/folds.h"
 #include "core/parallel.h"
@@ -103,7 +102,8 @@ FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset
 NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights,
                                       std::size_t before) const {
   const VectorXd score_gain = score[weights][effects] - score[weights][before];
-  const VectorXd error_gain = relative[weights][before] - relative[weights][effects];
+  const std::size_t weights_before = before == 0 ? better_weights(0) : weights;
+  const VectorXd error_gain = relative[weights_before][before] - relative[weights][effects];
   const auto n = static_cast<double>(score_gain.size());
   if (n < 2) return {};
   const auto std_error = [&](const VectorXd& x) {
@@ -113,16 +113,19 @@ NestedErrors::Gain NestedErrors::gain(std::size_t effects, std::size_t weights,
           static_cast<std::size_t>(score_gain.size())};
 }
 
+std::size_t NestedErrors::better_weights(std::size_t effects) const {
+  constexpr double clearly = 0.98; // of the error, that plain weights must reach to be used
+  return relative[1][effects].mean() < clearly * relative[0][effects].mean() ? 1 : 0;
+}
+
 NestedErrors::Best NestedErrors::best() const {
-  constexpr double clearly = 0.96; // of the error, that plain weights must reach to be used
   Best found;
   for (const std::size_t w : {0, 1}) {
     if (found.effects > 0) break; // plain weights only where the noise model's let nothing pay
     for (std::size_t k = 1; k < lengths(); ++k)
       if (gain(k, w).pays() && gain(k, w, found.effects).pays()) found = {k, w};
   }
-  const bool plain =
-      relative[1][found.effects].mean() < clearly * relative[0][found.effects].mean();
+  const bool plain = better_weights(found.effects) == 1;
   if (plain && (found.effects == 0 || gain(found.effects, 1).pays())) found.weights = 1;
   return found;
 }

@@ -2,8 +2,6 @@
 // for every part of the tests that is left out.
 #pragma once
 
-#include <algorithm>
-
 #include "calibrate/resampling.h"
 #include "trace/search.h"
 
@@ -22,9 +20,10 @@ struct NestedErrors {
 
   std::size_t lengths() const { return sums[0].size(); }
   // Mean over tests of what the first `effects` gain against the first `before` of them, with
-  // standard errors. They pay where the error falls by more than a standard error, or, with tests
-  // enough to know that error by, where the score gains as much and the error does not grow by half
-  // of one.
+  // standard errors; against none, under those weights that do better without any: no effect is to
+  // mend what the weights spoil. They pay where the error falls by more than a standard error, or,
+  // with tests enough to know that error by, where the score gains as much and the error does not
+  // grow by half of one.
   struct Gain {
     double score = 0, score_se = 0;
     double error = 0, error_se = 0; // relative, smaller by so much
@@ -35,6 +34,8 @@ struct NestedErrors {
     }
   };
   Gain gain(std::size_t effects, std::size_t weights, std::size_t before = 0) const;
+  // That predict left-out tests better.
+  std::size_t better_weights(std::size_t effects) const;
   // So many effects that the next ones do not pay, with the weights that predict left-out tests
   // best; 0 where none do.
   struct Best {

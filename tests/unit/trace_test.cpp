@@ -54,7 +54,12 @@ Trace traced(const Data& data, const std::string& law, const TraceOptions& how =
   CalibrationOptions calibration;
   calibration.bootstrap = 100;
   const Calibration calibrated = calibrate({data.training, data.validation, models, calibration});
-  return trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
+  const Trace found = trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
+  // Of every campaign here: no effect is delivered that makes the calibrated law worse.
+  if (!found.effects.empty() && found.unseen == "validation") {
+    EXPECT_LT(found.after.validation.mae_MPa, found.as_calibrated.validation.mae_MPa);
+  }
+  return found;
 }
 
 Trace traced(const TwinOptions& options, const TraceOptions& how = {}) {
