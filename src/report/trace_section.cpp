@@ -154,8 +154,7 @@ std::string alternatives_of(const TracedEffect& effect) {
   std::string same, others;
   for (const Alternative& a : effect.alternatives) {
     std::string& list = a.in_set ? same : others;
-    list += (list.empty() ? "" : ", ") +
-            svg::escape(a.derived.empty() ? join(a.columns, " x ") : a.derived);
+    list += (list.empty() ? "" : ", ") + svg::escape(a.name);
   }
   std::string text;
   if (!same.empty()) text += "These experiments cannot tell it from: " + same + ". ";
@@ -172,10 +171,11 @@ std::string design_of(const Design& design) {
       text += fmt::format("<{0}>{1}</{0}>", tag, svg::escape(cell));
     return text + "</tr>";
   };
+  const auto rows = design_rows(design);
   std::string text = "<p>" + svg::escape(design_sentence(design)) + ":</p><table><thead>" +
-                     row(design.columns, "th") + "</thead><tbody>";
-  for (const std::vector<std::string>& test : design.tests)
-    text += row(test, "td");
+                     row(rows[0], "th") + "</thead><tbody>";
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    text += row(rows[i], "td");
   return text + "</tbody></table>";
 }
 

@@ -205,7 +205,7 @@ private:
       const Lead names = lead_of(search_, other.causes.back());
       const double behind = finding.rival.total - other.total;
       effect.alternatives.push_back(
-          {names.columns, names.derived, other.effects.back().form->name,
+          {names.name, names.columns, names.derived, other.effects.back().form->name,
            other.effects.back().acts_on, finding.in_set[i],
            finding.in_set[i]
                ? fmt::format("cannot be told from {} by these experiments", name)

@@ -20,6 +20,7 @@ struct TracedParameter {
 
 // Another way to explain what an effect explains.
 struct Alternative {
+  std::string name; // "dwell_s x friction_work"
   std::vector<std::string> columns;
   std::string derived; // empty: a recorded column
   std::string form;
@@ -87,6 +88,7 @@ struct Detectable {
 
 // What may be there, but is not in the law, and why not.
 struct Lead {
+  std::string name;                 // "dwell_s x friction_work"
   std::vector<std::string> columns; // recorded ones
   std::string derived;              // what was computed from them; empty: nothing
   std::string form;

@@ -1,7 +1,6 @@
 // Traces to JSON and back.
 #include "trace/trace_file.h"
 
-#include <cmath>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -49,7 +48,8 @@ Json parameters_json(const TracedEffect& effect) {
 Json alternatives_json(const TracedEffect& effect) {
   Json list = Json::array();
   for (const Alternative& a : effect.alternatives)
-    list.push_back({{"columns", a.columns},
+    list.push_back({{"name", a.name},
+                    {"columns", a.columns},
                     {"derived", derived_json(a.derived)},
                     {"form", a.form},
                     {"acts_on", a.acts_on},
@@ -186,7 +186,7 @@ TracedEffect parse_effect_json(const Json& j) {
   e.order_confounded = j.at("order_confounded");
   e.design = parse_design(j.at("discriminating_design"));
   for (const Json& a : j.at("alternatives"))
-    e.alternatives.push_back({a.at("columns").get<std::vector<std::string>>(),
+    e.alternatives.push_back({a.at("name"), a.at("columns").get<std::vector<std::string>>(),
                               parse_derived(a.at("derived")), a.at("form"), a.at("acts_on"),
                               a.at("cannot_be_told_apart"), a.at("why_not")});
   const Json& c = j.at("curve");
@@ -198,7 +198,8 @@ TracedEffect parse_effect_json(const Json& j) {
 Json leads_json(const std::vector<Lead>& leads) {
   Json list = Json::array();
   for (const Lead& lead : leads)
-    list.push_back({{"columns", lead.columns},
+    list.push_back({{"name", lead.name},
+                    {"columns", lead.columns},
                     {"derived", derived_json(lead.derived)},
                     {"form", lead.form},
                     {"family", family_name(lead.between)},
@@ -212,10 +213,11 @@ Json leads_json(const std::vector<Lead>& leads) {
 std::vector<Lead> parse_leads(const Json& j) {
   std::vector<Lead> leads;
   for (const Json& lead : j)
-    leads.push_back(
-        {lead.at("columns").get<std::vector<std::string>>(), parse_derived(lead.at("derived")),
-         lead.at("form"), lead.at("family") == family_name(true), number(lead.at("p_value")),
-         number(lead.at("share")), lead.at("why_not_added"), parse_design(lead.at("design"))});
+    leads.push_back({lead.at("name"), lead.at("columns").get<std::vector<std::string>>(),
+                     parse_derived(lead.at("derived")), lead.at("form"),
+                     lead.at("family") == family_name(true), number(lead.at("p_value")),
+                     number(lead.at("share")), lead.at("why_not_added"),
+                     parse_design(lead.at("design"))});
   return leads;
 }
 

@@ -23,6 +23,8 @@ std::string power_text(const Trace& trace);
 std::string lead_name(const Lead& lead);
 // What its tests are for, without them.
 std::string design_sentence(const Design& design);
+// The tests, how many are alike in front; the first row holds the headings.
+std::vector<std::vector<std::string>> design_rows(const Design& design);
 
 // "on mu", "on the limit", "added to tau_R".
 std::string place_text(const std::string& acts_on);

@@ -44,19 +44,17 @@ bool belongs_to_the_experiment(const TracedEffect& effect) {
   return derived && derived->continuation.rule == Continuation::none;
 }
 
-// The tests one below the other, aligned under the names of what they vary.
+// One below the other, aligned under the names of what they vary.
 std::string design_lines(const Design& d, const std::string& indent) {
   if (d.tests.empty()) return "";
   std::string out = indent + design_sentence(d) + ":\n";
-  const auto line = [&](const std::vector<std::string>& cells) {
+  for (const std::vector<std::string>& row : design_rows(d)) {
     out += indent + " ";
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      out += fmt::format(" {:>{}}", cells[c], std::max<std::size_t>(d.columns[c].size(), 9));
+    for (std::size_t c = 0; c < row.size(); ++c)
+      out += fmt::format(" {:>{}}", row[c],
+                         c == 0 ? 5 : std::max<std::size_t>(d.columns[c - 1].size(), 9));
     out += "\n";
-  };
-  line(d.columns);
-  for (const std::vector<std::string>& test : d.tests)
-    line(test);
+  }
   return out;
 }
 
@@ -67,7 +65,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
   out += fmt::format("      {}: {}\n", formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
-    if (a.in_set) same.push_back(a.derived.empty() ? join(a.columns, " x ") : a.derived);
+    if (a.in_set) same.push_back(a.name);
   if (!same.empty())
     out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
   if (belongs_to_the_experiment(e))
@@ -101,6 +99,20 @@ std::string cause_text(const TracedEffect& effect) {
   return text;
 }
 
+std::vector<std::vector<std::string>> design_rows(const Design& d) {
+  std::vector<std::vector<std::string>> rows = {{"tests"}};
+  rows[0].insert(rows[0].end(), d.columns.begin(), d.columns.end());
+  for (std::size_t t = 0; t < d.tests.size();) {
+    std::size_t alike = t + 1;
+    while (alike < d.tests.size() && d.tests[alike] == d.tests[t])
+      ++alike;
+    rows.push_back({std::to_string(alike - t)});
+    rows.back().insert(rows.back().end(), d.tests[t].begin(), d.tests[t].end());
+    t = alike;
+  }
+  return rows;
+}
+
 std::string design_sentence(const Design& d) {
   const bool one = d.settles.size() == 1;
   std::string text = fmt::format("{} with a probability of {:.0f} %, if it is as large as it "
@@ -127,9 +139,7 @@ const char* headline(const Trace& t) {
 }
 
 std::string lead_name(const Lead& lead) {
-  std::string text = lead.derived.empty() ? join(lead.columns, " x ") : lead.derived;
-  if (!lead.derived.empty()) text += " (from " + join(lead.columns, ", ") + ")";
-  return text;
+  return lead.derived.empty() ? lead.name : lead.name + " (from " + join(lead.columns, ", ") + ")";
 }
 
 std::string trace_text(const Trace& t) {

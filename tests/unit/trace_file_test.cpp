@@ -63,8 +63,16 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
   trace.worlds = {true, 57, {41, 76}, 0.21, 1e-6};
   const Design design{{"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
   trace.leads = {
-      {{"tool"}, "", "category", true, 0.004, 0, "contradicted by the validation tests", design},
-      {{"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3", {}}};
+      {"tool",
+       {"tool"},
+       "",
+       "category",
+       true,
+       0.004,
+       0,
+       "contradicted by the validation tests",
+       design},
+      {"dwell", {"s_mm", "v_rel_mm_s"}, "dwell", "hinge", false, 0.3, 0.12, "p = 0.3", {}}};
   trace.scatter_between = 0.04;
   trace.scatter_interval = {0.03, 0.06};
   trace.scatter_at_least = 0.032;
