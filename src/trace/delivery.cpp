@@ -184,6 +184,9 @@ private:
   }
 
   std::string does_not_pay() const {
+    if (t_.nested.gain == 0 && t_.nested.std_error == 0)
+      return fmt::format("a search without some of the tests does not find it ({} folds)",
+                         t_.nested.folds);
     return fmt::format("does not predict tests that the search has not seen any better: error "
                        "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
                        "{} folds",
