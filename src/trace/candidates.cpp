@@ -306,11 +306,26 @@ Cause joined(const Cause& cause, std::size_t column, const Candidates& candidate
   return all;
 }
 
+namespace {
+
+// Columns that run side by side are one quantity: their product is a parabola.
+bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
+  constexpr double alike = 0.98; // correlation, squared
+  if (!a.levels.empty() || !b.levels.empty()) return false;
+  const VectorXd x = a.values.array() - a.values.mean(), y = b.values.array() - b.values.mean();
+  const double xy = x.dot(y);
+  return xy * xy > alike * x.squaredNorm() * y.squaredNorm();
+}
+
+} // namespace
+
 bool may_join(const Cause& cause, const Candidates& candidates) {
   std::size_t text = 0;
   for (const std::size_t c : cause.columns) {
     if (!may_be_joined(candidates.columns[c])) return false;
     text += !candidates.columns[c].levels.empty();
+    for (const std::size_t other : cause.columns)
+      if (other < c && run_alike(candidates.columns[other], candidates.columns[c])) return false;
   }
   return text <= 1;
 }
