@@ -123,7 +123,9 @@ NestedErrors::Best NestedErrors::best() const {
   for (const std::size_t w : {0, 1}) {
     if (found.effects > 0) break; // plain weights only where the noise model's let nothing pay
     for (std::size_t k = 1; k < lengths(); ++k)
-      if (gain(k, w).pays() && gain(k, w, found.effects).pays()) found = {k, w};
+      if (const Gain more = gain(k, w, found.effects);
+          gain(k, w).pays() && (found.effects == 0 ? more.pays() : more.adds()))
+        found = {k, w};
   }
   const bool plain = better_weights(found.effects) == 1;
   if (plain && (found.effects == 0 || gain(found.effects, 1).pays())) found.weights = 1;

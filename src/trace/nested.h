@@ -2,6 +2,8 @@
 // for every part of the tests that is left out.
 #pragma once
 
+#include <algorithm>
+
 #include "calibrate/resampling.h"
 #include "trace/search.h"
 
@@ -22,15 +24,19 @@ struct NestedErrors {
   // Mean over tests of what the first `effects` gain against the first `before` of them, with
   // standard errors; against none, under those weights that do better without any: no effect is to
   // mend what the weights spoil. They pay where the error falls by more than a standard error, or,
-  // with tests enough to know that error by, where the score gains as much and the error does not
-  // grow by half of one.
+  // with tests enough to know that error by, where the score gains as much and the error hardly
+  // grows: by less than a quarter of that many standard errors, and by less than one.
   struct Gain {
     double score = 0, score_se = 0;
     double error = 0, error_se = 0; // relative, smaller by so much
     std::size_t tests = 0;
+    // Beside effects that pay: what is significant and gains, if less than sure, stays.
+    bool adds() const { return pays() || (error > 0 && score > 0); }
     bool pays() const {
       constexpr std::size_t enough = 20;
-      return error > error_se || (tests >= enough && score > score_se && error > -0.5 * error_se);
+      if (error > error_se) return true;
+      const double sure = score / std::max(score_se, 1e-300); // standard errors
+      return tests >= enough && sure > 1 && error > -std::min(0.25 * sure, 1.0) * error_se;
     }
   };
   Gain gain(std::size_t effects, std::size_t weights, std::size_t before = 0) const;
