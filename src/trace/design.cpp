@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <gsl/gsl_cdf.h>
@@ -26,10 +27,6 @@ constexpr double tiny = 1e-9;      // of a parameter's information: what nothing
 constexpr double costs_nothing = 0.97; // of the standardised amplitude, for one setting fewer
 constexpr double hopeless = 1000;      // tests
 
-double prior(bool with) {
-  return with ? 1 : 0; // an amplitude is of the order of 1, whatever the data say
-}
-
 // What tau_R changes, per block, with each parameter that all rivals share, and with each rival.
 class Directions {
 public:
@@ -38,10 +35,9 @@ public:
 
   std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
 
-  // usual rows of a block: as in the campaign, of rows that were thinned out.
-  MatrixXd whitened(const Dataset& data, double usual_rows) const {
-    Blocks blocks = make_blocks(data);
-    if (usual_rows > 0) blocks.usual_rows = usual_rows;
+  // Information of each test about all of them, in that order.
+  std::vector<MatrixXd> information(const Dataset& data) const {
+    const Blocks blocks = make_blocks(data);
     const Rival& first = *rivals_[0];
     const Model model = search_.model_of(first);
     const std::vector<double> tau = predict(model, data);
@@ -52,11 +48,15 @@ public:
       append_columns(columns, blocks.mean(of_last_effect(*rival, data)));
     const Whitener whitener(first.noise, blocks.mean(tau), blocks);
     whitener.apply(columns);
-    first_ = blocks.first;
-    return columns;
+    std::vector<MatrixXd> each;
+    for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+      const MatrixXd part =
+          columns.middleRows(static_cast<Index>(blocks.first[e]),
+                             static_cast<Index>(blocks.first[e + 1] - blocks.first[e]));
+      each.push_back(part.transpose() * part);
+    }
+    return each;
   }
-  // Of the data that were whitened last, per test its first block.
-  const std::vector<std::size_t>& first() const { return first_; }
 
 private:
   static std::size_t last_count(const Rival& rival) {
@@ -99,7 +99,6 @@ private:
 
   const Search& search_;
   const std::vector<const Rival*>& rivals_;
-  mutable std::vector<std::size_t> first_;
 };
 
 class Designer {
@@ -159,18 +158,11 @@ private:
 
   // Of the campaign, and of each candidate; all parameters in units in which they are comparable.
   void add_information(const CandidateTests& candidates) {
-    const MatrixXd d = directions_.whitened(search_.input.training, 0);
-    known_ = d.transpose() * d;
-    const auto rows = static_cast<double>(candidates.data.first_row[1]);
-    const double blocks = std::min(rows, 40.0);
-    const MatrixXd c = directions_.whitened(candidates.data, rows / blocks);
-    each_.clear();
-    const std::vector<std::size_t>& first = directions_.first();
-    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-      const MatrixXd part =
-          c.middleRows(static_cast<Index>(first[e]), static_cast<Index>(first[e + 1] - first[e]));
-      each_.push_back(part.transpose() * part);
-    }
+    const std::vector<MatrixXd> tests = directions_.information(search_.input.training);
+    known_ = std::accumulate(tests.begin() + 1, tests.end(), tests.front());
+    each_ = directions_.information(candidates.data);
+    for (MatrixXd& m : each_) // where the law has no value nothing is learned
+      if (!m.allFinite()) m.setZero();
     const auto shared = static_cast<Index>(directions_.shared());
     VectorXd scale = known_.diagonal();
     for (Index p = 0; p < shared; ++p)
@@ -197,19 +189,19 @@ private:
   }
 
   // Of the rivals' amplitudes, with what the shared parameters take off it.
-  MatrixXd of_rivals(const MatrixXd& all, bool with_prior) const {
+  MatrixXd of_rivals(const MatrixXd& all) const {
     const auto shared = static_cast<Index>(directions_.shared());
     const Index count = all.rows() - shared;
     MatrixXd left = all.bottomRightCorner(count, count);
     if (shared > 0)
       left -= all.bottomLeftCorner(count, shared) *
               all.topLeftCorner(shared, shared).ldlt().solve(all.topRightCorner(shared, count));
-    left.diagonal().array() += prior(with_prior);
     return left;
   }
 
   double log_det(const std::vector<std::size_t>& tests) const {
-    const MatrixXd left = of_rivals(information(tests), true);
+    MatrixXd left = of_rivals(information(tests));
+    left.diagonal().array() += 1; // an amplitude is of the order of 1, whatever the data say
     return left.ldlt().vectorD().array().max(1e-300).log().sum();
   }
 
@@ -248,7 +240,7 @@ private:
   // Amplitude of 1 over its standard error: of the only rival; else beside each of the others, and
   // each of them beside the first: the least of all.
   double amplitude(const MatrixXd& all) const {
-    const MatrixXd left = of_rivals(all, false);
+    const MatrixXd left = of_rivals(all);
     if (left.rows() == 1) return std::sqrt(std::max(left(0, 0), 0.0));
     double least = std::numeric_limits<double>::infinity();
     for (Index j = 1; j < left.rows(); ++j) {
@@ -266,7 +258,7 @@ private:
 
   Design in_words(const Plan& plan) const {
     Design design;
-    if (plan.tests.empty()) return design;
+    if (plan.tests.empty() || !std::isfinite(plan.amplitude)) return design;
     // Information grows in proportion to the number of tests like these.
     const double each = (plan.amplitude * plan.amplitude - plan.before * plan.before) /
                         static_cast<double>(plan.tests.size());
