@@ -52,7 +52,7 @@ void add_lead(Trace& trace, Lead lead) {
     trace.leads.push_back(std::move(lead));
 }
 
-// --- as well the order of tests --------------------------------------------------------------
+// --- what the order of tests explains as well --------------------------------------------------
 
 // A setting's two ends, run in turn: whatever drifts over the order has little of that.
 Design in_turn(const Search& search, const Cause& cause, double scatter) {
@@ -77,7 +77,7 @@ Design in_turn(const Search& search, const Cause& cause, double scatter) {
   for (std::size_t i = 0; i < tests; ++i)
     design.tests.push_back({i % 2 == 0 ? setting.text.front() : setting.text.back()});
   design.columns = {setting.column};
-  design.like = "each other, run one after the other in this order";
+  design.like = "each other, run in this order,";
   design.settles = {cause_name(cause, search.candidates), search.order.column};
   design.probability = probability(tests);
   design.tests_needed = std::ceil(
