@@ -44,7 +44,8 @@ struct BlockFit {
 
 // Levenberg-Marquardt on whitened residuals within the parameters' bounds. `penalty`: p' penalty p
 // is added to the cost (of smooth effects; empty: none). `weight`: per block, behind the whitening
-// (empty: 1). Done where a step gains less than `enough` of the cost.
+// (empty: 1). Done where a step gains less than `enough` of the cost. No block whose stress is
+// positive at the start loses it.
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
                     const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},

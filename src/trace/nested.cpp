@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t all_alone = 40, many_folds = 20;
-constexpr double least_of_law = 1e-3;
+constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
 constexpr double score_freedom = 5; // of Student's t
 
 VectorXd relative_errors(const Dataset& data, const std::vector<double>& predicted) {
@@ -25,8 +25,8 @@ VectorXd relative_errors(const Dataset& data, const std::vector<double>& predict
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
-      const double law = std::max(predicted[i], 1e-300);
-      sum += std::abs(std::log(std::max(measured[i] / law, least_of_law)));
+      const double ratio = measured[i] / std::max(predicted[i], 1e-300);
+      sum += std::abs(std::log(std::clamp(ratio, 1 / farthest, farthest)));
     }
     errors(static_cast<Index>(e)) =
         sum / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
@@ -40,8 +40,9 @@ VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const
                 double usual_rows) {
   Blocks blocks = make_blocks(data);
   blocks.usual_rows = usual_rows; // what the noise model's white part belongs to
-  const VectorXd law = blocks.mean(predicted);
-  MatrixXd residual = blocks.mean(data.values("tau_R_MPa")) - law;
+  const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
+  const VectorXd law = blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / farthest);
+  MatrixXd residual = measured - law;
   const Whitener whitener(noise, law, blocks);
   whitener.apply(residual);
   VectorXd score = -0.5 * whitener.log_det();

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 
 #include "calibrate/resampling.h"
 #include "core/parallel.h"
 #include "trace/plausibility.h"
+#include "trace/shapes.h"
 
 namespace frictab {
 
@@ -88,6 +90,15 @@ double freedom_of(const Rival& rival, const Whitener& whitener) {
   return with.ldlt().solve(normal).trace();
 }
 
+// Friction that an effect turns round, or a law that has come to nothing, is no explanation.
+bool is_possible(const Rival& rival, const Campaign& campaign) {
+  return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
+         std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
+           return effect.acts_on == "tau" ||
+                  factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
+         });
+}
+
 void judge(Rival& rival, const Campaign& campaign) {
   const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
@@ -101,7 +112,8 @@ void judge(Rival& rival, const Campaign& campaign) {
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
     cost +=
         implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);
-  rival.penalised = rival.total - cost;
+  rival.penalised =
+      is_possible(rival, campaign) ? rival.total - cost : -std::numeric_limits<double>::infinity();
 }
 
 } // namespace

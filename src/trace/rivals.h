@@ -33,8 +33,9 @@ struct Rival {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd log_likelihood; // per experiment
   double total = 0;
-  double freedom = 0;   // effective number of parameters; stiff smooths have fewer than knots
-  double penalised = 0; // minus what parameters and complexity cost
+  double freedom = 0; // effective number of parameters; stiff smooths have fewer than knots
+  // Minus what parameters and complexity cost; -infinity where friction would be negative.
+  double penalised = 0;
   double criterion = 0; // of choose_cause, -2 log restricted likelihood: smaller is better
 };
 

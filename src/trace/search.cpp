@@ -76,16 +76,6 @@ std::size_t in_rows(const Dataset& data, std::size_t experiment) {
 
 } // namespace
 
-VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
-  std::vector<const double*> data;
-  for (const EffectInput& input : effect.inputs)
-    data.push_back(columns.at(symbol_of(input.column)).data());
-  VectorXd factor(columns.begin()->second.size());
-  factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
-                                  fitted_values(effect), factor.data());
-  return factor;
-}
-
 Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
   const std::size_t experiments = in.training.experiments.size();
   units.resize(experiments);

@@ -104,9 +104,6 @@ private:
   Eigen::MatrixXd law_between_; // per test, directions of the law's parameters
 };
 
-// Its factor, per block.
-Eigen::VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns);
-
 // Within tests; columns that are the same throughout a test are the other family's. The noise is
 // fitted again with the leading direction in before anything is judged: noise that has swallowed an
 // effect would set a ceiling to its statistic.

@@ -151,6 +151,13 @@ void keep_different(std::vector<GridShape>& shapes) {
   shapes = std::move(kept);
 }
 
+std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  std::vector<const double*> data;
+  for (const EffectInput& input : effect.inputs)
+    data.push_back(columns.at(symbol_of(input.column)).data());
+  return data;
+}
+
 } // namespace
 
 MatrixXd roughness_of(const PlacedEffect& effect) {
@@ -159,11 +166,17 @@ MatrixXd roughness_of(const PlacedEffect& effect) {
   return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
 }
 
+VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
+  const std::vector<const double*> data = inputs_on(effect, columns);
+  VectorXd factor(columns.begin()->second.size());
+  factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
+                                  fitted_values(effect), factor.data());
+  return factor;
+}
+
 MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
   const Program program = factor_program(effect);
-  std::vector<const double*> data;
-  for (const EffectInput& input : effect.inputs)
-    data.push_back(columns.at(symbol_of(input.column)).data());
+  const std::vector<const double*> data = inputs_on(effect, columns);
   const Index count = columns.at(symbol_of(effect.inputs[0].column)).size();
   MatrixXd basis(count, static_cast<Index>(amplitudes_of(effect)));
   BoundProgram(program, static_cast<std::size_t>(count), data)

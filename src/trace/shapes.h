@@ -21,6 +21,9 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
 // whatever these are; of others at the effect's own values.
 Eigen::MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns);
 
+// Its factor, per block.
+Eigen::VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns);
+
 // Roughness of a smooth effect's amplitudes.
 Eigen::MatrixXd roughness_of(const PlacedEffect& effect);
 
