@@ -24,15 +24,6 @@ Expr factor(const PlacedEffect& effect) {
   return 1.0 + by_level(Expr::symbol("x"), changes);
 }
 
-// Grows from level to level.
-std::vector<double> pattern(const PlacedEffect& effect) {
-  const std::size_t last = effect.inputs[0].levels.size() - 1;
-  std::vector<double> values;
-  for (std::size_t level = 1; level <= last; ++level)
-    values.push_back(static_cast<double>(level) / static_cast<double>(last));
-  return values;
-}
-
 std::string text(const PlacedEffect& effect) {
   const EffectInput& x = effect.inputs[0];
   std::string text = "factors of " + x.column + ": " + x.levels[0] + " 1";
@@ -53,7 +44,7 @@ EffectForm make() {
   form.parameters_of = parameters;
   form.build = factor;
   form.text = text;
-  form.pattern = pattern;
+  form.pattern = growing;
   return form;
 }
 

@@ -38,15 +38,6 @@ std::string text(const PlacedEffect& effect) {
   return text;
 }
 
-// Grows from level to level.
-std::vector<double> pattern(const PlacedEffect& effect) {
-  const std::size_t levels = effect.inputs[0].levels.size();
-  std::vector<double> values;
-  for (std::size_t level = 1; level <= levels; ++level)
-    values.push_back(static_cast<double>(level) / static_cast<double>(levels));
-  return values;
-}
-
 EffectForm make() {
   EffectForm form;
   form.name = "category_slope";
@@ -60,7 +51,7 @@ EffectForm make() {
   form.parameters_of = parameters;
   form.build = factor;
   form.text = text;
-  form.pattern = pattern;
+  form.pattern = growing;
   return form;
 }
 

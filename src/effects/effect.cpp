@@ -44,6 +44,13 @@ Expr by_level(const Expr& x, std::span<const Expr> values) {
   return chosen;
 }
 
+std::vector<double> growing(const PlacedEffect& effect) {
+  std::vector<double> values(amplitudes_of(effect));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<double>(i + 1) / static_cast<double>(values.size());
+  return values;
+}
+
 std::vector<Parameter> parameters_of(const PlacedEffect& effect) {
   const EffectForm& form = *effect.form;
   return form.parameters_of ? form.parameters_of(effect) : form.parameters;

@@ -96,6 +96,8 @@ void place_knots(PlacedEffect& effect, const std::vector<std::span<const double>
 
 // The value of a text column's level, whose number is x.
 Expr by_level(const Expr& x, std::span<const Expr> values);
+// A pattern: amplitudes that grow in equal steps up to 1.
+std::vector<double> growing(const PlacedEffect& effect);
 
 // All parameters of a form that is placed, and how many of them, in front, it is linear in.
 std::vector<Parameter> parameters_of(const PlacedEffect& effect);
