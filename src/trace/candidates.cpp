@@ -62,11 +62,14 @@ bool is_time_stamp(const Column& column, const Dataset& data) {
                                  "start_time", "started", "started_at", "test_date"});
 }
 
-bool same_values(const VectorXd& a, const VectorXd& b) {
+// Squared correlation; 0 where one of them does not vary.
+double likeness(const VectorXd& a, const VectorXd& b) {
   const VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
-  const double xy = x.dot(y), xx = x.squaredNorm(), yy = y.squaredNorm();
-  return xx > 0 && yy > 0 && xy * xy > (1 - 1e-9) * xx * yy;
+  const double xy = x.dot(y), size = x.squaredNorm() * y.squaredNorm();
+  return size > 0 ? xy * xy / size : 0;
 }
+
+constexpr double the_same = 1 - 1e-9, alike = 0.98; // likeness
 
 // Up to 10: more are many.
 std::size_t different_values(Rows values) {
@@ -214,7 +217,7 @@ private:
     found_.by_symbol[symbol_of(name)] = column.values;
     if (const auto twin = std::find_if(
             found_.columns.begin(), found_.columns.end(),
-            [&](const CandidateColumn& c) { return same_values(c.values, column.values); });
+            [&](const CandidateColumn& c) { return likeness(c.values, column.values) > the_same; });
         twin != found_.columns.end()) {
       found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
       return;
@@ -310,11 +313,7 @@ namespace {
 
 // Columns that run side by side are one quantity: their product is a parabola.
 bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  constexpr double alike = 0.98; // correlation, squared
-  if (!a.levels.empty() || !b.levels.empty()) return false;
-  const VectorXd x = a.values.array() - a.values.mean(), y = b.values.array() - b.values.mean();
-  const double xy = x.dot(y);
-  return xy * xy > alike * x.squaredNorm() * y.squaredNorm();
+  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > alike;
 }
 
 } // namespace
