@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <set>
 
+#include "bench/trace_results.h"
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
@@ -70,21 +71,6 @@ Trace traced(const Campaign& campaign, const ModelFit& fit, const Options& optio
 
 // --- what is the same column --------------------------------------------------------------------
 
-double correlation(std::span<const double> x, std::span<const double> y) {
-  const double n = static_cast<double>(x.size());
-  double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mx += x[i] / n;
-    my += y[i] / n;
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mx) * (x[i] - mx);
-    yy += (y[i] - my) * (y[i] - my);
-    xy += (x[i] - mx) * (y[i] - my);
-  }
-  return xy / std::sqrt(xx * yy);
-}
-
 // Columns of one campaign: those that go together in its data have found each other.
 class Sameness {
 public:
@@ -93,7 +79,7 @@ public:
   bool operator()(const std::string& a, const std::string& b) const {
     if (a == b) return true;
     const auto x = values(a), y = values(b);
-    return !x.empty() && !y.empty() && std::abs(correlation(x, y)) > 0.999;
+    return bench::go_together(x, y, 0.999);
   }
 
   bool any(const std::string& name, const Names& among) const {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/foreign_part.h"
+#include "bench/trace_results.h"
 
 namespace frictab::foreign {
 
@@ -19,21 +20,14 @@ Values halves(std::size_t tests, Random& random) {
   return values;
 }
 
-double correlation(const Values& a, const Values& b) {
-  const Values x = standardised(a, a), y = standardised(b, b);
-  double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    sum += x[i] * y[i] / static_cast<double>(x.size());
-  return sum;
-}
-
 // Not so alike that nobody could tell them apart.
 std::vector<Values> told_apart(std::size_t columns, std::size_t tests, Random& random) {
   std::vector<Values> all;
   while (all.size() < columns) {
     const Values next = halves(tests, random);
-    if (std::all_of(all.begin(), all.end(),
-                    [&](const Values& other) { return std::abs(correlation(next, other)) < 0.5; }))
+    if (std::all_of(all.begin(), all.end(), [&](const Values& other) {
+          return std::abs(bench::correlation(next, other)) < 0.5;
+        }))
       all.push_back(next);
   }
   return all;

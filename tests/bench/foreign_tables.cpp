@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/foreign_cases.h"
+#include "bench/trace_results.h"
 #include "core/text.h"
 
 namespace frictab::foreign {
@@ -96,15 +97,6 @@ void print_effects(const Results& all, const std::vector<double>& strengths) {
   }
 }
 
-std::vector<std::string> names_of(const Results& all, const std::string& group) {
-  std::vector<std::string> names;
-  for (const Result& result : all)
-    if (result.of->group == group &&
-        std::find(names.begin(), names.end(), result.of->name) == names.end())
-      names.push_back(result.of->name);
-  return names;
-}
-
 std::string found_text(const Score& score) {
   return score.found.empty() ? score.verdict : join(score.found, "; ");
 }
@@ -127,7 +119,7 @@ void print_effect_names(const Results& all, const std::vector<double>& strengths
   for (std::size_t i = 0; i < strengths.size(); ++i)
     fmt::print("---|");
   fmt::print("\n");
-  for (const std::string& name : names_of(all, "effect")) {
+  for (const std::string& name : bench::case_names(all, "effect")) {
     fmt::print("| {} |", name);
     for (const double strength : strengths)
       fmt::print(" {} |", cell(where(all, "effect", [&](const Case& c) {
@@ -141,7 +133,7 @@ void print_masked(const Results& all) {
   if (where(all, "masked").empty()) return;
   fmt::print("\n## Masked designs, synthetic\n\n| design | n | all named, none false | all named | "
              "a false one | removed | worse |\n|---|--:|--:|--:|--:|--:|--:|\n");
-  for (const std::string& name : names_of(all, "masked")) {
+  for (const std::string& name : bench::case_names(all, "masked")) {
     const Results some = where(all, "masked", [&](const Case& c) { return c.name == name; });
     if (some.empty()) continue;
     fmt::print("| {} | {} | {} | {} | {} | {:.0f} % | {} |\n", name, some.size(),

@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/trace_results.h"
 #include "calibrate/calibration.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -197,21 +198,6 @@ std::vector<Case> all_cases(const Options& options) {
 
 // --- what is the same column ------------------------------------------------------------------
 
-double correlation(std::span<const double> x, std::span<const double> y) {
-  const double n = static_cast<double>(x.size());
-  double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mx += x[i] / n;
-    my += y[i] / n;
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mx) * (x[i] - mx);
-    yy += (y[i] - my) * (y[i] - my);
-    xy += (x[i] - mx) * (y[i] - my);
-  }
-  return xy / std::sqrt(xx * yy);
-}
-
 // Columns and derived quantities of a campaign by name; sliding_distance is s_mm, peak_v_rel is
 // v_rel_mm_s: whoever names the one has found the other.
 class Quantities {
@@ -221,7 +207,7 @@ public:
   bool same(const std::string& a, const std::string& b) const {
     if (a == b) return true;
     const auto x = values(a), y = values(b);
-    return !x.empty() && !y.empty() && std::abs(correlation(x, y)) > 1 - 1e-6;
+    return bench::go_together(x, y, 1 - 1e-6);
   }
 
   // As sets, in any order.
@@ -522,15 +508,6 @@ void print_two(const Results& all, const std::vector<double>& strengths) {
   }
 }
 
-std::vector<std::string> case_names(const Results& all, const std::string& group) {
-  std::vector<std::string> names;
-  for (const Result& result : all)
-    if (result.of->group == group &&
-        std::find(names.begin(), names.end(), result.of->name) == names.end())
-      names.push_back(result.of->name);
-  return names;
-}
-
 // "2/2/2 of 2; 5.31 -> 4.97 (4.95); saturation of s_mm on mu"
 std::string cell(const Results& results) {
   if (results.empty()) return "-";
@@ -552,7 +529,7 @@ std::string cell(const Results& results) {
 // One row per case, one column per strength.
 void print_rows(const Results& all, const std::string& group, const std::vector<double>& strengths,
                 const std::function<std::string(const Results&)>& text) {
-  if (case_names(all, group).empty()) return;
+  if (bench::case_names(all, group).empty()) return;
   fmt::print("\n| {} |", group);
   for (const double strength : strengths)
     fmt::print(" +{:g} % |", 100 * strength);
@@ -560,7 +537,7 @@ void print_rows(const Results& all, const std::string& group, const std::vector<
   for (std::size_t i = 0; i < strengths.size(); ++i)
     fmt::print("---|");
   fmt::print("\n");
-  for (const std::string& name : case_names(all, group)) {
+  for (const std::string& name : bench::case_names(all, group)) {
     fmt::print("| {} |", name);
     for (const double strength : strengths)
       fmt::print(" {} |", text(where(all, [&](const Case& c) {
@@ -627,7 +604,7 @@ void print_errors(const Results& all) {
 }
 
 void print_tables(const Results& all, const std::vector<double>& strengths) {
-  const auto has = [&](const char* group) { return !case_names(all, group).empty(); };
+  const auto has = [&](const char* group) { return !bench::case_names(all, group).empty(); };
   if (has("single")) print_single(all, strengths);
   if (has("single"))
     fmt::print("\ndetected/named/in set; validation MAE before -> after (oracle), MPa; what was "
