@@ -217,10 +217,6 @@ std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screen
   parallel_for(best.size(), [&](std::size_t i) { rivals[i] = rival_of(search, best[i], noise); });
   for (std::size_t i = 0; i < best.size(); ++i)
     rivals[i].criterion = best[i].criterion;
-  // (A surface over two columns that are nearly one may end where it explains less than nothing.)
-  const Rival without = fit_rival(search.campaign(), search.last(), search.last().effects,
-                                  search.last().causes, noise, NoiseSearch::kept);
-  std::erase_if(rivals, [&](const Rival& r) { return r.penalised <= without.penalised; });
   return rivals;
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_within = 4; // effects
 constexpr std::size_t most_rivals = 5; // of an effect between tests, that are fitted as well
+constexpr double least_explained = 2;  // log likelihood within tests, beyond what it costs
 
 class Tracer {
 public:
@@ -111,7 +112,12 @@ private:
     if (s_.negligible()) return false;
     const auto [screened, noise] = look_within(s_);
     if (screened.directions.empty() || screened.p_value > s_.family_alpha()) return false;
+    // Under the same noise, whatever is added has to be likelier than nothing.
+    const Rival without = fit_rival(s_.campaign(), s_.last(), s_.last().effects, s_.last().causes,
+                                    noise, NoiseSearch::kept);
     std::vector<Rival> rivals = choose_cause(s_, screened, noise);
+    // (A surface over two columns that are nearly one may end where it explains less than nothing.)
+    std::erase_if(rivals, [&](const Rival& r) { return r.penalised <= without.penalised; });
     if (rivals.empty()) return false;
     prefer_declared(s_, rivals);
     if (follows_order(s_, rivals.front())) {
@@ -120,16 +126,9 @@ private:
     }
     const std::vector<Rival> forms =
         choose_form(s_, rivals.front(), rivals.front().effects.size() - 1);
-    if (!explains_more(forms.front())) return false;
+    if (!(forms.front().penalised > without.penalised + least_explained)) return false;
     accept(std::move(rivals), forms.front(), screened);
     return true;
-  }
-
-  // Under its own noise, the law with the effect has to be the likelier one.
-  bool explains_more(const Rival& rival) const {
-    const Rival without = fit_rival(s_.campaign(), s_.last(), s_.last().effects, s_.last().causes,
-                                    rival.noise, NoiseSearch::kept);
-    return rival.penalised > without.penalised + 2;
   }
 
   void accept(std::vector<Rival> rivals, const Rival& winner, const ScreenResult& screened) {
