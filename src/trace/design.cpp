@@ -334,4 +334,61 @@ Design design_for_lead(const Search& search, const PlacedEffect& effect, const C
   return design;
 }
 
+namespace {
+
+// Of a setting, the two values that are the furthest apart, and what the gain of a test differs by
+// between them: by a line through all tests, of text by the levels' means.
+struct Ends {
+  std::size_t low = 0, high = 0; // values of the setting
+  double apart = 0;
+};
+
+Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
+  const VectorXd spread = x.array() - x.mean();
+  const double slope = spread.dot(gain) / std::max(spread.squaredNorm(), 1e-300);
+  return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
+}
+
+Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
+  std::vector<double> mean;
+  for (const double level : setting.values) {
+    const Eigen::ArrayXd here = (x.array() == level).cast<double>();
+    mean.push_back((here * gain.array()).sum() / std::max(here.sum(), 1.0));
+  }
+  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
+  return {static_cast<std::size_t>(low - mean.begin()),
+          static_cast<std::size_t>(high - mean.begin()), *high - *low};
+}
+
+} // namespace
+
+Design design_in_turn(const Search& search, const Cause& cause, double scatter) {
+  constexpr std::size_t least = 4; // two of each
+  Design design;
+  if (cause.several()) return design;
+  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
+  const std::vector<Setting> settings = settings_of(search.input.training, column.recorded);
+  if (settings.empty()) return design;
+  const Setting& setting = settings.front();
+  const VectorXd x = search.blocks.experiment_means(column.values).col(0);
+  const Ends ends = column.levels.empty() ? ends_by_line(setting, x, search.gains.gain)
+                                          : ends_by_level(setting, x, search.gains.gain);
+  const auto standardised = [&](double tests) {
+    return ends.apart / (2 * std::max(scatter, 1e-300) / std::sqrt(tests));
+  };
+  const auto probability = [&](std::size_t tests) {
+    return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) - two_sided);
+  };
+  const std::size_t tests = probability(least) >= wanted ? least : most_tests;
+  for (std::size_t i = 0; i < tests; ++i)
+    design.tests.push_back({setting.text[i % 2 == 0 ? ends.low : ends.high]});
+  design.columns = {setting.column};
+  design.like = "each other, run in this order,";
+  design.settles = {cause_name(cause, search.candidates), search.order.column};
+  design.probability = probability(tests);
+  design.tests_needed = std::ceil(
+      std::pow((two_sided + gsl_cdf_ugaussian_Pinv(wanted)) / std::max(standardised(1), 1e-9), 2));
+  return design;
+}
+
 } // namespace frictab

@@ -30,4 +30,9 @@ Design design_for(const Search& search, const Finding& finding);
 Design design_for_lead(const Search& search, const PlacedEffect& effect, const Cause& cause,
                        double threshold);
 
+// Of a cause that the order of tests explains as well: two values of its column in turn, since
+// whatever drifts over the order has little of that; so many that means over tests with that
+// scatter (relative) tell the two apart. No tests where it is not one column, or cannot be set.
+Design design_in_turn(const Search& search, const Cause& cause, double scatter);
+
 } // namespace frictab

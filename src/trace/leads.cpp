@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
-#include "core/text.h"
-#include "trace/candidate_tests.h"
 #include "trace/choose.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
@@ -27,7 +25,6 @@ constexpr std::size_t most_leads = 6, most_within = 3;
 constexpr double by_chance = 0.2;   // p-value from which chance is the simplest reading
 constexpr float as_strong = 0.8f;   // statistic of a recorded column, of what is computed from it
 constexpr double hardly_there = 10; // of tau_R: the amplitude of a direction with nothing in it
-constexpr double wanted = 0.8, two_sided = 1.96; // probability; 5 %
 constexpr const char* speed = "v_rel_mm_s";
 
 bool is_listed(const Trace& trace, const Lead& lead) {
@@ -47,43 +44,11 @@ bool deserves_design(const Trace& trace, const Lead& lead) {
   return trace.leads.empty() && (lead.p_value < by_chance || too_few_tests(trace));
 }
 
-void add_lead(Trace& trace, Lead lead) {
-  if (trace.leads.size() < most_leads && !is_listed(trace, lead))
-    trace.leads.push_back(std::move(lead));
+void add_lead(Trace& trace, Lead lead, std::size_t most = most_leads) {
+  if (trace.leads.size() < most && !is_listed(trace, lead)) trace.leads.push_back(std::move(lead));
 }
 
 // --- what the order of tests explains as well --------------------------------------------------
-
-// A setting's two ends, run in turn: whatever drifts over the order has little of that.
-Design in_turn(const Search& search, const Cause& cause, double scatter) {
-  constexpr std::size_t least = 4, most = 6;
-  Design design;
-  if (cause.several()) return design;
-  const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
-  const std::vector<Setting> settings = settings_of(search.input.training, column.recorded);
-  if (settings.empty()) return design;
-  const Setting& setting = settings.front();
-  const VectorXd x = search.blocks.experiment_means(column.values).col(0);
-  const VectorXd spread = x.array() - x.mean();
-  const double slope = spread.dot(search.gains.gain) / std::max(spread.squaredNorm(), 1e-300);
-  const double apart = std::abs(slope) * (x.maxCoeff() - x.minCoeff());
-  const auto standardised = [&](double tests) {
-    return apart / (2 * std::max(scatter, 1e-300) / std::sqrt(tests));
-  };
-  const auto probability = [&](std::size_t tests) {
-    return gsl_cdf_ugaussian_P(standardised(static_cast<double>(tests)) - two_sided);
-  };
-  const std::size_t tests = probability(least) >= wanted ? least : most;
-  for (std::size_t i = 0; i < tests; ++i)
-    design.tests.push_back({i % 2 == 0 ? setting.text.front() : setting.text.back()});
-  design.columns = {setting.column};
-  design.like = "each other, run in this order,";
-  design.settles = {cause_name(cause, search.candidates), search.order.column};
-  design.probability = probability(tests);
-  design.tests_needed = std::ceil(
-      std::pow((two_sided + gsl_cdf_ugaussian_Pinv(wanted)) / std::max(standardised(1), 1e-9), 2));
-  return design;
-}
 
 void add_confounded(Trace& trace, const Search& search) {
   for (const Search::Confounded& found : search.confounded) {
@@ -94,8 +59,9 @@ void add_confounded(Trace& trace, const Search& search) {
     lead.why = fmt::format("p = {:.2g}, but a drift over the order of tests ({}) explains it as "
                            "well",
                            found.p_value, search.order.column);
-    if (trace.leads.empty()) lead.design = in_turn(search, found.cause, trace.scatter_between);
-    add_lead(trace, std::move(lead));
+    if (trace.leads.empty())
+      lead.design = design_in_turn(search, found.cause, trace.scatter_between);
+    add_lead(trace, std::move(lead), trace.leads.size() + 1); // none of these is left out
   }
 }
 
