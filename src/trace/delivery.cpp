@@ -42,10 +42,14 @@ public:
     drop_contradicted();
     judge();
     if (!d_.findings.empty() && by_validation()) {
-      if (against_calibrated().value_MPa <= 0 && weights_ == 0) try_plain_weights();
+      Difference gain = against_calibrated();
+      if (gain.value_MPa <= 0 && weights_ == 0) {
+        try_plain_weights();
+        gain = against_calibrated();
+      }
       if (t_.improvement.interval.high < 0)
         take_all_back(contradiction(t_.improvement));
-      else if (const Difference gain = against_calibrated(); gain.value_MPa <= 0)
+      else if (gain.value_MPa <= 0)
         take_all_back(gain.interval.high < 0 ? contradiction(gain) : no_better(gain));
     }
     add_leads();
@@ -125,6 +129,7 @@ private:
                                  without = unseen(d_.baseline, 0);
     t_.before = {errors(in_.training, d_.baseline), metrics(without, in_.bootstrap, in_.seed)};
     t_.after = t_.before;
+    t_.improvement = {};
     if (d_.findings.empty()) return;
     t_.after = {errors(in_.training, d_.rival), metrics(with, in_.bootstrap, in_.seed)};
     t_.improvement = gained(with, without);
@@ -150,6 +155,8 @@ private:
     weights_ = 1;
     d_.baseline = weighted(s_.base);
     d_.rival = weighted(d_.rival);
+    d_.gain_MPa.clear();
+    drop_contradicted();
     judge();
   }
 
@@ -162,7 +169,6 @@ private:
   void take_all_back(const std::string& why) {
     for (const std::size_t f : d_.findings)
       against_[f] = why;
-    t_.improvement = {};
     d_.gain_MPa.clear();
     use(0, 0);
     judge();
