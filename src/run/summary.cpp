@@ -96,7 +96,7 @@ void add_comparison(std::string& out, const Comparisons& comparisons) {
 }
 
 // The three best; all are in benchmark.md.
-void add_conditional(std::string& out, const Conditional& c) {
+void add_conditional(std::string& out, const Conditional& c, int decimals) {
   if (c.laws.empty()) return;
   out +=
       fmt::format("\nConditional use, NOT ranked above: a gain per experiment from its own first "
@@ -104,9 +104,9 @@ void add_conditional(std::string& out, const Conditional& c) {
                   c.condition_on_mm, "law", "MAE", "without gain", "gained, 95 % interval");
   for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i) {
     const ConditionalFit& fit = c.laws[i];
-    out +=
-        fmt::format("  {:<14}{:>8.2f}{:>14.2f}   {:.2f}, {}\n", fit.law, fit.conditional.mae_MPa,
-                    fit.unconditional.mae_MPa, fit.gain.value_MPa, range_of(fit.gain.interval, 2));
+    out += fmt::format("  {:<14}{:>8.{}f}{:>14.{}f}   {:.{}f}, {}\n", fit.law,
+                       fit.conditional.mae_MPa, decimals, fit.unconditional.mae_MPa, decimals,
+                       fit.gain.value_MPa, decimals, range_of(fit.gain.interval, decimals));
   }
   if (c.n_without_start > 0)
     out += fmt::format("  {} of {} experiments have no row in the first {:g} mm: without a gain\n",
@@ -272,7 +272,7 @@ std::string summary_text(const Pipeline& p) {
   add_data(out, p);
   if (p.calibration()) {
     add_ranking(out, *p.calibration());
-    add_conditional(out, p.calibration()->conditional);
+    add_conditional(out, p.calibration()->conditional, error_decimals(*p.calibration()));
   }
   for (const Trace& trace : p.traces())
     out += trace_text(trace);

@@ -18,15 +18,38 @@ std::string digits(double value) {
   return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:#.3g}", value);
 }
 
-std::string mae_line(const char* what, const TraceErrors& e) {
-  const auto one = [](const Metrics& m) {
-    return fmt::format("{:>8}{:>18}{:>9}{:>9}", digits(m.mae_MPa),
-                       std::isfinite(m.mae_interval.low)
-                           ? digits(m.mae_interval.low) + " .. " + digits(m.mae_interval.high)
-                           : "-",
-                       digits(m.rmse_MPa), digits(m.bias_MPa));
-  };
-  return fmt::format("  {:<14}{}{:>10}\n", what, one(e.validation), digits(e.training.mae_MPa));
+std::vector<std::string> error_row(const char* what, const TraceErrors& e) {
+  const Metrics& m = e.validation;
+  const std::string interval =
+      std::isfinite(m.mae_interval.low)
+          ? digits(m.mae_interval.low) + " .. " + digits(m.mae_interval.high)
+          : "-";
+  return {what,
+          digits(m.mae_MPa),
+          interval,
+          digits(m.rmse_MPa),
+          digits(m.bias_MPa),
+          digits(e.training.mae_MPa)};
+}
+
+// Before and after; wider where small stresses take more characters.
+std::string error_table(const TraceErrors& before, const TraceErrors& after) {
+  const std::vector<std::vector<std::string>> rows = {
+      {"tau_R, MPa", "MAE", "95 % interval", "RMSE", "bias", "train MAE"},
+      error_row("before", before),
+      error_row("after", after)};
+  std::vector<std::size_t> widths = {14, 8, 18, 9, 9, 10};
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c)
+      widths[c] = std::max(widths[c], row[c].size() + 2);
+  std::string out;
+  for (const auto& row : rows) {
+    out += fmt::format("  {:<{}}", row[0], widths[0]);
+    for (std::size_t c = 1; c < row.size(); ++c)
+      out += fmt::format("{:>{}}", row[c], widths[c]);
+    out += "\n";
+  }
+  return out;
 }
 
 std::string parameter_text(const TracedEffect& effect) {
@@ -150,9 +173,7 @@ std::string trace_text(const Trace& t) {
     if (t.effects.empty())
       out +=
           "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
-    out += fmt::format("  {:<14}{:>8}{:>18}{:>9}{:>9}{:>10}\n", "tau_R, MPa", "MAE",
-                       "95 % interval", "RMSE", "bias", "train MAE");
-    out += mae_line("before", t.before) + mae_line("after", t.after);
+    out += error_table(t.before, t.after);
     out += fmt::format("  gained on unseen tests: {} MPa (95 %: {} to {}, paired by test)\n",
                        digits(t.improvement.value_MPa), digits(t.improvement.interval.low),
                        digits(t.improvement.interval.high));
