@@ -128,7 +128,7 @@ KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string 
   return rule;
 }
 
-inline KeyRule operator|(KeyRule rule, const Bounds& bounds) {
+inline KeyRule operator|(KeyRule rule, const ValueBounds& bounds) {
   rule.bounds = bounds;
   return rule;
 }
@@ -142,13 +142,13 @@ inline KeyRule operator|(KeyRule rule, Problem (*problem)(const std::string&, co
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-inline Bounds at_least(double lower, double upper = infinite) {
+inline ValueBounds at_least(double lower, double upper = infinite) {
   return {lower, upper, false, false};
 }
-inline Bounds above(double lower) {
+inline ValueBounds above(double lower) {
   return {lower, infinite, true, false};
 }
-inline Bounds between(double lower, double upper) {
+inline ValueBounds between(double lower, double upper) {
   return {lower, upper, true, true};
 }
 

@@ -46,7 +46,7 @@ struct ValueReader {
   }
 
   bool inside(double value) const {
-    const Bounds& b = rule.bounds;
+    const ValueBounds& b = rule.bounds;
     return std::isfinite(value) && (b.open_lower ? value > b.lower : value >= b.lower) &&
            (b.open_upper ? value < b.upper : value <= b.upper);
   }

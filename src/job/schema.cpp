@@ -43,7 +43,7 @@ std::string either(const std::vector<std::string>& words) {
   return join(quoted, ", ") + " or " + last;
 }
 
-std::string with_bounds(const std::string& noun, const Bounds& bounds) {
+std::string with_bounds(const std::string& noun, const ValueBounds& bounds) {
   const bool low = bounds.lower > -schema::infinite;
   const bool high = bounds.upper < schema::infinite;
   std::string text = noun;

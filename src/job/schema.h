@@ -27,7 +27,8 @@ enum class KeyType {
 using KeyValue = std::variant<std::string, std::vector<std::string>, std::uint64_t, double,
                               std::vector<double>, std::pair<double, double>, bool>;
 
-struct Bounds {
+// Of a number.
+struct ValueBounds {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool open_lower = false; // the bound itself is not allowed
@@ -54,7 +55,7 @@ struct KeyRule {
   std::string meaning;
   std::string absent;  // what holds where the key is left out and there is no plain default
   std::string example; // TOML value, where there is no plain default
-  Bounds bounds;
+  ValueBounds bounds;
   Allowed allowed;
   std::function<void(Job&, const std::string& name, KeyValue)> store;
   std::function<std::string(const Job&)> show; // the job's value as TOML, "" where not set

@@ -82,14 +82,14 @@ double per_step(const std::vector<double>& u) {
   return 1 / step;
 }
 
-AxisSearch axis_search(std::vector<double> u, Search search) {
+AxisSearch axis_search(std::vector<double> u, CellSearch search) {
   AxisSearch axis;
   axis.u = std::move(u);
   for (std::size_t i = 0; i + 1 < axis.u.size(); ++i)
     axis.per_cell.push_back(
         std::min(1 / (axis.u[i + 1] - axis.u[i]), std::numeric_limits<double>::max()));
-  const bool even = search == Search::fastest || search == Search::even;
-  const bool guide = search == Search::fastest || search == Search::guide;
+  const bool even = search == CellSearch::fastest || search == CellSearch::even;
+  const bool guide = search == CellSearch::fastest || search == CellSearch::guide;
   if (even && search_even(axis)) return axis;
   if (guide && search_guide(axis)) return axis;
   axis.scale = axis.shift = 0;

@@ -58,9 +58,9 @@ TEST(AxisSearch, FindsTheSameCellAndWeightEachWay) {
         std::vector<double> u = nodes(count, spacing, offset - 0.7, offset + 2);
         u.erase(std::unique(u.begin(), u.end()), u.end());
         if (u.size() < 2) continue;
-        const AxisSearch slow = axis_search(u, Search::bisection);
+        const AxisSearch slow = axis_search(u, CellSearch::bisection);
         ASSERT_EQ(slow.scale, 0);
-        for (const Search search : {Search::fastest, Search::even, Search::guide}) {
+        for (const CellSearch search : {CellSearch::fastest, CellSearch::even, CellSearch::guide}) {
           const AxisSearch fast = axis_search(u, search);
           guides += !fast.guide.empty();
           evens += fast.guide.empty() && fast.scale > 0;
@@ -128,7 +128,7 @@ TEST(AxisSearch, TakesTheFastestWayThereIs) {
 
 // A grid with arrays of exactly the size the kernels may read: a sanitizer sees one more.
 struct Grid {
-  Grid(const std::vector<std::size_t>& counts, Search search, Spacing spacing) {
+  Grid(const std::vector<std::size_t>& counts, CellSearch search, Spacing spacing) {
     std::size_t size = 1;
     for (const std::size_t count : counts) {
       searches.push_back(axis_search(nodes(count, spacing), search));
@@ -216,7 +216,8 @@ TEST(Kernels, GiveTheSameBitsInEveryVariantSearchAndType) {
   Random random(9);
   for (const auto& counts : shapes)
     for (const Spacing spacing : {Spacing::even, Spacing::uneven}) {
-      const Grid slow(counts, Search::bisection, spacing), fast(counts, Search::fastest, spacing);
+      const Grid slow(counts, CellSearch::bisection, spacing),
+          fast(counts, CellSearch::fastest, spacing);
       for (int i = 0; i < 200; ++i) {
         const std::vector<double> u = place(fast, random);
         const auto truth = answers(test::vector_kernel, slow, u, false);
@@ -232,7 +233,7 @@ TEST(Kernels, GiveTheSameBitsInEveryVariantSearchAndType) {
 
 TEST(Kernels, MeetTheValuesAtTheNodesBitForBitWhereLinear) {
   for (const auto& counts : shapes) {
-    const Grid grid(counts, Search::fastest, Spacing::uneven);
+    const Grid grid(counts, CellSearch::fastest, Spacing::uneven);
     for (std::size_t i = 0; i < grid.value.size(); ++i) {
       std::vector<double> u(counts.size());
       std::size_t rest = i;
@@ -246,7 +247,7 @@ TEST(Kernels, MeetTheValuesAtTheNodesBitForBitWhereLinear) {
 
 TEST(Kernels, OfSevenAndEightAxesReproduceMultilinearFunctions) {
   for (const std::size_t axes : {7, 8}) {
-    Grid grid(std::vector<std::size_t>(axes, 3), Search::fastest, Spacing::uneven);
+    Grid grid(std::vector<std::size_t>(axes, 3), CellSearch::fastest, Spacing::uneven);
     const auto field = [](const std::vector<double>& u) {
       double product = 1;
       for (std::size_t d = 0; d < u.size(); ++d)
