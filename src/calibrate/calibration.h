@@ -7,8 +7,8 @@
 #include "calibrate/band.h"
 #include "calibrate/judgement.h"
 #include "calibrate/network.h"
+#include "calibrate/options.h"
 #include "data/dataset.h"
-#include "job/job.h"
 #include "models/law.h"
 
 namespace frictab {

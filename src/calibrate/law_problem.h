@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrate/fit.h"
+#include "calibrate/options.h"
 #include "data/dataset.h"
 
 namespace frictab {

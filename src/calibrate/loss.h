@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "job/job.h"
+#include "calibrate/options.h"
 
 namespace frictab {
 

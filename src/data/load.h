@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "data/dataset.h"
-#include "job/job.h"
+#include "data/options.h"
 
 namespace frictab {
 

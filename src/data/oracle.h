@@ -2,7 +2,7 @@
 #pragma once
 
 #include "data/dataset.h"
-#include "job/job.h"
+#include "data/options.h"
 
 namespace frictab {
 

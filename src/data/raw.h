@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/error.h"
+#include "data/options.h"
 #include "io/csv.h"
-#include "job/job.h"
 
 namespace frictab {
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "calibrate/calibration.h"
+#include "table/options.h"
 #include "table/table.h"
 
 namespace frictab {

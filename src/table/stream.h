@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "table/build.h"
+#include "table/options.h"
 
 namespace frictab {
 

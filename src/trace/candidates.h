@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "effects/extended_law.h"
-#include "job/job.h"
 #include "trace/blocks.h"
 #include "trace/law_on_blocks.h"
+#include "trace/options.h"
 
 namespace frictab {
 

@@ -8,6 +8,7 @@
 
 #include "calibrate/calibration.h"
 #include "effects/extended_law.h"
+#include "trace/options.h"
 
 namespace frictab {
 

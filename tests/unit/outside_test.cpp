@@ -7,6 +7,7 @@
 #include "codegen/exporter.h"
 #include "codegen/fill.h"
 #include "io/hdf5.h"
+#include "job/job.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"

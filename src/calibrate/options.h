@@ -1,0 +1,31 @@
+// [models] and [calibration] of a job.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace frictab {
+
+enum class Loss { l2, l1, huber };
+
+struct ModelOptions {
+  std::vector<std::string> use;      // empty: all that the columns allow
+  std::string shear_yield = "mises"; // mises | tresca | flow_stress
+  bool shear_limit = true;           // tau_R <= k
+  Place place;
+};
+
+struct CalibrationOptions {
+  Loss loss = Loss::l2;
+  double huber_delta_MPa = 10; // where |residual| turns from square to linear
+  std::uint64_t seed = 1;
+  std::size_t bootstrap = 1000;          // resamples of experiments for intervals and comparisons
+  std::optional<double> condition_on_mm; // gain per experiment from its first millimetres
+  Place place;                           // of condition_on_mm
+};
+
+} // namespace frictab

@@ -1,0 +1,25 @@
+// [export] of a job.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace frictab {
+
+struct ExportOptions {
+  std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
+  std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
+  std::string form = "table";                            // table | direct: the law itself
+  // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
+  // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
+  // "temperature", "solver"). By canonical name, or by the symbol of a traced law's further input.
+  std::map<std::string, std::string> inputs;
+  std::map<std::string, Place> input_places;
+  std::map<std::string, std::string> options; // choices that targets offer, by their names
+  Place place;
+};
+
+} // namespace frictab

@@ -1,0 +1,14 @@
+// [verify] of a job.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace frictab {
+
+struct VerifyOptions {
+  std::optional<double> max_drift_MPa; // absent: table.tolerance_MPa
+  std::size_t samples = 200000;        // points over the whole range
+};
+
+} // namespace frictab

@@ -1,0 +1,71 @@
+// The folders of the house stand on each other in one order: what a file includes lies on its own
+// floor or below.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+
+// From the ground up; ARCHITECTURE.md draws them.
+const std::vector<std::string> floors = {
+    "core",      "io",     "data",  "expr",   "models", "effects", "calibrate", "table", "codegen",
+    "exporters", "verify", "trace", "report", "job",    "twin",    "run",       "cli"};
+
+// 0 is the ground. main.cpp stands on top; what is no folder of src is one of exporters.
+std::size_t floor_of(const std::string& folder) {
+  const auto at = std::find(floors.begin(), floors.end(), folder);
+  return static_cast<std::size_t>(
+      (at == floors.end() ? std::find(floors.begin(), floors.end(), "exporters") : at) -
+      floors.begin());
+}
+
+std::size_t floor_of_file(const fs::path& root, const fs::path& file) {
+  const fs::path inside = fs::relative(file, root);
+  if (root.filename() == "exporters") return floor_of("exporters");
+  return inside.has_parent_path() ? floor_of(inside.begin()->string()) : floors.size();
+}
+
+// "src/data/load.h:8: includes job/job.h, which stands above data"
+std::vector<std::string> includes_from_above() {
+  const fs::path source = FRICTAB_SOURCE_DIR;
+  const std::regex include("#include \"([^/\"]+)/([^\"]+)\".*");
+  std::vector<std::string> faults;
+  for (const fs::path& root : {source / "src", source / "exporters"})
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      const std::size_t own = floor_of_file(root, entry.path());
+      std::ifstream in(entry.path());
+      std::string line;
+      for (int number = 1; std::getline(in, line); ++number) {
+        std::smatch match;
+        if (std::regex_match(line, match, include) && floor_of(match[1]) > own)
+          faults.push_back(fmt::format("{}:{}: includes {}/{}, which stands above {}",
+                                       fs::relative(entry.path(), source).string(), number,
+                                       match[1].str(), match[2].str(), floors[own]));
+      }
+    }
+  std::sort(faults.begin(), faults.end());
+  return faults;
+}
+
+TEST(Floors, NothingIncludesWhatStandsAboveIt) {
+  EXPECT_EQ(fmt::format("{}", fmt::join(includes_from_above(), "\n")), "");
+}
+
+TEST(Floors, EveryFolderOfSrcIsOneOfThem) {
+  for (const auto& entry : fs::directory_iterator(fs::path(FRICTAB_SOURCE_DIR) / "src"))
+    if (entry.is_directory()) {
+      EXPECT_NE(std::find(floors.begin(), floors.end(), entry.path().filename()), floors.end())
+          << entry.path() << " has no floor: name it in tests/unit/floors_test.cpp";
+    }
+}
+
+} // namespace
+} // namespace frictab
