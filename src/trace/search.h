@@ -61,7 +61,7 @@ public:
   // the logarithm of its gain.
   Eigen::MatrixXd known_between() const;
   // Of each of the two families. That what is found also has to predict tests that the search has
-  // not seen keeps false alarms of both together below it (measured: README).
+  // not seen keeps false alarms of both together below it (docs/measurements.md).
   double family_alpha() const { return input.options.alpha; }
 
   const TraceInput& input;

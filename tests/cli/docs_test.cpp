@@ -1,0 +1,129 @@
+// The documentation says what is so: links lead somewhere, commands run, jobs can be read, no
+// target is left out.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "codegen/exporter.h"
+#include "job/job.h"
+#include "support/run_command.h"
+
+namespace frictab {
+namespace {
+
+namespace fs = std::filesystem;
+using test::run_frictab;
+
+const fs::path house = FRICTAB_SOURCE_DIR;
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> all = {house / "examples/README.md"};
+  for (const fs::path& folder : {house, house / "docs"})
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".md") all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string text_of(const fs::path& page) {
+  std::ifstream in(page);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
+  return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
+}
+
+// Code blocks of a page that are marked with a language.
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
+  std::vector<std::string> all;
+  for (const auto& m : matches(text, std::regex("```" + language + "\n([^`]*)```")))
+    all.push_back(m[1]);
+  return all;
+}
+
+// "## Speed" is #speed.
+std::set<std::string> anchors_of(const fs::path& page) {
+  std::set<std::string> anchors;
+  const std::string text = text_of(page);
+  for (const auto& m : matches(text, std::regex("(^|\n)#+ ([^\n]+)"))) {
+    std::string anchor;
+    for (const char c : m[2].str())
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '-')
+        anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      else if (c == ' ')
+        anchor += '-';
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+TEST(Docs, EveryLinkLeadsSomewhere) {
+  for (const fs::path& page : pages()) {
+    const std::string text = text_of(page);
+    for (const auto& m : matches(text, std::regex(R"(\]\(([^)#]*)#?([^)]*)\))"))) {
+      if (m[1].str().find("://") != std::string::npos) continue;
+      const fs::path target = m[1].length() > 0 ? page.parent_path() / m[1].str() : page;
+      EXPECT_TRUE(fs::exists(target)) << page << " links to " << m[1];
+      if (m[2].length() > 0 && fs::exists(target)) {
+        EXPECT_EQ(anchors_of(target).count(m[2]), 1u)
+            << page << " links to " << m[1] << "#" << m[2];
+      }
+    }
+  }
+}
+
+TEST(Docs, TheFirstPageIsShort) {
+  std::istringstream words(text_of(house / "README.md"));
+  const auto count = std::distance(std::istream_iterator<std::string>(words),
+                                   std::istream_iterator<std::string>());
+  EXPECT_LE(count, 700);
+}
+
+TEST(Docs, EveryCommandThatIsNamedExists) {
+  std::set<std::string> commands;
+  for (const fs::path& page : pages()) {
+    const std::string text = text_of(page);
+    for (const auto& m : matches(text, std::regex("[`\n]frictab ([a-z]+)")))
+      commands.insert(m[1]);
+  }
+  EXPECT_GE(commands.size(), 8u);
+  for (const std::string& command : commands)
+    EXPECT_EQ(run_frictab({command, "--help"}).exit_code, 0) << "frictab " << command;
+}
+
+TEST(Docs, TheFirstPageNamesEveryTarget) {
+  const std::string text = text_of(house / "README.md");
+  for (const Exporter& target : all_exporters())
+    EXPECT_NE(text.find("`" + target.name + "`"), std::string::npos) << target.name;
+}
+
+TEST(Docs, JobsThatAreShownCanBeRead) {
+  for (const char* page : {"README.md", "docs/guide.md"})
+    for (const std::string& job : blocks(text_of(house / page), "toml"))
+      EXPECT_NO_THROW(parse_job(job, page)) << job;
+}
+
+TEST(DocsExample, CommandsOfTheGuideRun) {
+  const test::TemporaryDirectory directory;
+  std::size_t run = 0;
+  for (const std::string& block : blocks(text_of(house / "docs/guide.md"), "sh"))
+    for (const auto& m : matches(block, std::regex("frictab ([^#\n]*)"))) {
+      std::istringstream words(m[1]);
+      const std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+      const auto result = run_frictab(arguments, directory.path());
+      EXPECT_EQ(result.exit_code, 0) << m[0] << "\n" << result.err;
+      ++run;
+    }
+  EXPECT_GE(run, 6u);
+}
+
+} // namespace
+} // namespace frictab
