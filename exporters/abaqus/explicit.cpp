@@ -8,6 +8,7 @@
 
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/recipe.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -80,10 +81,8 @@ std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const 
 }
 
 void add_compile(nlohmann::ordered_json& recipe, const std::string& file) {
-  recipe["compile"] = {
-      fmt::format("abaqus job=<job> user={} double=explicit", file),
-      fmt::format("abaqus job=<job> user={}", file),
-      fmt::format("gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off {}", file)};
+  recipe["compile"] = {fmt::format("abaqus job=<job> user={} double=explicit", file),
+                       fmt::format("abaqus job=<job> user={}", file), fixed_form_check(file)};
   recipe["compile_note"] =
       "the last line only checks the source, beside a vaba_param.inc of your own";
 }

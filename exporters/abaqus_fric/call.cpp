@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "../abaqus/names.h"
+
 namespace frictab::abaqus_fric {
 
 namespace {
@@ -13,11 +15,6 @@ using Fric = void (*)(int*, double*, double*, double*, double*, double*, double*
                       double*, double*, int*, char*, char*, char*, int*, int*, int*, double*,
                       double*, double*, double*, double*, int*, int*, int*, int*, double*, double*,
                       int*, std::size_t, std::size_t, std::size_t);
-
-std::string name80(std::string text) {
-  text.resize(80, ' ');
-  return text;
-}
 
 } // namespace
 
@@ -39,7 +36,8 @@ void FricCall::run(void* function) {
   double pressure_change = 0, penalty = 0, time[2] = {0, 0};
   std::vector<double> multiplier(motion.size()), total(motion.size());
   std::vector<double> place(motion.size() + 1), main_place(motion.size() + 1);
-  std::string interaction = name80("FRICTAB"), first = name80("SEC"), second = name80("MAIN");
+  std::string interaction = abaqus::name80("FRICTAB"), first = abaqus::name80("SEC"),
+              second = abaqus::name80("MAIN");
   reinterpret_cast<Fric>(function)(
       &mode, tau.data(), by_motion.data(), by_pressure.data(), slip.data(), &elastic_energy,
       &dissipation, by_temperature.data(), &step_scale, state.data(), motion.data(),

@@ -69,9 +69,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["state_variables_by"] = "contact point";
   out["state_variables"] = state_variables(request, inputs);
   out["properties"] = properties(request, inputs);
-  out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
-                    "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
-                    "frictab_fric.f"};
+  out["compile"] = {"abaqus job=<job> user=frictab_fric.f", fixed_form_check("frictab_fric.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
   out["input_deck"] = input_deck(inputs);
   out["table"] = recipe_table(request);

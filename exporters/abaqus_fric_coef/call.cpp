@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "../abaqus/names.h"
+
 namespace frictab::abaqus_fric_coef {
 
 namespace {
@@ -12,11 +14,6 @@ namespace {
 using FricCoef = void (*)(double*, double*, int*, int*, int*, int*, int*, double*, char*, char*,
                           char*, double*, double*, double*, double*, double*, std::size_t,
                           std::size_t, std::size_t);
-
-std::string name80(std::string text) {
-  text.resize(80, ' ');
-  return text;
-}
 
 constexpr std::size_t before_state = 7; // rData(1..7): times, rotation
 
@@ -40,7 +37,8 @@ void CoefCall::run(void* function) {
   std::vector<double> data(release_2024 ? before_state + state.size() : 3);
   data[2] = time_increment;
   if (release_2024) std::copy(state.begin(), state.end(), data.begin() + before_state);
-  std::string interaction = name80("FRICTAB"), first = name80("SEC"), second = name80("MAIN");
+  std::string interaction = abaqus::name80("FRICTAB"), first = abaqus::name80("SEC"),
+              second = abaqus::name80("MAIN");
   reinterpret_cast<FricCoef>(function)(
       coefficient.data(), derivative.data(), &points, &property_number, &has_temperature, &fields,
       integers, data.data(), interaction.data(), first.data(), second.data(), properties.data(),

@@ -61,8 +61,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["state_variables"] = state_variables(request, inputs);
   out["properties"] = recipe_properties(inputs);
   out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
-                    "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
-                    "frictab_fric_coef.f"};
+                    fixed_form_check("frictab_fric_coef.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
   out["input_deck"] = input_deck(request, inputs);
   out["table"] = recipe_table(request);

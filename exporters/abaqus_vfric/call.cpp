@@ -4,6 +4,8 @@
 #include <numeric>
 #include <string>
 
+#include "../abaqus/names.h"
+
 namespace frictab::abaqus_vfric {
 
 namespace {
@@ -14,11 +16,6 @@ using Vfric = void (*)(void*, void*, int*, int*, int*, int*, int*, int*, int*, i
                        char*, int*, void*, void*, void*, void*, void*, void*, void*, void*, void*,
                        void*, void*, void*, void*, void*, void*, void*, std::size_t, std::size_t,
                        std::size_t);
-
-std::string name80(std::string text) {
-  text.resize(80, ' ');
-  return text;
-}
 
 } // namespace
 
@@ -57,7 +54,8 @@ template <class Real> void VfricCall<Real>::run(void* function) {
   std::vector<Real> shape(blank(contacts, facet)), secondary(blank(secondary_nodes, directions));
   std::vector<Real> main(blank(main_nodes, directions)), slip_axis(blank(contacts, directions));
   std::vector<Real> normal_axis(blank(contacts, directions));
-  std::string interaction = name80("FRICTAB"), first = name80("SEC"), second = name80("MAIN");
+  std::string interaction = abaqus::name80("FRICTAB"), first = abaqus::name80("SEC"),
+              second = abaqus::name80("MAIN");
   reinterpret_cast<Vfric>(function)(
       tangential.data(), state.data(), &step, &increment, &contacts, &facet, &secondary_nodes,
       &main_nodes, &friction_directions, &directions, &states, &property_number, &has_temperature,

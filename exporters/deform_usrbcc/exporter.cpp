@@ -82,8 +82,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
   out["build"] = build_steps(files, inputs);
-  out["compile"] = {"gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
-                    "frictab_usrbcc.f"};
+  out["compile"] = {fixed_form_check("frictab_usrbcc.f")};
   out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
   out["input_deck"] = keyword(kind);
   out["input_deck_note"] =

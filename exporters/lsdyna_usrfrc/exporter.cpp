@@ -72,8 +72,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                   "object package; older ones end at isurface and have no history",
                   "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
                   "build with the package's Makefile, which sets the kinds of real and integer"};
-  out["compile"] = {"make", "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
-                            "frictab_usrfrc.f"};
+  out["compile"] = {"make", fixed_form_check("frictab_usrfrc.f")};
   out["compile_note"] = "the last line only checks the source";
   out["input_deck"] = keywords(request.table, inputs);
   out["input_deck_note"] =

@@ -54,8 +54,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
   out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
-                    "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off "
-                    "frictab_ufric.f"};
+                    fixed_form_check("frictab_ufric.f")};
   out["compile_note"] = "the first line is recalled; the last one only checks the source";
   out["input_deck"] = input_deck(chosen);
   out["table"] = recipe_table(request);

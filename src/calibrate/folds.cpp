@@ -26,20 +26,6 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
   return fold;
 }
 
-void require_whole_experiments(const Dataset& a, const Dataset& b) {
-  const std::set<std::string> known(a.experiments.begin(), a.experiments.end());
-  std::vector<std::string> shared;
-  for (const std::string& name : b.experiments)
-    if (known.count(name)) shared.push_back(name);
-  if (shared.empty()) return;
-  const std::string first = shared.front();
-  const std::size_t others = shared.size() - 1;
-  throw InputError({join(b.sources, ", "), 0, 0},
-                   fmt::format("experiment '{}'{} is on both sides of a split", first,
-                               others > 0 ? fmt::format(" (and {} more)", others) : ""),
-                   "part the data by whole experiments");
-}
-
 namespace {
 
 // One experiment's rows in the given columns, as a key.

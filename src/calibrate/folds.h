@@ -16,10 +16,6 @@ namespace frictab {
 std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t folds,
                                           std::uint64_t seed, std::uint64_t repeat);
 
-// Throws InputError where an experiment is in both parts, so that what is learned on one would be
-// judged on itself. For parts of one campaign: two files may both count their tests from 1.
-void require_whole_experiments(const Dataset& a, const Dataset& b);
-
 // For two files, where equal names prove nothing: says how many validation experiments have the
 // very rows of a training experiment (every column both have, bit for bit). Empty where none has.
 std::string leak_note(const Dataset& training, const Dataset& validation);

@@ -25,12 +25,6 @@ bool posed(const std::vector<SolverInput>& inputs, std::span<const double* const
   return !peak || !(*peak < pressure); // NaN is posed
 }
 
-std::vector<std::size_t> all_rows(std::size_t rows) {
-  std::vector<std::size_t> all(rows);
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
 std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>& inputs,
                                                   std::vector<std::size_t> rows,
                                                   std::span<const double* const> columns,

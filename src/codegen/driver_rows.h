@@ -14,9 +14,6 @@ namespace frictab {
 bool posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
            std::size_t row, double otherwise);
 
-// 0 .. rows-1.
-std::vector<std::size_t> all_rows(std::size_t rows);
-
 // These rows in groups that can share a call, at most `most` each: properties are constants of a
 // call, so all rows of a group agree in them.
 std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>& inputs,

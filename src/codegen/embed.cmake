@@ -1,13 +1,14 @@
 # Writes OUT: a C++ file with every template (and the interpolation kernels) as text.
 file(GLOB_RECURSE files RELATIVE ${ROOT}/templates ${ROOT}/templates/*)
+file(GLOB kernels RELATIVE ${ROOT}/src/table ${ROOT}/src/table/frictab_*.h)
 list(SORT files)
+list(SORT kernels)
 set(code "// Generated from templates/ by src/codegen/embed.cmake.\n#include <string_view>\n#include <utility>\n")
 string(APPEND code "namespace frictab {\nextern const std::pair<std::string_view, std::string_view> embedded_files[];\n")
 string(APPEND code "extern const unsigned embedded_count;\n")
 string(APPEND code "const std::pair<std::string_view, std::string_view> embedded_files[] = {\n")
 set(count 0)
-foreach(file frictab_kernel.h frictab_cubic.h frictab_gradient.h
-             frictab_cubic_gradient.h ${files})
+foreach(file ${kernels} ${files})
   if(file MATCHES "^frictab_[a-z_]+\\.h$")
     set(path ${ROOT}/src/table/${file})
   else()

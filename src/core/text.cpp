@@ -67,6 +67,23 @@ std::string shortest(double value) {
   return fmt::format("{}", value);
 }
 
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
+  const unsigned a = byte(0), b = byte(1);
+  if (text.empty()) return 0;
+  if (a < 0x80) return 1;
+  if (a >= 0xC2 && a <= 0xDF) return follows(1) ? 2 : 0;
+  const bool overlong = (a == 0xE0 && b < 0xA0) || (a == 0xF0 && b < 0x90);
+  const bool surrogate_or_beyond = (a == 0xED && b >= 0xA0) || (a == 0xF4 && b >= 0x90);
+  if (overlong || surrogate_or_beyond) return 0;
+  if (a >= 0xE0 && a <= 0xEF) return follows(1) && follows(2) ? 3 : 0;
+  if (a >= 0xF0 && a <= 0xF4) return follows(1) && follows(2) && follows(3) ? 4 : 0;
+  return 0;
+}
+
 std::string thousands(std::size_t value) {
   std::string text = std::to_string(value);
   for (std::size_t i = text.size(); i > 3; i -= 3)
