@@ -1,5 +1,6 @@
 // Formulas as data. A friction law is written once as an Expr; from it come its value, its
-// derivatives (parameters and state), the text in C, Fortran and Python, and its bounds (bounds.h, taylor_model.h).
+// derivatives (parameters and state), the text in C, Fortran and Python, and its bounds (bounds.h,
+// taylor_model.h).
 #pragma once
 
 #include <map>
