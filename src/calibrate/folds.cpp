@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 
 namespace frictab {
 

@@ -349,15 +349,15 @@ Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gai
   return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
 }
 
+// (A level of which no test is left, all of them being held out, has no mean.)
 Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
-  std::vector<double> mean;
-  for (const double level : setting.values) {
-    const Eigen::ArrayXd here = (x.array() == level).cast<double>();
-    mean.push_back((here * gain.array()).sum() / std::max(here.sum(), 1.0));
+  std::vector<std::pair<double, std::size_t>> means; // with the level's place in the setting
+  for (std::size_t level = 0; level < setting.values.size(); ++level) {
+    const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
+    if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
   }
-  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
-  return {static_cast<std::size_t>(low - mean.begin()),
-          static_cast<std::size_t>(high - mean.begin()), *high - *low};
+  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  return {low->second, high->second, high->first - low->first};
 }
 
 } // namespace

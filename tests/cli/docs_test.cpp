@@ -1,12 +1,12 @@
 // The documentation says what is so: links lead somewhere, commands run, jobs can be read, no
 // target is left out.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"

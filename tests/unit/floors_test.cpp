@@ -1,8 +1,8 @@
 // The folders of the house stand on each other in one order: what a file includes lies on its own
 // floor or below.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 
 #include <fmt/format.h>
