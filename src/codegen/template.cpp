@@ -42,7 +42,8 @@ std::vector<std::string> names_of(const TemplateValues& values) {
   return names;
 }
 
-// Walks every branch, taken or not: names unknown, of another kind, hidden or never used.
+// Walks every branch: names that are unknown or of another kind where it is taken, values that no
+// branch names.
 class Checker {
 public:
   Checker(std::string_view file, FaultList& faults) : file_(file), faults_(faults) {}
@@ -61,13 +62,20 @@ private:
       if (node.kind == Kind::insert) {
         use(node.name, "text", &TemplateValues::text);
       } else if (node.kind == Kind::choice) {
-        use(node.name, "flag", &TemplateValues::flags);
-        walk(node.body);
-        walk(node.otherwise);
+        const bool* flag = use(node.name, "flag", &TemplateValues::flags);
+        walk_branch(node.body, flag && *flag);
+        walk_branch(node.otherwise, flag && !*flag);
       } else if (node.kind == Kind::loop) {
         walk_loop(node);
       }
     }
+  }
+
+  void walk_branch(const std::vector<TemplateNode>& nodes, bool taken) {
+    const bool before = taken_;
+    taken_ = taken_ && taken;
+    walk(nodes);
+    taken_ = before;
   }
 
   void walk_loop(const TemplateNode& node) {
@@ -77,7 +85,7 @@ private:
     const auto* list = use(node.name, "list", &TemplateValues::lists);
     if (!list || list->empty()) {
       scopes_.push_back({node.variable, nullptr});
-      walk(node.body);
+      walk_branch(node.body, false);
       scopes_.pop_back();
       return;
     }
@@ -99,7 +107,7 @@ private:
       if (!scope.values) return nullptr;
       used_.insert({scope.values, name.name});
       const auto* found = look_up(scope.values->*member, name.name);
-      if (!found)
+      if (!found && taken_)
         faults_.add(name.place, "there is no " + std::string(kind) + " '" + name.text() + "'",
                     suggest(name.name, names_of(*scope.values)));
       return found;
@@ -118,6 +126,7 @@ private:
   std::string file_;
   FaultList& faults_;
   std::vector<Scope> scopes_;
+  bool taken_ = true; // what is walked will be written
   std::set<std::pair<const TemplateValues*, std::string>> used_;
   // A list may be walked by several loops: what none of them used is reported at the end.
   std::vector<std::pair<const TemplateValues*, Place>> items_;
@@ -168,18 +177,31 @@ private:
   }
 };
 
+std::string written(const std::vector<TemplateNode>& tree, const TemplateValues& values) {
+  Writer writer;
+  std::vector<Scope> scopes{{"", &values}};
+  writer.write(tree, scopes);
+  return writer.out;
+}
+
 } // namespace
 
-std::string render(std::string_view text, std::string_view file, const TemplateValues& values) {
+std::string render(std::string_view text, std::string_view file, const TemplateValues& values) try {
   FaultList faults;
   const std::vector<TemplateNode> tree = parse_template(text, file, faults);
   faults.throw_if_any();
   Checker(file, faults).check(tree, values);
   faults.throw_if_any();
-  Writer writer;
-  std::vector<Scope> scopes{{"", &values}};
-  writer.write(tree, scopes);
-  return writer.out;
+  return written(tree, values);
+} catch (const InputError& error) {
+  throw std::logic_error(error.what());
+}
+
+std::string insert_names(std::string_view line, const std::map<std::string, std::string>& names) {
+  TemplateValues values;
+  for (const auto& [name, text] : names)
+    if (line.find("@{" + name + "}") != std::string_view::npos) values.text[name] = text;
+  return render(line, line, values);
 }
 
 std::string_view embedded_template(std::string_view path) {

@@ -23,12 +23,17 @@ using Lines = std::vector<TemplateValues>;
 TemplateValues item(std::string text);
 Lines items(const std::vector<std::string>& texts);
 
-// Throws InputError with file:line:col for an unknown name, a name never used, an unclosed block or
-// bad syntax: a template and its values must fit each other exactly.
+// A template and its values have to fit each other: a fault of theirs is one of the program, not of
+// its user. Throws std::logic_error with file:line:col for bad syntax, an unclosed block, a value
+// that no branch names, and a name without a value in a branch that is taken (in others it need not
+// have one).
 std::string render(std::string_view text, std::string_view file, const TemplateValues& values);
 
 // The template "c/frictab_tau.c" as built into the program; throws std::logic_error where absent.
 std::string_view embedded_template(std::string_view path);
+
+// A line with @{name} in it and nothing else of a template; values it does not name stay unused.
+std::string insert_names(std::string_view line, const std::map<std::string, std::string>& names);
 
 // render(embedded_template(path), "templates/" + path, values)
 std::string render_template(std::string_view path, const TemplateValues& values);

@@ -271,7 +271,7 @@ struct Score {
   double p_value = 1;   // of the first effect, or of what is left where there is none
   double order_p = 1;   // of no structure along the order of tests
   std::string found;    // "saturation of s_mm on mu"
-  std::string rejected; // what was turned down, and why
+  std::string rejected; // what was turned down or only led, and why
 };
 
 // Forms that a few levels cannot tell apart.
@@ -302,6 +302,8 @@ public:
         trace_.effects.empty() ? trace_.remaining.p_value : trace_.effects.front().p_value;
     score_.order_p = trace_.order.p_value;
     score_.rejected = join(trace_.rejected, "; ");
+    for (const Lead& lead : trace_.leads)
+      score_.rejected += fmt::format("; lead {} p {:.3g}: {}", lead.name, lead.p_value, lead.why);
     errors();
     return std::move(score_);
   }

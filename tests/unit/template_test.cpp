@@ -1,9 +1,10 @@
 // The renderer: what it writes, and that template and values must fit each other exactly.
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "codegen/template.h"
-#include "core/error.h"
 
 namespace frictab {
 
@@ -18,7 +19,7 @@ TemplateValues text(std::map<std::string, std::string> names) {
 std::string message(std::string_view source, const TemplateValues& values) {
   try {
     return "no error: " + render(source, "t.c", values);
-  } catch (const InputError& error) {
+  } catch (const std::logic_error& error) {
     return error.what();
   }
 }
@@ -77,11 +78,27 @@ TEST(Template, NamesPlaceAndNearestNameOfAnUnknownOne) {
   EXPECT_THAT(what, HasSubstr("did you mean 'value'?"));
 }
 
-TEST(Template, ChecksBranchesThatAreNotTaken) {
+TEST(Template, AsksNoValueOfABranchThatIsNotTaken) {
   TemplateValues values;
   values.flags["on"] = false;
+  EXPECT_EQ(render("@if on\n@{x}\n@for r in rows\n@{r.n}\n@end\n@else\noff\n@end\n", "t", values),
+            "off\n");
+  values.flags["on"] = true;
   EXPECT_THAT(message("@if on\n@{x}\n@end\n", values),
               HasSubstr("t.c:2:1: error: there is no text"));
+}
+
+TEST(Template, CountsAValueAsUsedThatOnlyABranchNotTakenNames) {
+  TemplateValues values = text({{"x", "1"}});
+  values.flags["on"] = false;
+  EXPECT_EQ(render("@if on\n@{x}\n@end\n", "t", values), "");
+}
+
+TEST(Template, InsertsNamesIntoOneLineAndLeavesTheOthersUnused) {
+  EXPECT_EQ(insert_names("x(@{index}) = press@{convert}",
+                         {{"index", "2"}, {"convert", "/1.0D6"}, {"field", "7"}}),
+            "x(2) = press/1.0D6");
+  EXPECT_THROW(insert_names("@{nowhere}", {}), std::logic_error);
 }
 
 TEST(Template, TellsValuesThatAreNeverUsed) {
