@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/driver.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
@@ -15,33 +16,10 @@ namespace frictab::abaqus {
 
 namespace {
 
-std::string fill(const std::string& pattern, std::size_t number) {
-  return fmt::format(fmt::runtime(pattern), number);
-}
-
-// One temperature or field, read at each point.
-TemplateValues given(const SolverInput& input, std::size_t index, const TemplateValues& filled,
-                     const ExplicitNames& names) {
-  const bool field = input.source == Source::field;
-  const std::string first = field ? fill(names.field, input.field) : names.temperature;
-  const std::string second =
-      field ? (names.field_main.empty() ? "" : fill(names.field_main, input.field))
-            : names.temperature_main;
-  TemplateValues out;
-  out.text = {{"index", std::to_string(index + 1)},
-              {"comment", filled.text.at("comment")},
-              {"exists", field ? fmt::format("{} .ge. {}", names.fields, input.field)
-                               : std::string("nTemp .gt. 0")},
-              {"first", first},
-              {"second", second},
-              {"second_exists", names.main + " .ge. 1"},
-              {"fallback", filled.text.at("fallback")},
-              {"property", std::to_string(input.property)},
-              {"convert", filled.text.at("convert")}};
-  out.flags = {{"has_second", !second.empty()},
-               {"has_property", input.property > 0},
-               {"converts", filled.flags.at("converts")}};
-  return out;
+// Mean of the secondary surface and, where there is one with values, of the main surface.
+std::string both(const ForceNames& names, const std::string& secondary, const std::string& main) {
+  return "@{x} = " + secondary + "\nif (" + names.main + " .ge. 1) then\n  comp = " + main +
+         "\n  @{x} = 0.5D0*(@{x} + comp)\nend if";
 }
 
 BuildVariant variant(const std::string& name, const std::string& real, int dimension, double eps,
@@ -71,12 +49,14 @@ BuildVariant variant(const std::string& name, const std::string& real, int dimen
 
 } // namespace
 
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file) {
+std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file,
+                                            const std::string& driver) {
   std::vector<BuildVariant> all = {variant("double", "real*8", 2, 0x1p-53, file),
                                    variant("single", "real", 1, 0x1p-24, file)};
-  if (fortran::ends(request))
-    for (BuildVariant& one : all)
-      add_stand_ins(one, Solver::explicit_);
+  for (BuildVariant& one : all) {
+    add_driver(one, render_template(driver, {}));
+    if (fortran::ends(request)) add_stand_ins(one, Solver::explicit_);
+  }
   return all;
 }
 
@@ -101,50 +81,47 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
 }
 
-Lines only(const std::vector<SolverInput>& inputs, const SolverGives& gives,
-           const std::vector<Source>& sources, const std::vector<std::string>& texts,
-           const std::vector<std::string>& flags) {
-  const Lines all = fortran_inputs(inputs, gives);
-  Lines out;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Source source = inputs.empty() ? Source::constant : inputs[i].source;
-    if (std::find(sources.begin(), sources.end(), source) == sources.end()) continue;
-    TemplateValues one;
-    for (const std::string& name : texts)
-      one.text[name] = all[i].text.at(name);
-    for (const std::string& name : flags)
-      one.flags[name] = all[i].flags.at(name);
-    out.push_back(std::move(one));
-  }
-  return out;
+const GivenState explicit_property = {.text = "property @{property}",
+                                      .read = "props(@{property})",
+                                      .exists = "nProps .ge. @{property}",
+                                      .part = "once"};
+const GivenState explicit_constant = {.read = "@{fallback}", .canonical = true, .part = "once"};
+
+SolverGives force_gives(const ForceNames& names) {
+  const std::string& state = names.state_name;
+  return {.states = {{.state = "sigma_n_MPa", .text = names.pressure, .read = "press"},
+                     {.state = "v_rel_mm_s", .text = names.speed, .read = "speed"},
+                     {.state = "s_mm",
+                      .text = state + "(1), accumulated slip under pressure",
+                      .read = "(hist(1) + slip)"},
+                     {.state = "friction_work",
+                      .text = state + "(2), friction work per area of the increments done",
+                      .read = "hist(2)"},
+                     {.state = "peak_sigma_n",
+                      .text = state + "(3), highest pressure so far",
+                      .read = "@{x} = hist(3)\n"
+                              "if (.not. ftnan(hist(3))) @{x} = max(hist(3), press)"},
+                     {.state = "T_contact_C",
+                      .text = "mean of both surfaces",
+                      .without = "nTemp = 0",
+                      .read = both(names, names.temperature, names.temperature_main),
+                      .exists = "nTemp .gt. 0",
+                      .part = "point"}},
+          .property = explicit_property,
+          .field = {.text = "mean of both surfaces' predefined field @{field}",
+                    .read = both(names, names.field, names.field_main),
+                    .exists = names.fields + " .ge. @{field}",
+                    .part = "point"},
+          .constant = explicit_constant,
+          .history = state + "(@{number})",
+          .before_histories = explicit_states};
 }
 
-std::string explicit_fixed(const std::vector<SolverInput>& inputs, const SolverGives& gives) {
-  TemplateValues values;
-  values.lists["inputs"] =
-      only(inputs, gives, {Source::property, Source::constant},
-           {"index", "comment", "fallback", "property", "convert"}, {"is_property", "converts"});
-  if (values.lists["inputs"].empty()) return "";
-  return fortran::without_last_break(render_template("abaqus/explicit_fixed.f", values));
-}
-
-std::string explicit_given(const std::vector<SolverInput>& inputs, const ExplicitNames& names) {
-  const Lines filled = fortran_inputs(inputs, {{}, "property {}", "field {}"});
-  TemplateValues values;
-  Lines& list = values.lists["inputs"];
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (inputs[i].source == Source::temperature || inputs[i].source == Source::field)
-      list.push_back(given(inputs[i], i, filled[i], names));
-  if (list.empty()) return "";
-  return fortran::without_last_break(render_template("abaqus/explicit_given.f", values));
-}
-
-bool needs_unknown(const std::vector<SolverInput>& inputs) {
-  return std::any_of(inputs.begin(), inputs.end(), [](const SolverInput& input) {
-    const bool asked = input.property > 0 || input.source == Source::field ||
-                       input.source == Source::temperature || input.source == Source::constant;
-    return asked && !input.fallback;
-  });
+void drive_explicit(const SolverGives& gives, fortran::Coefficient result, const Built& built,
+                    const ExportRequest& request, std::size_t rows,
+                    std::span<const double* const> columns, std::span<double> tau) {
+  drive_routine({.gives = gives, .result = result, .most_points = 136, .peak_presses = true}, built,
+                request, rows, columns, tau);
 }
 
 } // namespace frictab::abaqus

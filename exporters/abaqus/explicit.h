@@ -8,26 +8,30 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "codegen/coefficient.h"
 #include "codegen/solver_inputs.h"
 
 namespace frictab::abaqus {
 
-// Fortran text for what an argument list names and numbers in its own way; a point is k.
-struct ExplicitNames {
-  std::string temperature;      // "tempSec(k)"
-  std::string temperature_main; // "tempMain(min(k,numDefTfv))"; empty: there is one only
-  std::string fields;           // "nPred", how many there are
-  std::string field;            // "preDefSec(k,{})"
-  std::string field_main;       // "preDefMain(min(k,numDefTfv),{})"; empty as above
-  std::string main;             // "numDefTfv", how many values of the main surface there are
+// A routine reads its states in three places: properties and constants once per call ("once"),
+// temperatures and fields at each point k ("point"), the rest in double precision (ftpnt).
+extern const GivenState explicit_property, explicit_constant;
+
+// What an argument list of the force routines names in its own way.
+struct ForceNames {
+  std::string pressure, speed;               // for people
+  std::string state_name;                    // "STATEV"
+  std::string temperature, temperature_main; // "tempSec(k)", "tempMain(min(k,numDefTfv))"
+  std::string fields, field, field_main;     // "nPred", "preDefSec(k,@{field})", "preDefMain(...)"
+  std::string main; // "numDefTfv", how many values of the main surface there are
 };
+SolverGives force_gives(const ForceNames& names);
 
 // One history and one force per contact point.
 struct ForceRoutine {
   std::string target; // "abaqus_vfric": also the template's folder
   std::string entry;  // "vfric"
   SolverGives gives;
-  ExplicitNames names;
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"
   std::string area;                   // "areaSec(jConSecid(k))"
@@ -56,23 +60,15 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
                           const std::vector<SolverInput>& inputs,
                           const std::vector<std::string>& remarks);
 
-// Statements that fill x from properties and constants, once per call; empty where there are none.
-std::string explicit_fixed(const std::vector<SolverInput>& inputs, const SolverGives& gives);
+// "double" and "single", with stand-ins for the solver's include and its error routine; `driver`
+// is the template of the file that calls it (codegen/driver.h).
+std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file,
+                                            const std::string& driver);
 
-// Statements that fill x from temperatures and fields, at each point k; empty where there are none.
-std::string explicit_given(const std::vector<SolverInput>& inputs, const ExplicitNames& names);
-
-// Whether these statements call ftqnan(): a value that nothing stands in for.
-bool needs_unknown(const std::vector<SolverInput>& inputs);
-
-// The entries of fortran_inputs that come from one of these sources, with these flags and texts
-// alone: templates use all they are given.
-Lines only(const std::vector<SolverInput>& inputs, const SolverGives& gives,
-           const std::vector<Source>& sources, const std::vector<std::string>& texts,
-           const std::vector<std::string>& flags);
-
-// "double" and "single", with stand-ins for the solver's include and its error routine.
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file);
+// As Exporter::drive, in blocks of contact points as the solver's.
+void drive_explicit(const SolverGives& gives, fortran::Coefficient result, const Built& built,
+                    const ExportRequest& request, std::size_t rows,
+                    std::span<const double* const> columns, std::span<double> tau);
 
 // compile and compile_note.
 void add_compile(nlohmann::ordered_json& recipe, const std::string& file);

@@ -52,12 +52,12 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
                                 states[i].unit == "1" ? "" : " (" + states[i].unit + ")"));
   lines.push_back("With a smaller DEPVAR those that it leaves out are not kept.");
   const std::string absent = " with a smaller DEPVAR it is taken as ";
-  if (uses(inputs, Source::slip))
+  if (takes(inputs, "s_mm"))
     lines.push_back(fmt::format("The law needs {}(1):{}the slip of the increment alone.",
                                 routine.state_name, absent));
-  if (uses(inputs, Source::work))
+  if (takes(inputs, "friction_work"))
     lines.push_back(fmt::format("The law needs {}(2):{}0.", routine.state_name, absent));
-  if (uses(inputs, Source::peak_pressure))
+  if (takes(inputs, "peak_sigma_n"))
     lines.push_back(
         fmt::format("The law needs {}(3):{}the present pressure.", routine.state_name, absent));
   if (uses(inputs, Source::history))
@@ -100,8 +100,8 @@ std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& in
                  std::size_t n_x) {
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
-                 {"fixed", explicit_fixed(inputs, routine.gives)},
-                 {"given", explicit_given(inputs, routine.names)},
+                 {"reads_once", fortran::reads(inputs, routine.gives, "once")},
+                 {"reads", fortran::reads(inputs, routine.gives, "point", 2)},
                  {"time_increment", routine.time_increment},
                  {"points", routine.points},
                  {"area", routine.area},
@@ -109,9 +109,7 @@ std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& in
                  {"columns", routine.columns},
                  {"state", routine.state}};
   add_sizes(values, inputs);
-  values.flags = {{"unknown", needs_unknown(inputs)},
-                  {"has_fixed", !values.text["fixed"].empty()},
-                  {"has_given", !values.text["given"].empty()}};
+  values.flags["unknown"] = fortran::needs_unknown(inputs, routine.gives);
   return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
 }
 
@@ -126,21 +124,17 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
                   {"refuses", fortran::refuses(request.table)}};
   add_sizes(values, inputs);
   add_past(values, request, inputs);
-  values.lists["inputs"] =
-      only(inputs, routine.gives,
-           {Source::pressure, Source::speed, Source::slip, Source::work, Source::peak_pressure},
-           {"index", "comment", "convert"},
-           {"is_pressure", "is_speed", "is_slip", "is_work", "is_peak"});
+  values.text["reads"] = fortran::reads(inputs, routine.gives, "", 2);
   return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
 }
 
 std::string source(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
   const Table& table = request.table;
-  const fortran::Core core =
-      fortran::core(request, {.unknown = fortran::refuses(table) || needs_unknown(inputs),
-                              .quit = quit(Solver::explicit_),
-                              .directory_routine = directory_routine(Solver::explicit_)});
+  const fortran::Core core = fortran::core(
+      request, {.unknown = fortran::refuses(table) || fortran::needs_unknown(inputs, routine.gives),
+                .quit = quit(Solver::explicit_),
+                .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
   values.text = {{"head", explicit_head(*find_exporter(routine.target), request, inputs,
@@ -148,7 +142,7 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
                  {"body", body(routine, inputs, n_x)},
                  {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
-  return render_template(routine.target + "/frictab_" + routine.entry + ".f", values);
+  return render_template("abaqus/" + routine.entry + "/frictab_" + routine.entry + ".f", values);
 }
 
 std::string recipe(const ForceRoutine& routine, const ExportRequest& request,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/driver.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
@@ -15,24 +16,10 @@ namespace frictab::abaqus {
 
 namespace {
 
-// Templates ask for every source, also where this argument list has none.
-Lines all_flags(Lines inputs) {
-  for (TemplateValues& input : inputs)
-    for (const char* flag : {"is_pressure", "is_speed", "is_slip", "is_work", "is_peak",
-                             "is_temperature", "is_property", "is_field", "is_constant"})
-      input.flags.try_emplace(flag, false);
-  return inputs;
-}
-
-std::string over(double number) {
-  return number == 1 ? "" : "/" + fortran_number(number);
-}
-
 void add_units(TemplateValues& values, const ExportRequest& request) {
   const SolverUnit length = solver_unit("mm", request.units);
-  values.text["to_mpa"] = over(solver_unit("MPa", request.units).over);
-  values.text["to_mm"] = length.times == 1 ? "" : "*" + fortran_number(length.times);
-  values.text["to_work"] = over(work_over(request.units));
+  values.text["to_mpa"] = fortran_conversion(solver_unit("MPa", request.units));
+  values.text["to_mm"] = fortran_conversion(length);
 }
 
 std::vector<std::string> coefficient_lines(bool frozen) {
@@ -83,10 +70,6 @@ double smallest_pressure(const Table& table) {
   return range && range->first > 0 ? std::min(1.0, range->first) : 1.0;
 }
 
-double work_over(std::string_view units) {
-  return solver_unit("MPa", units).over / solver_unit("mm", units).times;
-}
-
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown) {
   const Table& table = request.table;
@@ -94,9 +77,7 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
                     directory_routine(Solver::standard));
   add_units(values, request);
   const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(exporter, request);
-  const bool missing = std::any_of(inputs.begin(), inputs.end(),
-                                   [](const SolverInput& input) { return !input.fallback; });
-  unknown = unknown || refuses || missing;
+  unknown = unknown || refuses || fortran::needs_unknown(inputs, gives);
   values.text["core"] =
       fortran::core(request, {.unknown = unknown,
                               .gradient = true,
@@ -108,10 +89,9 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["frozen"] = frozen;
   values.lists["coefficient"] = fortran::comments(coefficient_lines(frozen));
-  values.lists["inputs"] = all_flags(fortran_inputs(inputs, gives));
   values.lists["histories"] = fortran::comments(
       numbered(history_states(inputs, request.units), gives.before_histories + 1));
-  values.flags["knows_temperature"] = uses(inputs, Source::temperature);
+  values.flags["knows_temperature"] = takes(inputs, "T_contact_C");
   fortran::add_histories(values, inputs, request.units, true);
   return unknown;
 }
@@ -149,8 +129,11 @@ nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::s
   return out;
 }
 
-std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file) {
-  return {variant(file, fortran::ends(request))};
+std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file,
+                                   const std::string& driver) {
+  BuildVariant out = variant(file, fortran::ends(request));
+  add_driver(out, driver);
+  return {out};
 }
 
 } // namespace frictab::abaqus

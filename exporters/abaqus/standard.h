@@ -21,10 +21,9 @@ bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& reques
 // end of a range that goes below that.
 double smallest_pressure(const Table& table);
 
-// Fills in what both templates hold: head, inputs with a flag for every source, histories, core
-// with its gradient, stop, pmin and smallest, to_mpa, to_mm, to_work, lines `coefficient`, flags
-// frozen, has_axes, refuses. Gives whether the core holds ftqnan; `unknown` asks for it in any
-// case.
+// Fills in what both templates hold: head, histories, core with its gradient, stop, pmin and
+// smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_axes, refuses. Gives whether the
+// core holds ftqnan; `unknown` asks for it in any case.
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown);
 
@@ -40,10 +39,8 @@ state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meanin
                 const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
-std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file);
-
-// MPa mm, the unit of friction work per area, in the solver's units: divide to get it.
-double work_over(std::string_view units);
+std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file,
+                                   const std::string& driver);
 
 // A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
 inline constexpr double any_pressure = 1024;

@@ -128,8 +128,7 @@ std::string gradient_functions(const ExportRequest& request,
   values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
   const std::string arguments = has_piece ? piece_arguments(table, inputs) : "";
   values.text["piece_arguments"] = arguments.empty() ? "" : arguments + ", ";
-  // The head of frictab_tau_R stands alone there.
-  values.text.erase("names");
+  values.offered = {"names"}; // of the head of frictab_tau_R, which stands alone there
   return without_last_break(render_template("c/frictab_gradient.c", values));
 }
 

@@ -92,15 +92,4 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
   return without_last_break(render_template("fortran/frictab_constants.f", fill));
 }
 
-Lines constant_inputs(const std::vector<SolverInput>& inputs, const SolverGives& gives) {
-  Lines lines = fortran_inputs(inputs, gives);
-  for (TemplateValues& values : lines) {
-    values.text.erase("fallback");
-    values.text.erase("property");
-    if (gives.field.empty()) values.text.erase("field");
-    values.flags.erase("converts");
-  }
-  return lines;
-}
-
 } // namespace frictab::fortran

@@ -1,5 +1,5 @@
-// A target: one FE code's friction routine. How it is filled, compiled and called is one folder in
-// exporters/; what it looks like is the folder of the same name in templates/.
+// A target: one FE code's friction routine. How it is filled and compiled is one folder in
+// exporters/; what it looks like, and how it is called, the folder of the same name in templates/.
 #pragma once
 
 #include <filesystem>

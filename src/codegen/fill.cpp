@@ -23,10 +23,6 @@ namespace frictab {
 
 namespace {
 
-// The entry's arguments, in the order every C and Fortran caller relies on.
-const char* const contract_order[] = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
-                                      "T_contact_C", "s_mm", "sigma_f_MPa"};
-
 std::string replace_ending(const std::string& name, std::string_view from, std::string_view to) {
   if (name.size() <= from.size() || name.substr(name.size() - from.size()) != from) return name;
   return name.substr(0, name.size() - from.size()) + std::string(to);
@@ -105,8 +101,8 @@ std::vector<InputArgument> entry_arguments(const Table& table, std::string_view 
   std::vector<InputArgument> arguments;
   std::set<std::string> taken;
   const std::vector<std::string> needed = table.inputs();
-  for (const char* name : contract_order)
-    arguments.push_back(argument(table, name, units));
+  for (const Quantity& quantity : quantities())
+    if (quantity.argument) arguments.push_back(argument(table, quantity.name, units));
   for (const std::string& name : needed) {
     const auto same = [&](const InputArgument& a) { return a.name == name; };
     const auto found = std::find_if(arguments.begin(), arguments.end(), same);

@@ -154,7 +154,6 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   add_ends(values, table);
   add_units(values, options.units);
   values.text["pure_tau"] = file ? "" : values.text["pure"]; // reading a file is no pure act
-  values.text.erase("out");                                  // the functions here change nothing
   const std::string weights = add_formula(values, request, options);
   const std::vector<double> numbers =
       values.flags["interpolates"] ? baked_values(table) : std::vector<double>{};
@@ -190,6 +189,7 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
     remarks.push_back(line);
   values.lists["outside"] = comments(remarks);
   values.flags["refuses"] = refuses(table);
+  values.offered = {"stress", "length", "to_solver", "properties"};
 }
 
 } // namespace frictab::fortran

@@ -40,7 +40,7 @@ std::string free_form(const std::string& fixed);
 // names), to_solver ("*1.0D6", from MPa to the solver's unit); lists about, states, properties,
 // source (where the argument list comes from); refuses, where a side has outside = error.
 // `error_action`: what happens there, "XPLB_ABQERR ends the analysis"; list outside, and where a
-// file of values lies (`directory_routine` as in CoreOptions).
+// file of values lies (`directory_routine` as in CoreOptions). Units and properties are offered.
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
               const std::vector<SolverInput>& inputs, const std::string& error_action,
               const std::string& directory_routine = {});

@@ -99,7 +99,6 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
                   {"log_value", table.log_value}};
   values.text["wish"] = units == Units::external ? ", .true." : "";
   add_units(values, units);
-  values.text.erase("pure");
   out.text = without_last_break(render_template("fortran/frictab_gradient.f", values));
   return out;
 }

@@ -259,7 +259,6 @@ Piece interpolation(const ExportRequest& request, const std::vector<double>& bak
   values.lists["axes"] = search_axes(table, stride, data);
   out.data = data_text(table, data, baked, values_in_file(request));
   add_units(values, units);
-  values.flags.erase("externals"); // none are called
   values.text["data"] = units == Units::external ? out.data : "";
   values.text["n_axes"] = std::to_string(table.axes.size());
   values.flags["cubic"] = is_cubic(table);

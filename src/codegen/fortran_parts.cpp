@@ -29,8 +29,9 @@ Lines comments(const std::vector<std::string>& texts) {
   return lines;
 }
 
-std::string clip(const std::string& text) {
-  return wrap_text(comment_text(text), comment_width - 4)[0].substr(0, comment_width - 4);
+std::string clip(const std::string& text, std::size_t indent) {
+  const std::size_t width = comment_width - indent;
+  return wrap_text(comment_text(text), width)[0].substr(0, width);
 }
 
 std::map<std::string, std::string> symbol_names(const Table& table) {
@@ -50,6 +51,7 @@ void add_units(TemplateValues& values, Units units) {
   values.text["in"] = module ? ", intent(in) ::" : "";
   values.text["out"] = module ? ", intent(out) ::" : "";
   values.flags["externals"] = !module;
+  values.offered.insert({"pure", "in", "out", "externals"});
 }
 
 Lines declarations(const std::vector<std::string>& names) {

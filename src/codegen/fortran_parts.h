@@ -13,8 +13,8 @@ namespace frictab::fortran {
 // Comment lines; what does not fit goes on, set in by two blanks.
 Lines comments(const std::vector<std::string>& texts);
 
-// The first line of a remark: what follows is in the head of the file.
-std::string clip(const std::string& text);
+// The first line of a remark that is set in by `indent`: what follows is in the head of the file.
+std::string clip(const std::string& text, std::size_t indent = 0);
 
 // "double precision t1, t2, ..." in lines of eight.
 Lines declarations(const std::vector<std::string>& names);

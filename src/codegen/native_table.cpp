@@ -25,21 +25,8 @@ Place input_place(const std::string& name) {
   return {"export.inputs." + name, 0, 0};
 }
 
-const char* natural_name(Source source) {
-  switch (source) {
-  case Source::pressure:
-    return "sigma_n_MPa";
-  case Source::speed:
-    return "v_rel_mm_s";
-  case Source::slip:
-    return "s_mm";
-  case Source::temperature:
-    return "T_contact_C";
-  case Source::expansion:
-    return "psi";
-  default:
-    return "";
-  }
+bool is_pressure(const NativeColumn& column) {
+  return column.state == "sigma_n_MPa";
 }
 
 // A state that the table need not know: solver_inputs tells nothing about it.
@@ -80,7 +67,7 @@ double flow_stress_of(const std::string& choice) {
 void check_fields(const std::vector<NativeColumn>& columns, const NativeForm& form) {
   std::vector<std::size_t> used;
   for (const NativeColumn& column : columns) {
-    if (column.source != Source::field) continue;
+    if (column.field == 0) continue;
     if (column.field > form.most_fields)
       throw InputError(input_place(column.argument.name),
                        fmt::format("field {}: this table has columns for {} fields", column.field,
@@ -98,19 +85,20 @@ void check_fields(const std::vector<NativeColumn>& columns, const NativeForm& fo
 std::vector<NativeColumn> native_columns(const ExportRequest& request, const NativeForm& form) {
   const std::vector<SolverInput> inputs = solver_inputs(request, form.gives);
   std::vector<NativeColumn> columns;
-  for (const SolverGives::State& state : form.gives.states) {
-    const std::string name = natural_name(state.source);
+  for (const GivenState& row : form.gives.states) {
     const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const SolverInput& input) {
-      return input.argument.name == name && input.source == state.source;
+      return input.source == Source::given && input.given == row.state;
     });
-    const bool factor = form.factor == NativeFactor::pressure && state.source == Source::pressure;
-    if (found != inputs.end() || factor || form.every_column)
-      columns.push_back({argument_of(request, name), state.source, 0, state.text});
+    const bool factor = form.factor == NativeFactor::pressure && row.state == "sigma_n_MPa";
+    if (found != inputs.end())
+      columns.push_back({found->argument, row.state, 0, row.text});
+    else if (factor || form.every_column)
+      columns.push_back({argument_of(request, row.state), row.state, 0, row.text});
   }
   std::vector<NativeColumn> fields;
   for (const SolverInput& input : inputs)
     if (input.source == Source::field)
-      fields.push_back({input.argument, Source::field, input.field, input.text});
+      fields.push_back({input.argument, "", input.field, input.text});
   std::sort(fields.begin(), fields.end(),
             [](const auto& a, const auto& b) { return a.field < b.field; });
   columns.insert(columns.end(), fields.begin(), fields.end());
@@ -271,7 +259,7 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
                          const std::vector<NativeColumn>& columns, const HeldStates& held) {
   NativeProblem problem;
   for (const NativeColumn& column : columns) {
-    if (form.factor == NativeFactor::pressure && column.source == Source::pressure)
+    if (form.factor == NativeFactor::pressure && is_pressure(column))
       problem.pressure = problem.axes.size();
     problem.axes.push_back(axis_of(request, form, column));
   }
@@ -345,11 +333,11 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
       // A pressure that the law does not ask for: all of its range in turn.
       const double w = static_cast<double>(i % 97) / 96;
       const double state = sources[c] ? sources[c][i]
-                           : columns[c].source == Source::pressure
+                           : is_pressure(columns[c])
                                ? range.first + w * (range.second - range.first)
                                : 0;
       x[c] = columns[c].argument.solver.from_canonical(state);
-      if (columns[c].source == Source::pressure) pressure = x[c];
+      if (is_pressure(columns[c])) pressure = x[c];
     }
     const double factor = form.factor == NativeFactor::pressure
                               ? pressure

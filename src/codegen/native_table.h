@@ -20,7 +20,7 @@ enum class NativeFactor {
 
 // What a solver's table can hold.
 struct NativeForm {
-  // Its columns, the first varies fastest: natural sources, then fields where `field` is not empty.
+  // Its columns, the first varies fastest: states, then fields where it has any.
   SolverGives gives;
   NativeFactor factor = NativeFactor::pressure;
   bool limits = false;       // it has a largest shear stress beside the table
@@ -31,8 +31,8 @@ struct NativeForm {
 
 struct NativeColumn {
   InputArgument argument;
-  Source source = Source::pressure;
-  std::size_t field = 0; // from 1, where the source is a field
+  std::string state;     // the row's, "sigma_n_MPa"; empty: a field
+  std::size_t field = 0; // from 1, where it is one
   std::string text;      // "column 2, slip rate"
 };
 

@@ -136,7 +136,7 @@ SourceBundle native_plain(const PlainRequest& request, const Exporter& exporter,
   const std::vector<NativeColumn> all = native_columns({request.table, "mm-t-s", {}}, form);
   for (const NativeColumn& column : all) {
     columns.push_back(column.argument.name);
-    const bool given = column.source == Source::pressure || column.source == Source::speed;
+    const bool given = column.state == "sigma_n_MPa" || column.state == "v_rel_mm_s";
     if (given && request.held.count(column.argument.name))
       throw InputError({}, column.argument.name + " is a column of this table",
                        "leave out --at " + column.argument.name);

@@ -1,8 +1,8 @@
-// Reads the job's [export.inputs] against what a solver gives.
+// Reads the job's [export.inputs] against a solver's table, and writes the Fortran that it has for
+// each state.
 #include "codegen/solver_inputs.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -19,43 +19,9 @@ namespace frictab {
 
 namespace {
 
-struct SourceName {
-  Source source;
-  const char* flag;   // for templates
-  const char* choice; // in [export.inputs], where it is the solver's own; empty: not to be chosen
-};
-constexpr std::array source_names = {
-    SourceName{Source::pressure, "is_pressure", "contact"},
-    SourceName{Source::speed, "is_speed", "contact"},
-    SourceName{Source::slip, "is_slip", "state"},
-    SourceName{Source::work, "is_work", "state"},
-    SourceName{Source::peak_pressure, "is_peak", "state"},
-    SourceName{Source::history, "", "state"},
-    SourceName{Source::temperature, "is_temperature", "temperature"},
-    SourceName{Source::flow_stress, "is_flow_stress", "solver"},
-    SourceName{Source::expansion, "is_expansion", "solver"},
-    SourceName{Source::property, "is_property", ""},
-    SourceName{Source::field, "is_field", ""},
-    SourceName{Source::constant, "is_constant", ""}};
-
-const SourceName& name_of(Source source) {
-  return *std::find_if(source_names.begin(), source_names.end(),
-                       [&](const SourceName& n) { return n.source == source; });
-}
-
-std::optional<Source> natural_source(const std::string& name) {
-  static const std::map<std::string, Source> sources = {{"sigma_n_MPa", Source::pressure},
-                                                        {"v_rel_mm_s", Source::speed},
-                                                        {"s_mm", Source::slip},
-                                                        {"sliding_distance", Source::slip},
-                                                        {"friction_work", Source::work},
-                                                        {"peak_sigma_n", Source::peak_pressure},
-                                                        {"T_contact_C", Source::temperature},
-                                                        {"sigma_f_MPa", Source::flow_stress},
-                                                        {"psi", Source::expansion}};
-  if (is_further_history(name)) return Source::history;
-  const auto found = sources.find(name);
-  return found == sources.end() ? std::nullopt : std::optional(found->second);
+// The state that a solver's table has a row for: what a routine sums up as slip is both.
+std::string state_of(const std::string& name) {
+  return name == "sliding_distance" ? "s_mm" : name;
 }
 
 Place place(const std::string& name) {
@@ -76,60 +42,64 @@ class Choice {
 public:
   Choice(SolverInput& input, const SolverGives& gives, FaultList& faults)
       : input_(input), gives_(gives), faults_(faults) {
-    const auto natural = natural_source(input.argument.name);
-    for (const SolverGives::State& state : gives.states)
-      if (natural && state.source == *natural) given_ = &state;
-    input.source = given_                    ? given_->source
-                   : !gives.property.empty() ? Source::property
-                                             : Source::constant;
+    const std::string& name = input.argument.name;
+    given_ = gives.find(state_of(name));
+    const bool kept = is_further_history(name) && !gives.history.empty();
+    input.source = kept                           ? Source::history
+                   : given_                       ? Source::given
+                   : !gives.property.text.empty() ? Source::property
+                                                  : Source::constant;
+    if (kept || given_) own_ = choice_of(name);
+    if (given_) input.given = given_->state;
   }
 
   void read(std::string_view choice) {
-    const std::string own = given_ ? name_of(given_->source).choice : "";
-    if (own == "contact") {
-      if (choice != own) fault("the solver gives this state itself", "leave the key out");
+    if (own_ == "contact") {
+      if (choice != own_) fault("the solver gives this state itself", "leave the key out");
     } else if (choice.starts_with("constant:")) {
       read_constant(choice.substr(9));
-    } else if (choice.starts_with("field:") && !gives_.field.empty()) {
+    } else if (choice.starts_with("field:") && !gives_.field.text.empty()) {
       const auto index = number<std::size_t>(choice.substr(6));
       input_.source = Source::field;
       input_.field = index.value_or(1);
       if (!index || *index < 1 || *index > 9999)
         fault(fmt::format("'{}' names no field variable", choice), "field:1");
-    } else if (choice == "property" && !gives_.property.empty()) {
+    } else if (choice == "property" && !gives_.property.text.empty()) {
       input_.source = Source::property;
-    } else if (own.empty() || choice != own) {
+    } else if (own_.empty() || choice != own_) {
       fault(fmt::format("'{}' is no source of a state", choice),
-            fmt::format("known: constant:VALUE{}{}{}", gives_.property.empty() ? "" : ", property",
-                        gives_.field.empty() ? "" : ", field:N", own.empty() ? "" : ", " + own));
+            fmt::format(
+                "known: constant:VALUE{}{}{}", gives_.property.text.empty() ? "" : ", property",
+                gives_.field.text.empty() ? "" : ", field:N", own_.empty() ? "" : ", " + own_));
     }
   }
 
   // When a property stands in for what the solver gives.
-  std::string without() const {
-    return given_ && input_.source == given_->source ? given_->without : "";
-  }
+  std::string without() const { return input_.source == Source::given ? given_->without : ""; }
 
   bool needs_property() const { return input_.source == Source::property || !without().empty(); }
 
   std::string text() const {
-    const std::string property = fmt::format(fmt::runtime(gives_.property), input_.property);
+    const std::map<std::string, std::string> numbers = {
+        {"property", std::to_string(input_.property)},
+        {"field", std::to_string(input_.field)},
+        {"number", std::to_string(gives_.before_histories + input_.history)}};
+    const std::string property = insert_names(gives_.property.text, numbers);
     switch (input_.source) {
     case Source::property:
       return property;
     case Source::field:
-      return fmt::format(fmt::runtime(gives_.field), input_.field);
+      return insert_names(gives_.field.text, numbers);
     case Source::constant:
       return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
     case Source::history:
-      return "from " +
-             fmt::format(fmt::runtime(given_->text), gives_.before_histories + input_.history) +
-             ", " + meaning_of(input_.argument.name).text;
-    default:
-      return given_->text + (given_->without.empty()
-                                 ? ""
-                                 : fmt::format("; {} where {}", property, given_->without));
+      return "from " + insert_names(gives_.history, numbers) + ", " +
+             meaning_of(input_.argument.name).text;
+    case Source::given:
+      break;
     }
+    if (given_->without.empty()) return given_->text;
+    return fmt::format("{}; {} where {}", given_->text, property, given_->without);
   }
 
 private:
@@ -150,19 +120,24 @@ private:
             fmt::format("at least {} {}", known->lowest, known->unit));
   }
 
+  // The word that asks for what the solver, or the routine's own memory, gives.
+  static std::string choice_of(const std::string& name) {
+    const Quantity* known = find_quantity(name);
+    return known ? known->choice : "state";
+  }
+
   SolverInput& input_;
   const SolverGives& gives_;
   FaultList& faults_;
-  const SolverGives::State* given_ = nullptr;
+  const GivenState* given_ = nullptr;
+  std::string own_; // the word for its natural source; empty: it has none
 };
 
 // What stands in where the deck or the solver gives nothing.
 std::optional<double> fallback(const Table& table, const std::string& name) {
   if (const auto typical = typical_value(table, name)) return typical;
-  if (name == "psi") return 1.0;
-  if (name == "T_contact_C") return 20.0;
-  if (name == "s_mm") return 0.0;
-  return std::nullopt;
+  const Quantity* known = find_quantity(name);
+  return known ? known->unknown : std::nullopt;
 }
 
 void check_names(const ExportRequest& request, const std::vector<std::string>& needed,
@@ -178,6 +153,12 @@ void check_names(const ExportRequest& request, const std::vector<std::string>& n
 }
 
 } // namespace
+
+const GivenState* SolverGives::find(const std::string& state) const {
+  for (const GivenState& row : states)
+    if (row.state == state) return &row;
+  return nullptr;
+}
 
 std::string fortran_conversion(const SolverUnit& unit) {
   if (unit.times != 1) return "*" + fortran_number(unit.times);
@@ -224,6 +205,12 @@ std::size_t property_count(const std::vector<SolverInput>& inputs) {
   return count;
 }
 
+bool takes(const std::vector<SolverInput>& inputs, const std::string& state) {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const SolverInput& input) {
+    return input.source == Source::given && input.given == state;
+  });
+}
+
 bool uses(const std::vector<SolverInput>& inputs, Source source) {
   return std::any_of(inputs.begin(), inputs.end(),
                      [&](const SolverInput& input) { return input.source == source; });
@@ -239,39 +226,134 @@ std::vector<std::string> property_values(const std::vector<SolverInput>& inputs)
   return values;
 }
 
-std::vector<TemplateValues> fortran_inputs(const std::vector<SolverInput>& inputs,
-                                           const SolverGives& gives) {
-  std::vector<SolverInput> all = inputs;
-  if (all.empty()) { // x(1) exists even where the law needs no state
-    all.emplace_back();
-    all[0].source = Source::constant;
-    all[0].fallback = 0.0;
+namespace fortran {
+
+namespace {
+
+const GivenState& row_of(const SolverInput& input, const SolverGives& gives) {
+  static const GivenState continued = {.part = "ftpast"}; // fills these itself
+  switch (input.source) {
+  case Source::given:
+    return *gives.find(input.given);
+  case Source::property:
+    return gives.property;
+  case Source::field:
+    return gives.field;
+  case Source::constant:
+    return gives.constant;
+  case Source::history:
+    break;
   }
-  std::vector<TemplateValues> list;
-  for (const SolverInput& input : all) {
-    TemplateValues values;
-    const std::string convert = fortran_conversion(input.argument.solver);
-    values.text = {
-        {"index", std::to_string(list.size() + 1)},
-        {"comment", fortran::clip(inputs.empty() ? "no state is needed"
-                                                 : input.argument.name + ": " + input.text)},
-        {"fallback", input.fallback ? fortran_number(*input.fallback) : "ftqnan()"},
-        {"property", std::to_string(input.property)},
-        {"field", std::to_string(input.field)},
-        {"convert", convert}};
-    values.flags["converts"] = !convert.empty();
-    const auto flag = [&](Source source) {
-      values.flags[name_of(source).flag] = input.source == source;
-    };
-    for (const SolverGives::State& state : gives.states)
-      if (state.source != Source::history) flag(state.source); // these are filled by ftpast
-    flag(Source::constant);
-    if (!gives.property.empty()) flag(Source::property);
-    if (!gives.field.empty()) flag(Source::field);
-    list.push_back(std::move(values));
-  }
-  return list;
+  return continued;
 }
+
+// One state's statements.
+class Statements {
+public:
+  Statements(const SolverInput& input, std::size_t index, std::size_t indent)
+      : input_(input), indent_(indent) {
+    names_ = {{"x", fmt::format("x({})", index)},
+              {"index", std::to_string(index)},
+              {"property", std::to_string(input.property)},
+              {"field", std::to_string(input.field)},
+              {"fallback", input.fallback ? fortran_number(*input.fallback) : "ftqnan()"},
+              {"convert", fortran_conversion(input.argument.solver)}};
+  }
+
+  std::string out;
+
+  void comment(const std::string& text) {
+    add("C     " + std::string(indent_, ' ') + clip(text, indent_));
+  }
+
+  // A statement per line; its own leading blanks stay.
+  void write(std::string_view lines, std::size_t deeper = 0) {
+    while (!lines.empty()) {
+      const std::size_t end = std::min(lines.find('\n'), lines.size());
+      add(fixed_form(std::string(indent_ + deeper, ' ') +
+                     insert_names(lines.substr(0, end), names_)));
+      lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
+  }
+
+  void read(const GivenState& row, const GivenState& property) {
+    if (row.exists.empty()) return value(row, 0);
+    write("if (" + row.exists + ") then");
+    value(row, 2);
+    write("else");
+    write("@{x} = " + (row.absent.empty() ? "@{fallback}" : row.absent), 2);
+    if (input_.source == Source::given && input_.property > 0) {
+      write("if (" + property.exists + ") then", 2);
+      value(property, 4);
+      write("end if", 2);
+    }
+    write("end if");
+  }
+
+  std::map<std::string, std::string>& names() { return names_; }
+
+private:
+  void add(const std::string& line) { out += (out.empty() ? "" : "\n") + line; }
+
+  void value(const GivenState& row, std::size_t deeper) {
+    const bool converts = !row.canonical && !input_.argument.solver.same();
+    if (row.read.find("@{x}") == std::string::npos)
+      return write("@{x} = " + row.read + (converts ? "@{convert}" : ""), deeper);
+    write(row.read, deeper);
+    if (converts) write("@{x} = @{x}@{convert}", deeper);
+  }
+
+  const SolverInput& input_;
+  std::size_t indent_;
+  std::map<std::string, std::string> names_;
+};
+
+} // namespace
+
+std::string reads(const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                  const std::string& part, std::size_t indent) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const GivenState& row = row_of(inputs[i], gives);
+    if (row.part != part || row.read.empty()) continue;
+    Statements one(inputs[i], i + 1, indent);
+    one.comment(inputs[i].argument.name + ": " + inputs[i].text);
+    one.read(row, gives.property);
+    all.push_back(std::move(one.out));
+  }
+  if (inputs.empty() && gives.constant.part == part) { // x(1) exists even so
+    const SolverInput none;
+    Statements one(none, 1, indent);
+    one.comment("no state is needed");
+    one.write("@{x} = 0.0D0");
+    all.push_back(std::move(one.out));
+  }
+  return join(all, "\n");
+}
+
+std::string slopes(const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                   const std::map<std::string, std::string>& names, std::size_t indent) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const GivenState& row = row_of(inputs[i], gives);
+    if (row.slope.empty()) continue;
+    Statements one(inputs[i], i + 1, indent);
+    one.names().insert(names.begin(), names.end());
+    one.write(row.slope);
+    all.push_back(std::move(one.out));
+  }
+  return join(all, "\n");
+}
+
+bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gives) {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const SolverInput& input) {
+    const GivenState& row = row_of(input, gives);
+    const bool stands_in = input.source == Source::constant || !row.exists.empty();
+    return stands_in && row.absent.empty() && !input.fallback;
+  });
+}
+
+} // namespace fortran
 
 std::vector<std::string> state_lines(const ExportRequest& request,
                                      const std::vector<SolverInput>& inputs) {

@@ -1,7 +1,9 @@
-// Where each state of the law comes from inside a solver's routine: what the solver gives, and what
-// it has to be told by the job's [export.inputs].
+// Where each state of the law comes from inside a solver's routine. A solver is a table: a row for
+// every state that it gives, with the text that reads it there. What it does not give, the job's
+// [export.inputs] says.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,37 +15,49 @@
 namespace frictab {
 
 enum class Source {
-  pressure,      // sigma_n_MPa
-  speed,         // v_rel_mm_s
-  slip,          // s_mm and sliding_distance: history of the contact point
-  work,          // friction_work: history
-  peak_pressure, // peak_sigma_n: history
-  history,       // any further one (codegen/histories.h)
-  temperature,   // T_contact_C
-  flow_stress,   // sigma_f_MPa
-  expansion,     // psi
-  property,      // a constant of the input deck
-  field,         // a field variable of the model
-  constant       // in the source
+  given,    // by the solver: a row of its table
+  history,  // a state variable that the routine continues (codegen/histories.h)
+  property, // a constant of the input deck
+  field,    // a field variable of the model
+  constant  // in the source
 };
 
-// What a solver hands to its routine.
+// A row of a solver's table. Texts may hold @{index} (of the state, from 1), @{property}, @{field}
+// (their numbers), @{fallback} (what stands in where nothing gives the state, in Fortran) and
+// @{convert} ("/1.0D6": from the solver's unit of this state to the canonical one).
+struct GivenState {
+  // Canonical name; of a sliding distance "s_mm", whichever name the law has for it. Empty in the
+  // rows of properties, fields and constants.
+  std::string state = {};
+  std::string text = {};    // where it comes from, for people: "fNormal/areaSec of the node"
+  std::string without = {}; // "nTemp = 0": where a property stands in for it; empty: nowhere
+
+  // The rest is Fortran, for targets with a routine in it. The value in the solver's unit:
+  // "temp(1)"; or, of several lines, statements that set @{x}.
+  std::string read = {};
+  bool canonical = false;  // `read` is in the canonical unit already
+  std::string exists = {}; // "nTemp .gt. 0"; empty: always
+  std::string absent = {}; // the value (canonical) where it does not; empty: @{fallback}
+  std::string part = {};   // of the routine, where it reads in several places
+  std::string slope = {};  // what the routine does with dy(@{index}), for its derivatives
+};
+
+// What a solver hands to its routine. Its driver (codegen/driver.h) gets values in this order.
 struct SolverGives {
-  struct State {
-    Source source;
-    // "fNormal/areaSec of the surface node", for people; of a history: "STATEV({})"
-    std::string text;
-    std::string without = {}; // "nTemp = 0": where a property stands in for it; empty: nowhere
-  };
-  std::vector<State> states;
-  std::string property; // "property {}"; empty where decks give none
-  std::string field;    // "mean of both surfaces' predefined field {}"; empty where there is none
+  std::vector<GivenState> states;
+  GivenState property = {}; // "property @{property}"; no text where decks give none
+  GivenState field = {};    // "predefined field @{field}"; no text where there is none
+  GivenState constant = {.read = "@{fallback}", .canonical = true};
+  std::string history = {}; // of a state variable: "STATEV(@{number})"; empty: it keeps none
   std::size_t before_histories = 0; // state variables in front of those of Source::history
+
+  const GivenState* find(const std::string& state) const; // null where it gives no such state
 };
 
 struct SolverInput {
   InputArgument argument;
   Source source = Source::property;
+  std::string given = {};   // where the solver gives it: the state of that row
   std::size_t property = 0; // its number from 1, where the source is property, or as reference
   std::size_t field = 0;    // field variable, from 1
   std::size_t history = 0;  // where the source is history: its number among those, from 1
@@ -60,6 +74,7 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
 
 std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);
+bool takes(const std::vector<SolverInput>& inputs, const std::string& state); // from the solver
 
 // Their values as a deck lists them, in the solver's unit: typical ones, "<psi>" where none is
 // known.
@@ -68,11 +83,22 @@ std::vector<std::string> property_values(const std::vector<SolverInput>& inputs)
 // "/1.0D6": what turns the solver's unit into the canonical one; empty where they are one.
 std::string fortran_conversion(const SolverUnit& unit);
 
-// A list of values for templates, one per state (one constant where the law needs none): index,
-// comment, fallback, property, field, convert ("/1.0D6": from the solver's unit to the canonical
-// one) and flags is_SOURCE for every source the solver has, converts. Fortran.
-std::vector<TemplateValues> fortran_inputs(const std::vector<SolverInput>& inputs,
-                                           const SolverGives& gives);
+namespace fortran {
+
+// Statements in fixed form, set in by `indent` blanks, that fill x(1), ..., x(n) with those states
+// that this part of the routine reads (GivenState::part); without the line break at the end, empty
+// where there are none. Where the law needs no state at all, the part of the constants sets x(1).
+std::string reads(const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                  const std::string& part = {}, std::size_t indent = 0);
+
+// The same for GivenState::slope; `names` are further @{names} in it.
+std::string slopes(const std::vector<SolverInput>& inputs, const SolverGives& gives,
+                   const std::map<std::string, std::string>& names, std::size_t indent = 0);
+
+// Whether reads() of any part calls ftqnan(): a value that nothing stands in for.
+bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gives);
+
+} // namespace fortran
 
 // Comment lines: each state, its source and the table's range; each property with what stands in.
 std::vector<std::string> state_lines(const ExportRequest& request,

@@ -118,7 +118,7 @@ private:
 
   void report_unused(const TemplateValues& values, const Place& place) {
     for (const std::string& name : names_of(values))
-      if (!used_.count({&values, name}) &&
+      if (!used_.count({&values, name}) && !values.offered.count(name) &&
           reported_.insert({place.line, place.column, name}).second)
         faults_.add(place, "the value '" + name + "' is never used");
   }
@@ -146,7 +146,7 @@ public:
         out += node.text;
         break;
       case Kind::insert:
-        insert(values(node.name, scopes).text.at(node.name.name), node.text);
+        insert(values(node.name, scopes).text.at(node.name.name), node);
         break;
       case Kind::choice:
         write(values(node.name, scopes).flags.at(node.name.name) ? node.body : node.otherwise,
@@ -169,11 +169,15 @@ private:
     throw std::logic_error("template name was not checked");
   }
 
-  void insert(const std::string& text, const std::string& blanks) {
+  void insert(const std::string& text, const TemplateNode& node) {
+    const std::string& blanks = node.text;
+    if (node.whole_line && text.empty()) return;
+    if (node.whole_line) out += blanks;
     for (std::size_t i = 0; i < text.size(); ++i) {
       out += text[i];
       if (text[i] == '\n' && i + 1 < text.size() && text[i + 1] != '\n') out += blanks;
     }
+    if (node.whole_line) out += '\n';
   }
 };
 

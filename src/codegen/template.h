@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,11 +11,14 @@
 namespace frictab {
 
 // What a template may use. Text is inserted as it is; a text of several lines keeps its lines.
-// Where the line before @{name} is only blanks, every line of the text gets those blanks.
+// Where the line before @{name} is only blanks, every line of the text gets those blanks. A line
+// that is nothing but @{name} vanishes where the text is empty.
 struct TemplateValues {
   std::map<std::string, std::string> text;
   std::map<std::string, bool> flags;
   std::map<std::string, std::vector<TemplateValues>> lists; // @for x in list: names as @{x.name}
+  std::set<std::string> offered =
+      {}; // names that a template may leave unused: what many of them share
 };
 
 using Lines = std::vector<TemplateValues>;

@@ -53,6 +53,8 @@ private:
     if (first != end_ && line[first] == '@' && first + 1 < line.size() &&
         std::isalpha(static_cast<unsigned char>(line[first + 1])))
       take_directive(line, first);
+    else if (first != end_ && is_whole_insert(line.substr(first)))
+      take_whole_insert(line, first);
     else
       take_text(line);
   }
@@ -107,6 +109,20 @@ private:
       faults_.add(at(column), "@end without a block to close", "");
     else
       open_.pop_back();
+  }
+
+  // "@{name}\n"
+  static bool is_whole_insert(std::string_view line) {
+    return line.substr(0, 2) == "@{" && line.find('}') + 2 == line.size() && line.back() == '\n';
+  }
+
+  void take_whole_insert(std::string_view line, std::size_t column) {
+    TemplateNode node;
+    node.kind = TemplateNode::Kind::insert;
+    node.whole_line = true;
+    node.text = line.substr(0, column);
+    node.name = name(std::string(line.substr(column + 2, line.size() - column - 4)), at(column));
+    into().push_back(std::move(node));
   }
 
   void take_text(std::string_view line) {

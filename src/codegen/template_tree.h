@@ -20,6 +20,7 @@ struct TemplateName {
 struct TemplateNode {
   enum class Kind { text, insert, loop, choice } kind = Kind::text;
   std::string text;                    // of a text; the blanks before an insert that starts a line
+  bool whole_line = false;             // an insert that is all of its line
   TemplateName name;                   // of an insert; the list of a loop; the flag of a choice
   std::string variable;                // of a loop
   std::vector<TemplateNode> body;      // of a loop; the choice where the flag is set

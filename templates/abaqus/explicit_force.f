@@ -8,9 +8,7 @@ C     precision.
       external ftqnan
 @end
 C
-@if has_fixed
-@{fixed}
-@end
+@{reads_once}
       dtime = @{time_increment}
       do k = 1, @{points}
         do i = 1, nFricDir
@@ -29,9 +27,7 @@ C
         end do
         slip = sqrt(slip)
         fprev = sqrt(fprev)
-@if has_given
-@{given}
-@end
+@{reads}
         do i = 1, @{n_hist}
           hist(i) = 0.0D0
         end do

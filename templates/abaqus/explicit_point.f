@@ -50,27 +50,7 @@ C     at once, which spares most points the calls.
         press = pnorm/area
         speed = 0.0D0
         if (dtime .gt. 0.0D0) speed = slip/dtime
-@for in in inputs
-C       @{in.comment}
-@if in.is_pressure
-        x(@{in.index}) = press@{in.convert}
-@end
-@if in.is_speed
-        x(@{in.index}) = speed@{in.convert}
-@end
-@if in.is_slip
-        x(@{in.index}) = (hist(1) + slip)@{in.convert}
-@end
-@if in.is_work
-        x(@{in.index}) = hist(2)@{in.convert}
-@end
-@if in.is_peak
-        x(@{in.index}) = hist(3)@{in.convert}
-        if (.not. ftnan(hist(3))) then
-          if (press .gt. hist(3)) x(@{in.index}) = press@{in.convert}
-        end if
-@end
-@end
+@{reads}
 @if has_histories
         call ftpast(hist(4), press, speed, @{past_now}, x)
 @end

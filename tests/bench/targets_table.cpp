@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <time.h>
 
-#include "../../exporters/abaqus_vfric/call.h"
 #include "bench/generated_kernels.h"
 #include "codegen/exporter.h"
+#include "support/calls/vfric.h"
 #include "support/sample_tables.h"
 #include "table/table_file.h"
 
@@ -172,7 +172,7 @@ void print_blocks(const Subject& subject) {
   void* routine = Library::address(target.handle(), "vfric_");
   const test::States states(subject.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});
   for (const int block : {1, 16, 136, 510}) {
-    std::vector<abaqus_vfric::VfricCall<double>> calls(rows / static_cast<std::size_t>(block));
+    std::vector<calls::VfricCall<double>> calls(rows / static_cast<std::size_t>(block));
     std::size_t row = 0;
     for (auto& call : calls) {
       call.states = 6;

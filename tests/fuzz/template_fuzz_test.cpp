@@ -1,8 +1,10 @@
 // Any text either renders or is refused with a place: no crash, no other error.
+#include <stdexcept>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "codegen/template.h"
-#include "core/error.h"
 #include "core/random.h"
 
 namespace frictab {
@@ -56,14 +58,11 @@ TEST(TemplateFuzz, EveryTextRendersOrIsRefusedWithAPlace) {
     try {
       render(text, "fuzz", values());
       ++rendered;
-    } catch (const InputError& error) {
+    } catch (const std::logic_error& error) {
       ++refused;
-      ASSERT_FALSE(error.faults().empty());
-      for (const Fault& fault : error.faults()) {
-        ASSERT_EQ(fault.place.file, "fuzz");
-        ASSERT_GT(fault.place.line, 0u) << text;
-        ASSERT_GT(fault.place.column, 0u) << text;
-      }
+      ASSERT_THAT(error.what(),
+                  testing::MatchesRegex("fuzz:[1-9][0-9]*:[1-9][0-9]*: error: (.|\n)*"))
+          << text;
     }
   }
   EXPECT_GT(rendered, 100u);

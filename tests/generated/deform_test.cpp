@@ -11,18 +11,18 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "../../exporters/deform_usrbcc/driver.h"
 #include "core/error.h"
 #include "generated/deform_case.h"
+#include "support/calls/usrbcc.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab {
 namespace {
 
-using deform_usrbcc::Ufhcom;
-using deform_usrbcc::Ufhcom2;
-using deform_usrbcc::UsrbccCall;
+using calls::Ufhcom;
+using calls::Ufhcom2;
+using calls::UsrbccCall;
 using test::Nodcom;
 using test::Nodcom2;
 using testing::HasSubstr;

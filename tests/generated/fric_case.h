@@ -11,14 +11,14 @@
 
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_fric/call.h"
 #include "generated/standard_case.h"
+#include "support/calls/fric.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab::test {
 
-using abaqus_fric::FricCall;
+using calls::FricCall;
 
 inline constexpr double critical = 0x1p-7; // mm, the elastic slip at which sticking ends
 

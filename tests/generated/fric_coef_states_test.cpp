@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_fric_coef/call.h"
 #include "generated/standard_case.h"
+#include "support/calls/fric_coef.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -15,7 +15,7 @@ namespace frictab {
 namespace {
 
 using namespace test;
-using abaqus_fric_coef::CoefCall;
+using calls::CoefCall;
 
 // The list of 2024 has slip and state variables.
 class FricCoef2024 : public testing::Test {

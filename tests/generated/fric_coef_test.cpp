@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../../exporters/abaqus_fric_coef/call.h"
 #include "core/error.h"
 #include "generated/standard_case.h"
+#include "support/calls/fric_coef.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -17,7 +17,7 @@ namespace frictab {
 
 namespace {
 
-using abaqus_fric_coef::CoefCall;
+using calls::CoefCall;
 
 using namespace test;
 

@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../../exporters/abaqus_fric_coef/call.h"
-#include "../../exporters/abaqus_vfric/call.h"
-#include "../../exporters/abaqus_vfriction/call.h"
-#include "../../exporters/deform_usrbcc/driver.h"
-#include "../../exporters/lsdyna_usrfrc/call.h"
 #include "generated/deform_case.h"
 #include "generated/fric_case.h"
+#include "support/calls/fric_coef.h"
+#include "support/calls/usrbcc.h"
+#include "support/calls/usrfrc.h"
+#include "support/calls/vfric.h"
+#include "support/calls/vfriction.h"
 #include "support/generated.h"
 
 namespace frictab {
@@ -143,7 +143,7 @@ template <class Call, class Real> struct ExplicitPoint {
   Call c = {};
 };
 
-template <class Real> struct Vfric : ExplicitPoint<abaqus_vfric::VfricCall<Real>, Real> {
+template <class Real> struct Vfric : ExplicitPoint<calls::VfricCall<Real>, Real> {
   static constexpr const char* target = "abaqus_vfric";
   explicit Vfric(const Units& u) {
     this->units = u;
@@ -156,8 +156,7 @@ template <class Real> struct Vfric : ExplicitPoint<abaqus_vfric::VfricCall<Real>
 };
 
 // An edge: four columns of states, which the law takes the mean of.
-template <class Real>
-struct Vfriction : ExplicitPoint<abaqus_vfriction::VfrictionCall<Real>, Real> {
+template <class Real> struct Vfriction : ExplicitPoint<calls::VfrictionCall<Real>, Real> {
   static constexpr const char* target = "abaqus_vfriction";
   explicit Vfriction(const Units& u) {
     this->units = u;
@@ -194,7 +193,7 @@ template <class Real> struct Usrfrc {
     return static_cast<double>(c.force[0][0]) / units.stress;
   }
   Units units;
-  lsdyna_usrfrc::UsrfrcCall<Real, Int> c;
+  calls::UsrfrcCall<Real, Int> c;
 };
 
 // Each increment takes five iterations, of which the last one counts, after one that is cut back.
@@ -234,7 +233,7 @@ struct Fric {
     return c.tau[0] / units.stress;
   }
   Units units;
-  abaqus_fric::FricCall c;
+  calls::FricCall c;
 };
 
 struct FricCoef {
@@ -263,7 +262,7 @@ struct FricCoef {
     return c.coefficient[0] * now.pressure;
   }
   Units units;
-  abaqus_fric_coef::CoefCall c;
+  calls::CoefCall c;
   double slip = 0;
 };
 
@@ -276,8 +275,8 @@ struct Usrbcc {
   }
   double step(const Increment& now) {
     const Library& library = compiled(target, units, "double");
-    *library.find<deform_usrbcc::Ufhcom>("ufhcom_") = {20, 20, -now.speed * units.length,
-                                                       -now.pressure * units.stress};
+    *library.find<calls::Ufhcom>("ufhcom_") = {20, 20, -now.speed * units.length,
+                                               -now.pressure * units.stress};
     c.temperature[0] = now.temperature - 5, c.temperature[1] = now.temperature + 5;
     auto* node = library.find<test::Nodcom>("nodcom_");
     auto* contact = library.find<test::Nodcom2>("nodcom2_");
@@ -298,7 +297,7 @@ struct Usrbcc {
     return tau;
   }
   Units units;
-  deform_usrbcc::UsrbccCall c;
+  calls::UsrbccCall c;
 };
 
 template <class Point> double bound() {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfric/call.h"
-#include "../../exporters/abaqus_vfriction/call.h"
 #include "codegen/solver_inputs.h"
 #include "data/derived.h"
+#include "support/calls/vfric.h"
+#include "support/calls/vfriction.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -58,12 +58,12 @@ const std::vector<Contact> path = {{500, 2}, {800, 3}, {300, 4}, {0, 5}, {900, 6
 // One contact point of either routine; units are the solver's.
 template <class Real> struct PairPoint {
   static constexpr const char *target = "abaqus_vfric", *entry = "vfric_";
-  using Call = abaqus_vfric::VfricCall<Real>;
+  using Call = calls::VfricCall<Real>;
   static void resize(Call& c) { c.resize(1, 1); }
 };
 template <class Real> struct GeneralPoint {
   static constexpr const char *target = "abaqus_vfriction", *entry = "vfriction_";
-  using Call = abaqus_vfriction::VfrictionCall<Real>;
+  using Call = calls::VfrictionCall<Real>;
   static void resize(Call& c) { c.resize(1); }
 };
 

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfric/call.h"
-#include "../../exporters/abaqus_vfric_coef/call.h"
-#include "../../exporters/abaqus_vfriction/call.h"
+#include "support/calls/vfric.h"
+#include "support/calls/vfric_coef.h"
+#include "support/calls/vfriction.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -17,9 +17,9 @@ namespace frictab {
 
 namespace {
 
-using abaqus_vfric::VfricCall;
-using abaqus_vfric_coef::VfricCoefCall;
-using abaqus_vfriction::VfrictionCall;
+using calls::VfricCall;
+using calls::VfricCoefCall;
+using calls::VfrictionCall;
 using testing::HasSubstr;
 using testing::Not;
 

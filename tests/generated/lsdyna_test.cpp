@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../exporters/lsdyna_usrfrc/call.h"
+#include "support/calls/usrfrc.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -41,7 +41,7 @@ const Exporter& lsdyna() {
 template <class Real> struct LsDyna : testing::Test {
   static constexpr bool single = sizeof(Real) == 4;
   using Int = std::conditional_t<single, std::int32_t, std::int64_t>;
-  using Call = lsdyna_usrfrc::UsrfrcCall<Real, Int>;
+  using Call = calls::UsrfrcCall<Real, Int>;
   // Double: the order of operations only. Single: see agreement_test.cpp.
   static constexpr double bound = single ? 2e-5 : 1e-13;
   static constexpr const char* variant = single ? "single" : "double";

@@ -6,15 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../exporters/marc_ufric/driver.h"
 #include "core/error.h"
+#include "support/calls/ufric.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab {
 namespace {
 
-using marc_ufric::UfricCall;
+using calls::UfricCall;
 using testing::HasSubstr;
 using Options = std::map<std::string, std::string>;
 

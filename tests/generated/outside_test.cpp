@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfric/call.h"
 #include "core/random.h"
+#include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
@@ -238,9 +238,9 @@ protected:
   }
 
   // At a pressure of 1000 MPa; temperature may leave its range below only by stopping.
-  abaqus_vfric::VfricCall<Real> call(const std::vector<double>& speed,
-                                     const std::vector<double>& temperature) {
-    abaqus_vfric::VfricCall<Real> c;
+  calls::VfricCall<Real> call(const std::vector<double>& speed,
+                              const std::vector<double>& temperature) {
+    calls::VfricCall<Real> c;
     c.temperatures = true;
     c.states = 4;
     c.time_increment = Real(0x1p-20);

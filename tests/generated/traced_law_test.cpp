@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../../exporters/abaqus_vfric/call.h"
 #include "calibrate/calibration.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/input_columns.h"
 #include "codegen/solver_inputs.h"
 #include "core/error.h"
+#include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
@@ -307,7 +307,7 @@ protected:
         test::compiled("traced path " + key, *find_exporter("abaqus_vfric"), request, "double")
             ->handle(),
         "vfric_");
-    abaqus_vfric::VfricCall<double> call;
+    calls::VfricCall<double> call;
     call.states = 12;
     call.temperatures = true;
     call.properties = {0};

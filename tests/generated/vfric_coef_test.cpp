@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfric_coef/call.h"
+#include "support/calls/vfric_coef.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -15,7 +15,7 @@ namespace frictab {
 
 namespace {
 
-using abaqus_vfric_coef::VfricCoefCall;
+using calls::VfricCoefCall;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfric/call.h"
+#include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -15,7 +15,7 @@ namespace frictab {
 
 namespace {
 
-using abaqus_vfric::VfricCall;
+using calls::VfricCall;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

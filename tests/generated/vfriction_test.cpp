@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../exporters/abaqus_vfriction/call.h"
+#include "support/calls/vfriction.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
@@ -14,7 +14,7 @@ namespace frictab {
 
 namespace {
 
-using abaqus_vfriction::VfrictionCall;
+using calls::VfrictionCall;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -40,6 +40,10 @@ TEST(Template, SetsEveryLineOfATextIn) {
   EXPECT_EQ(render("- @{x}\n", "t", text({{"x", "a\nb"}})), "- a\nb\n");
 }
 
+TEST(Template, DropsALineThatIsNothingButAnEmptyText) {
+  EXPECT_EQ(render("a\n  @{x}\nb @{x}\n@{y}\n", "t", text({{"x", ""}, {"y", "c"}})), "a\nb \nc\n");
+}
+
 TEST(Template, RepeatsALoopPerItemAndDropsDirectiveLines) {
   TemplateValues values = text({{"all", "!"}});
   values.lists["rows"] = {text({{"n", "1"}}), text({{"n", "2"}})};
@@ -107,6 +111,13 @@ TEST(Template, TellsValuesThatAreNeverUsed) {
   values.lists["rows"] = {text({{"n", ""}, {"m", ""}})};
   EXPECT_THAT(message("a\n@for r in rows\n@{r.n}\n@end\n", values),
               HasSubstr("t.c:2:1: error: the value 'm' is never used"));
+}
+
+TEST(Template, MayLeaveUnusedWhatIsOffered) {
+  TemplateValues values = text({{"x", ""}, {"y", ""}});
+  values.offered = {"x"};
+  EXPECT_THAT(message("a", values),
+              testing::AllOf(HasSubstr("'y'"), testing::Not(HasSubstr("'x'"))));
 }
 
 TEST(Template, TellsAnItemThatLacksWhatItsNeighbourHas) {

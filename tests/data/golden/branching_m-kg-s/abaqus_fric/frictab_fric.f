@@ -215,15 +215,17 @@ C     solver does not turn itself.
       end if
 C
 C     The law's states
+C     sigma_n_MPa: PRESS
       x(1) = peval
+C     v_rel_mm_s: |DGAM|/DTIME (0 where DTIME = 0)
       x(2) = speed*1000.0D0
 C     s_mm: STATEV(1), accumulated slip at the end of the increment
       x(3) = (s0(1) + ds)*1000.0D0
 C     sigma_f_MPa: property 1
-      x(4) = ftqnan()
       if (nprops .ge. 1) then
-        x(4) = props(1)
-        x(4) = x(4)/1000000.0D0
+        x(4) = props(1)/1000000.0D0
+      else
+        x(4) = ftqnan()
       end if
       call ftgrad(x, y, dy)
       if (ftnan(y)) bad = .true.

@@ -101,10 +101,10 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       parameter (zero = 0.0D0)
 C
 C     sigma_f_MPa: property 1
-      x(4) = ftqnan()
       if (nProps .ge. 1) then
-        x(4) = props(1)
-        x(4) = x(4)/1000000.0D0
+        x(4) = props(1)/1000000.0D0
+      else
+        x(4) = ftqnan()
       end if
 C     The state variables lie in rData; they are those of one point.
       do i = 1, 5
@@ -136,7 +136,9 @@ C       than 1D30 is as good as infinite.
           rate = min(abs(rate), 1.0D30)
           s = min(s, 1.0D30)
           peval = max(p/1000000.0D0, peval)
+C         sigma_n_MPa: pressure
           x(1) = peval
+C         v_rel_mm_s: slipData(:,1), slip rate
           x(2) = rate*1000.0D0
 C         s_mm: slipData(:,4), equivalent slip
           x(3) = s*1000.0D0

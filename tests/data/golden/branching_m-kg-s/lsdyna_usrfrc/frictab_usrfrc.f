@@ -83,10 +83,10 @@ C
       integer i, ii, j, kk
 C
 C     sigma_f_MPa: UA(1)
-      x(4) = ftqnan()
       if (ninput .ge. 1) then
-        x(4) = ua(1)
-        x(4) = x(4)/1000000.0D0
+        x(4) = ua(1)/1000000.0D0
+      else
+        x(4) = ftqnan()
       end if
       rate = fdt2
       do kk = 1, niisv5
@@ -154,8 +154,11 @@ C         A contact of another type: tau_R has nothing to act on.
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
           end if
+C         sigma_n_MPa: -FNI/AREAS of the node
           x(1) = press/1000000.0D0
+C         v_rel_mm_s: tangential part of DX, DY, DZ, times FDT2
           x(2) = speed*1000.0D0
+C         s_mm: UFHIST(1), accumulated slip under pressure
           x(3) = ssum*1000.0D0
           fric = fttau(x)*1000000.0D0
           if (.not. ftnan(fric)) then

@@ -95,9 +95,10 @@ C     precision.
       external ftqnan
 C
 C     sigma_f_MPa: property 1
-      x(4) = ftqnan()
       if (nProps .ge. 1) then
         x(4) = props(1)
+      else
+        x(4) = ftqnan()
       end if
       dtime = dTimCur
       do k = 1, nContact

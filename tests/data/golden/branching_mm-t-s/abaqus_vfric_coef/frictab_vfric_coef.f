@@ -75,14 +75,16 @@ C     precision.
       external ftqnan
 C
 C     s_mm: property 1
-      x(3) = 20.0D0
       if (nProps .ge. 1) then
         x(3) = props(1)
+      else
+        x(3) = 20.0D0
       end if
 C     sigma_f_MPa: property 2
-      x(4) = ftqnan()
       if (nProps .ge. 2) then
         x(4) = props(2)
+      else
+        x(4) = ftqnan()
       end if
       do k = 1, nBlock
         do i = 1, 3

@@ -70,6 +70,7 @@ C
       external ftcoef
       double precision cst(4)
       common /ftcons/ cst
+      logical kept
 C
       if (imode .ne. 1) return
       if (itype .ne. 2) return
@@ -77,14 +78,17 @@ C     Magnitudes: the signs of PRESS and SLDVEL are not relied upon.
       p = abs(press)
       flow = efsts
       speed = abs(sldvel)
+      kept = nusrn .ge. 3
 C     sigma_n_MPa: |PRESS| of COMMON /UFHCOM/
       x(1) = p
 C     v_rel_mm_s: |SLDVEL| of COMMON /UFHCOM/
       x(2) = speed
 C     s_mm: USRNOD(1), mean of NODE1 and NODE2, kept by FTUPD
-      x(3) = 0.0D0
-      if (nusrn .ge. 3)
-     &  x(3) = 0.5D0*(usrnod(1,node1) + usrnod(1,node2))
+      if (kept) then
+        x(3) = 0.5D0*(usrnod(1,node1) + usrnod(1,node2))
+      else
+        x(3) = 0.0D0
+      end if
 C     sigma_f_MPa: EFSTS of COMMON /UFHCOM2/ (meaning inferred)
       x(4) = flow
       variable = ftcoef(x, p, flow)

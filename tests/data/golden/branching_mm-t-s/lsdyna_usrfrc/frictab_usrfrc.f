@@ -83,9 +83,10 @@ C
       integer i, ii, j, kk
 C
 C     sigma_f_MPa: UA(1)
-      x(4) = ftqnan()
       if (ninput .ge. 1) then
         x(4) = ua(1)
+      else
+        x(4) = ftqnan()
       end if
       rate = fdt2
       do kk = 1, niisv5
@@ -153,8 +154,11 @@ C         A contact of another type: tau_R has nothing to act on.
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
           end if
+C         sigma_n_MPa: -FNI/AREAS of the node
           x(1) = press
+C         v_rel_mm_s: tangential part of DX, DY, DZ, times FDT2
           x(2) = speed
+C         s_mm: UFHIST(1), accumulated slip under pressure
           x(3) = ssum
           fric = fttau(x)
           if (.not. ftnan(fric)) then

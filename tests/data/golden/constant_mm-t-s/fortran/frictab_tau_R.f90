@@ -29,7 +29,6 @@ module frictab_law
   public :: frictab_tau_R_gradient_batch, frictab_outside
 
 
-
 contains
 
   ! tau_R in MPa, of numbers or of arrays of one shape.

@@ -209,19 +209,23 @@ C     solver does not turn itself.
       end if
 C
 C     The law's states
+C     sigma_n_MPa: PRESS
       x(1) = peval
 C     psi: property 1
-      x(2) = 4.47213595499958D0
       if (nprops .ge. 1) then
         x(2) = props(1)
+      else
+        x(2) = 4.47213595499958D0
       end if
+C     v_rel_mm_s: |DGAM|/DTIME (0 where DTIME = 0)
       x(3) = speed
 C     T_contact_C: mean of TEMP(1), TEMP(2)
       x(4) = 0.5D0*(temp(1) + temp(2))
 C     sigma_f_MPa: property 2
-      x(5) = 480.00000000000006D0
       if (nprops .ge. 2) then
         x(5) = props(2)
+      else
+        x(5) = 480.00000000000006D0
       end if
       call ftgrad(x, y, dy)
       if (ftnan(y)) bad = .true.

@@ -95,14 +95,16 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       parameter (zero = 0.0D0)
 C
 C     psi: property 1
-      x(2) = 4.47213595499958D0
       if (nProps .ge. 1) then
         x(2) = props(1)
+      else
+        x(2) = 4.47213595499958D0
       end if
 C     sigma_f_MPa: property 3
-      x(5) = 480.00000000000006D0
       if (nProps .ge. 3) then
         x(5) = props(3)
+      else
+        x(5) = 480.00000000000006D0
       end if
 C     The state variables lie in rData; they are those of one point.
       do i = 1, 5
@@ -134,15 +136,18 @@ C       than 1D30 is as good as infinite.
           rate = min(abs(rate), 1.0D30)
           s = min(s, 1.0D30)
           peval = max(p, peval)
+C         sigma_n_MPa: pressure
           x(1) = peval
+C         v_rel_mm_s: slipData(:,1), slip rate
           x(3) = rate
 C         T_contact_C: tempAvg; property 2 where nTemp = 0
           if (nTemp .gt. 0) then
             x(4) = tempAvg(k)
           else
             x(4) = 110.0D0
-            if (nProps .ge. 2)
-     &        x(4) = props(2)
+            if (nProps .ge. 2) then
+              x(4) = props(2)
+            end if
           end if
           call ftgrad(x, y, dy)
         end if

@@ -237,6 +237,7 @@ C     solver does not turn itself.
       end if
 C
 C     The law's states
+C     sigma_n_MPa: PRESS
       x(1) = peval
 C     T_contact_C: mean of TEMP(1), TEMP(2)
       x(11) = 0.5D0*(temp(1) + temp(2))

@@ -121,8 +121,6 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       logical keeps
       logical ftnan
       external ftnan
-      double precision ftqnan
-      external ftqnan
       logical ftout
       external ftout
 C     What histories add to the derivatives by speed and temperature
@@ -162,14 +160,16 @@ C       than 1D30 is as good as infinite.
           rate = min(abs(rate), 1.0D30)
           s = min(s, 1.0D30)
           peval = max(p, peval)
+C         sigma_n_MPa: pressure
           x(1) = peval
 C         T_contact_C: tempAvg; property 1 where nTemp = 0
           if (nTemp .gt. 0) then
             x(11) = tempAvg(k)
           else
             x(11) = 20.0D0
-            if (nProps .ge. 1)
-     &        x(11) = props(1)
+            if (nProps .ge. 1) then
+              x(11) = props(1)
+            end if
           end if
           do i = 1, 11
             dy(i) = zero

@@ -88,49 +88,58 @@ C     precision.
       external ftcoef
 C
 C     dwell: property 1
-      x(2) = 550.0D0
       if (nProps .ge. 1) then
         x(2) = props(1)
+      else
+        x(2) = 550.0D0
       end if
 C     energy: property 2
-      x(3) = 1000.0D0
       if (nProps .ge. 2) then
         x(3) = props(2)
+      else
+        x(3) = 1000.0D0
       end if
 C     friction_power: property 3
-      x(4) = 550.0D0
       if (nProps .ge. 3) then
         x(4) = props(3)
+      else
+        x(4) = 550.0D0
       end if
 C     mean_T_contact: property 4
-      x(5) = 550.0D0
       if (nProps .ge. 4) then
         x(5) = props(4)
+      else
+        x(5) = 550.0D0
       end if
 C     mean_sigma_n: property 5
-      x(6) = 550.0D0
       if (nProps .ge. 5) then
         x(6) = props(5)
+      else
+        x(6) = 550.0D0
       end if
 C     mean_v_rel: property 6
-      x(7) = 550.0D0
       if (nProps .ge. 6) then
         x(7) = props(6)
+      else
+        x(7) = 550.0D0
       end if
 C     peak_T_contact: property 7
-      x(8) = 550.0D0
       if (nProps .ge. 7) then
         x(8) = props(7)
+      else
+        x(8) = 550.0D0
       end if
 C     peak_v_rel: property 8
-      x(9) = 550.0D0
       if (nProps .ge. 8) then
         x(9) = props(8)
+      else
+        x(9) = 550.0D0
       end if
 C     time_since_start: property 9
-      x(10) = 550.0D0
       if (nProps .ge. 9) then
         x(10) = props(9)
+      else
+        x(10) = 550.0D0
       end if
       do k = 1, nBlock
         do i = 1, 3

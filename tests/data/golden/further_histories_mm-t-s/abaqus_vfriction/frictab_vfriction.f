@@ -170,8 +170,9 @@ C       T_contact_C: mean of both surfaces; property 1 where nTemp = 0
           end if
         else
           x(11) = 20.0D0
-          if (nProps .ge. 1)
-     &      x(11) = props(1)
+          if (nProps .ge. 1) then
+            x(11) = props(1)
+          end if
         end if
         do i = 1, 12
           hist(i) = 0.0D0

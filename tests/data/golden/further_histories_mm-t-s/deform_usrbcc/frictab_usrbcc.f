@@ -98,6 +98,7 @@ C
       external ftcoef
       double precision cst(11)
       common /ftcons/ cst
+      logical kept
       double precision h(9), h2(9)
       integer i
       double precision ftmost
@@ -109,23 +110,15 @@ C     Magnitudes: the signs of PRESS and SLDVEL are not relied upon.
       p = abs(press)
       flow = efsts
       speed = abs(sldvel)
+      kept = nusrn .ge. 12
 C     sigma_n_MPa: |PRESS| of COMMON /UFHCOM/
       x(1) = p
-C     dwell: from USRNOD(4), mean of NODE1 and NODE2, kept by FTUPD,
-C     energy: from USRNOD(5), mean of NODE1 and NODE2, kept by
-C     friction_power: from USRNOD(6), mean of NODE1 and NODE2, kept
-C     mean_T_contact: from USRNOD(7), mean of NODE1 and NODE2, kept
-C     mean_sigma_n: from USRNOD(8), mean of NODE1 and NODE2, kept by
-C     mean_v_rel: from USRNOD(9), mean of NODE1 and NODE2, kept by
-C     peak_T_contact: from USRNOD(10), mean of NODE1 and NODE2, kept
-C     peak_v_rel: from USRNOD(11), mean of NODE1 and NODE2, kept by
-C     time_since_start: from USRNOD(12), mean of NODE1 and NODE2,
 C     T_contact_C: mean of TEMC(1) and TEMC(2)
       x(11) = 0.5D0*(temc(1) + temc(2))
       do i = 1, 9
         h(i) = 0.0D0
         h2(i) = 0.0D0
-        if (nusrn .ge. 12) then
+        if (kept) then
           h(i) = usrnod(3+i,node1)
           h2(i) = usrnod(3+i,node2)
         end if

@@ -178,6 +178,7 @@ C         A contact of another type: tau_R has nothing to act on.
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
           end if
+C         sigma_n_MPa: -FNI/AREAS of the node
           x(1) = press
 C         T_contact_C: mean of the node and the segment where it
           if (itopaz(1) .eq. 999) then
@@ -185,13 +186,14 @@ C         T_contact_C: mean of the node and the segment where it
             h2 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 - tt(ii))
             h3 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 + tt(ii))
             h4 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 + tt(ii))
-            tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii))
-     &        + h3*temp(ix3(ii)) + h4*temp(ix4(ii))
+            tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii)) +
+     &h3*temp(ix3(ii)) + h4*temp(ix4(ii))
             x(11) = 0.5D0*(temp(insv(ii)) + tseg)
           else
             x(11) = 20.0D0
-            if (ninput .ge. 1)
-     &        x(11) = ua(1)
+            if (ninput .ge. 1) then
+              x(11) = ua(1)
+            end if
           end if
           do i = 1, 9
             past(i) = 0.0D0

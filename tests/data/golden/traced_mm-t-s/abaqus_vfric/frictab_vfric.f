@@ -95,19 +95,22 @@ C     precision.
       external ftqnan
 C
 C     psi: property 1
-      x(2) = 4.47213595499958D0
       if (nProps .ge. 1) then
         x(2) = props(1)
+      else
+        x(2) = 4.47213595499958D0
       end if
 C     sigma_f_MPa: property 3
-      x(6) = ftqnan()
       if (nProps .ge. 3) then
         x(6) = props(3)
+      else
+        x(6) = ftqnan()
       end if
 C     humidity %, room: property 4
-      x(7) = 50.0D0
       if (nProps .ge. 4) then
         x(7) = props(4)
+      else
+        x(7) = 50.0D0
       end if
       dtime = dTimCur
       do k = 1, nContact
@@ -136,8 +139,9 @@ C       T_contact_C: mean of both surfaces; property 2 where nTemp = 0
           end if
         else
           x(4) = 110.0D0
-          if (nProps .ge. 2)
-     &      x(4) = props(2)
+          if (nProps .ge. 2) then
+            x(4) = props(2)
+          end if
         end if
         do i = 1, 3
           hist(i) = 0.0D0

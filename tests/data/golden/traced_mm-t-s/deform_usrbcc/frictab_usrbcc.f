@@ -66,6 +66,7 @@ C
       external ftcoef
       double precision cst(7)
       common /ftcons/ cst
+      logical kept
 C
       if (imode .ne. 1) return
       if (itype .ne. 2) return
@@ -73,6 +74,7 @@ C     Magnitudes: the signs of PRESS and SLDVEL are not relied upon.
       p = abs(press)
       flow = efsts
       speed = abs(sldvel)
+      kept = nusrn .ge. 3
 C     sigma_n_MPa: |PRESS| of COMMON /UFHCOM/
       x(1) = p
 C     psi: STRCH of COMMON /UFHCOM2/ (meaning inferred)
@@ -82,9 +84,11 @@ C     v_rel_mm_s: |SLDVEL| of COMMON /UFHCOM/
 C     T_contact_C: mean of TEMC(1) and TEMC(2)
       x(4) = 0.5D0*(temc(1) + temc(2))
 C     s_mm: USRNOD(1), mean of NODE1 and NODE2, kept by FTUPD
-      x(5) = 0.0D0
-      if (nusrn .ge. 3)
-     &  x(5) = 0.5D0*(usrnod(1,node1) + usrnod(1,node2))
+      if (kept) then
+        x(5) = 0.5D0*(usrnod(1,node1) + usrnod(1,node2))
+      else
+        x(5) = 0.0D0
+      end if
 C     sigma_f_MPa: EFSTS of COMMON /UFHCOM2/ (meaning inferred)
       x(6) = flow
 C     humidity %, room: constant 50

@@ -88,19 +88,22 @@ C
       integer i, ii, j, kk
 C
 C     psi: UA(1)
-      x(2) = 4.47213595499958D0
       if (ninput .ge. 1) then
         x(2) = ua(1)
+      else
+        x(2) = 4.47213595499958D0
       end if
 C     sigma_f_MPa: UA(3)
-      x(6) = ftqnan()
       if (ninput .ge. 3) then
         x(6) = ua(3)
+      else
+        x(6) = ftqnan()
       end if
 C     humidity %, room: UA(4)
-      x(7) = 50.0D0
       if (ninput .ge. 4) then
         x(7) = ua(4)
+      else
+        x(7) = 50.0D0
       end if
       rate = fdt2
       do kk = 1, niisv5
@@ -168,7 +171,9 @@ C         A contact of another type: tau_R has nothing to act on.
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
           end if
+C         sigma_n_MPa: -FNI/AREAS of the node
           x(1) = press
+C         v_rel_mm_s: tangential part of DX, DY, DZ, times FDT2
           x(3) = speed
 C         T_contact_C: mean of the node and the segment where it
           if (itopaz(1) .eq. 999) then
@@ -176,14 +181,16 @@ C         T_contact_C: mean of the node and the segment where it
             h2 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 - tt(ii))
             h3 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 + tt(ii))
             h4 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 + tt(ii))
-            tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii))
-     &        + h3*temp(ix3(ii)) + h4*temp(ix4(ii))
+            tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii)) +
+     &h3*temp(ix3(ii)) + h4*temp(ix4(ii))
             x(4) = 0.5D0*(temp(insv(ii)) + tseg)
           else
             x(4) = 110.0D0
-            if (ninput .ge. 2)
-     &        x(4) = ua(2)
+            if (ninput .ge. 2) then
+              x(4) = ua(2)
+            end if
           end if
+C         s_mm: UFHIST(1), accumulated slip under pressure
           x(5) = ssum
           fric = fttau(x)
           if (.not. ftnan(fric)) then

@@ -1,0 +1,151 @@
+// Target `abaqus_fric`: Abaqus/Standard, whole shear interaction. What it is called, how it is
+// compiled and how the input deck refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "abaqus/deck.h"
+#include "abaqus/standard.h"
+#include "codegen/driver.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::abaqus::fric {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string input_deck(const std::vector<SolverInput>& inputs) {
+  std::vector<std::string> values = property_values(inputs);
+  values.push_back("0.");
+  return fmt::format("*Surface Interaction, name=FRICTAB\n*Friction, user, depvar={}, "
+                     "properties={}\n{}*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
+                     "** and on the step, for derivatives by the pressure:\n"
+                     "*Step, unsymm=YES, nlgeom=YES\n",
+                     abaqus::states_size(state_count(inputs)), values.size(),
+                     abaqus::property_deck(values));
+}
+
+json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  return abaqus::state_variables({{length, "accumulated slip while under pressure"},
+                                  {stress + "*" + length, "friction work per area"},
+                                  {stress, "peak pressure"},
+                                  {"1", "increments in which the state was outside the range"},
+                                  {length, "elastic slip, direction 1"},
+                                  {length, "elastic slip, direction 2"},
+                                  {"1", "coefficient tau_R/p at the end of the increment"}},
+                                 request, inputs);
+}
+
+json properties(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  json out = recipe_properties(inputs);
+  out.push_back({{"number", property_count(inputs) + 1},
+                 {"quantity", "critical_slip"},
+                 {"unit", solver_unit("mm", request.units).name},
+                 {"meaning", "elastic slip at which sticking ends; 0: 0.005*CHRLNGTH"},
+                 {"used_when", "always"},
+                 {"where_absent", 0.0}});
+  return out;
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  const Exporter& exporter = *find_exporter("abaqus_fric");
+  json out = recipe_head(exporter, request, "fric", files);
+  out["options"] = {{"abaqus_coefficient", exporter.option(request, "abaqus_coefficient")}};
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
+  out["result"] = {{"name", "TAU, DDTDDG, DDTDDP, DDTDDT"},
+                   {"meaning",
+                    "tau_R along the slip, or its share along the elastic slip while "
+                    "the point sticks; derivatives by motion, pressure and temperature"}};
+  out["state_variables_by"] = "contact point";
+  out["state_variables"] = state_variables(request, inputs);
+  out["properties"] = properties(request, inputs);
+  out["compile"] = {"abaqus job=<job> user=frictab_fric.f", fixed_form_check("frictab_fric.f")};
+  out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
+  out["input_deck"] = input_deck(inputs);
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  SourceBundle files;
+  files["frictab_fric.f"] = fric_source(request, inputs);
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  return abaqus::variants(request, "frictab_fric.f", render_template("abaqus/fric/driver.f", {}));
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_routine({.gives = gives(), .most_points = 136, .pressure = abaqus::any_pressure}, built,
+                request, rows, columns, tau);
+}
+
+const char* const source_of_signature =
+    "verified: argument list in public copies of the manual page (releases 6.5 to 2024; SLNAME "
+    "and MSNAME are SECNAME and MAINNAME in 2024, same places) and in public routines; LM; "
+    "positive stress along positive motion (elastic stick of the page, public routines); DDTDDP "
+    "acts only with the unsymmetric solver. Recalled, check against your release: STATEV hold the "
+    "start of the increment in every iteration (the routine is right either way, as long as KSTEP "
+    "and KINC number increments and a cutback keeps the number); TAU comes in as of the start of "
+    "the increment (used only where there are fewer state variables); DROT turns the components of "
+    "state variables; "
+    "TEMP(1), TEMP(2) and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD is the work "
+    "of the increment, SED the elastic energy; 0.005*CHRLNGTH is the solver's own slip tolerance. "
+    "STDB_ABQERR (only where outside = error) is called "
+    "as public routines do";
+
+const char* const notes =
+    "For *FRICTION, USER in Abaqus/Standard: contact pairs and contact elements. The routine gives "
+    "the whole shear interaction: elastic stick up to a critical elastic slip (last property; 0: "
+    "0.005*CHRLNGTH), then slip along the trial direction under tau_R, with consistent derivatives "
+    "by motion, pressure and temperature. Speed is |DGAM|/DTIME: a static step needs times that "
+    "mean seconds, or the law is asked at wrong speeds. Use *STEP, UNSYMM=YES: without it DDTDDP "
+    "is ignored and convergence suffers. A model without temperatures passes TEMP = 0 (recalled), "
+    "which cannot be told from 0 degC: set [export.inputs] T_contact_C = property or constant:20 "
+    "there. Surface expansion and flow stress are not known to the solver: [export.inputs] says "
+    "constant:VALUE, property or field:N. DEPVAR=15: accumulated slip, friction work per area, "
+    "peak pressure, increments outside the range, elastic slip, coefficient, and their values at "
+    "the start of the increment, so that iterations and cutbacks count once; two more for each "
+    "further history of a traced law (energy, times, means, peaks, friction power). Where Newton "
+    "fails "
+    "to converge because the limit changes with speed or slip, set abaqus_coefficient = "
+    "\"start_of_increment\" in [export.options]. Below 1 MPa (or the low end of the range) the "
+    "coefficient is held. Beyond a side with outside = error STDB_ABQERR ends the analysis, and "
+    "states of unconverged iterations count too: prefer clamp or law in Standard. LM is 0 on "
+    "return, or 2 where the point was open. PNEWDT is not touched.";
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "abaqus_fric";
+  out.order = 24;
+  out.title = "Abaqus/Standard FRIC, stress with derivatives";
+  out.signature_source = source_of_signature;
+  out.notes = notes;
+  out.options = {abaqus::coefficient_option(), values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::abaqus::fric

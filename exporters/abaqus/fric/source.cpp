@@ -1,0 +1,66 @@
+// Fills templates/abaqus/fric/frictab_fric.f.
+#include "source.h"
+
+#include "abaqus/standard.h"
+#include "codegen/histories.h"
+
+namespace frictab::abaqus::fric {
+
+const SolverGives& gives() {
+  static const SolverGives all = {
+      .states = {{.state = "sigma_n_MPa",
+                  .text = "PRESS",
+                  .read = "peval",
+                  .canonical = true,
+                  .slope = "dp = dy(@{index})"},
+                 {.state = "v_rel_mm_s",
+                  .text = "|DGAM|/DTIME (0 where DTIME = 0)",
+                  .read = "speed",
+                  .slope = "flimv = dy(@{index})@{to_solver}@{convert}"},
+                 {.state = "s_mm",
+                  .text = "STATEV(1), accumulated slip at the end of the increment",
+                  .read = "(s0(1) + ds)",
+                  .slope = "if (ds .gt. zero) flims = dy(@{index})@{to_solver}@{convert}"},
+                 {.state = "friction_work",
+                  .text = "STATEV(2), friction work at the start of the increment",
+                  .read = "s0(2)"},
+                 {.state = "peak_sigma_n",
+                  .text = "STATEV(3), peak pressure at the end of the increment",
+                  .read = "max(s0(3), p)",
+                  .slope = "if (p .gt. s0(3)) dpeak = dy(@{index})"},
+                 {.state = "T_contact_C",
+                  .text = "mean of TEMP(1), TEMP(2)",
+                  .read = "0.5D0*(temp(1) + temp(2))",
+                  .slope = "flimt = dy(@{index})@{to_solver}"}},
+      .property = {.text = "property @{property}",
+                   .read = "props(@{property})",
+                   .exists = "nprops .ge. @{property}"},
+      .field = {.text = "mean of both surfaces' predefined field @{field}",
+                .read = "0.5D0*(predef(1,@{field}) + predef(2,@{field}))",
+                .exists = "npred .ge. @{field}"},
+      .history = "STATEV(@{number})",
+      .before_histories = history};
+  return all;
+}
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return history + history_count(inputs);
+}
+
+std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  TemplateValues values;
+  // Without DROT, CHRLNGTH and the like being numbers, TAU is NaN: ftqnan is always there.
+  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(), true);
+  const std::size_t properties = property_count(inputs);
+  values.text["critical"] = std::to_string(properties + 1);
+  values.text["n_props"] = std::to_string(properties + 1);
+  // A millionth of a millimetre, where the deck and the solver give no length.
+  values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
+  abaqus::add_states(values, state_count(inputs));
+  values.text["reads"] = fortran::reads(inputs, gives());
+  values.text["slopes"] =
+      fortran::slopes(inputs, gives(), {{"to_solver", values.text.at("to_solver")}});
+  return render_template("abaqus/fric/frictab_fric.f", values);
+}
+
+} // namespace frictab::abaqus::fric

@@ -1,0 +1,20 @@
+// The Fortran source of FRIC for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+
+namespace frictab::abaqus::fric {
+
+// What FRIC's arguments hold.
+const SolverGives& gives();
+
+// Values that are kept for every law, and for one with these inputs; without what protects them.
+inline constexpr std::size_t history = 7;
+std::size_t state_count(const std::vector<SolverInput>& inputs);
+
+std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::abaqus::fric

@@ -1,0 +1,154 @@
+// Target `abaqus_fric_coef`: Abaqus/Standard, the coefficient alone. What it is called, how it is
+// compiled and how the input deck refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "abaqus/deck.h"
+#include "abaqus/standard.h"
+#include "codegen/driver.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::abaqus::fric_coef {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::vector<std::string> values = property_values(inputs);
+  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, user=COEFFICIENT";
+  if (is_2024(request))
+    deck += fmt::format(", depvar={}", abaqus::states_size(state_count(inputs)));
+  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
+  return deck + "\n" + abaqus::property_deck(values) +
+         "*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
+         "** and on the step, for derivatives by the pressure:\n"
+         "*Step, unsymm=YES, nlgeom=YES\n";
+}
+
+json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  if (!is_2024(request)) return json::array();
+  return abaqus::state_variables({{stress + "*" + length, "friction work per area"},
+                                  {stress, "peak pressure"},
+                                  {"1", "increments in which the state was outside the range"},
+                                  {"1", "coefficient tau_R/p at the end of the increment"},
+                                  {length, "equivalent slip at the end of the increment"}},
+                                 request, inputs);
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  const Exporter& exporter = *find_exporter("abaqus_fric_coef");
+  json out = recipe_head(exporter, request, "fric_coef", files);
+  for (const ExportOption& option : exporter.options)
+    out["options"][option.name] = exporter.option(request, option.name);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "FRIC_COEF's own 16 arguments, in the list of the release in options; "
+                          "listed is where each state comes from";
+  out["result"] = {
+      {"name", is_2024(request) ? "fCoef(:,1), fCoefDeriv(:,:,1)" : "fCoef, fCoefDeriv"},
+      {"meaning", "tau_R/p; derivatives by slip rate (1), pressure (2), temperature (3)" +
+                      std::string(is_2024(request) ? ", equivalent slip (6)" : "")}};
+  out["state_variables_by"] = "contact point";
+  out["state_variables"] = state_variables(request, inputs);
+  out["properties"] = recipe_properties(inputs);
+  out["compile"] = {"abaqus job=<job> user=frictab_fric_coef.f",
+                    fixed_form_check("frictab_fric_coef.f")};
+  out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
+  out["input_deck"] = input_deck(request, inputs);
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives(is_2024(request)));
+  SourceBundle files;
+  files["frictab_fric_coef.f"] = coef_source(request, inputs);
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  TemplateValues values;
+  values.flags["new"] = is_2024(request);
+  return abaqus::variants(request, "frictab_fric_coef.f",
+                          render_template("abaqus/fric_coef/driver.f", values));
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const SolverGives& given = gives(is_2024(request));
+  const std::vector<SolverInput> inputs = solver_inputs(request, given);
+  const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
+                    uses(inputs, Source::history); // state variables are those of one point
+  drive_routine({.gives = given,
+                 .result = fortran::Coefficient::coulomb,
+                 .most_points = kept ? std::size_t{1} : std::size_t{136},
+                 .pressure = abaqus::any_pressure},
+                built, request, rows, columns, tau);
+}
+
+const char* const source_of_signature =
+    "verified: the list of 2024 in the v2024 reference and in 3DEXPERIENCE, that of 2020 in a "
+    "public routine for releases up to about 2020; between these it is not known which release "
+    "changed it. State variables are rData(8) and on, as the 2024 page gets them by a pointer. "
+    "Inferred from that page: one point per call where there are state variables. "
+    "Recalled, check against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is "
+    "the slip at the end of the increment; "
+    "nTemp = 1 where temperatures exist; state variables hold the start of the increment in every "
+    "iteration (the routine is right either way, as long as KSTEP and KINC number increments and "
+    "a cutback keeps the number). STDB_ABQERR (only where outside = error) is called as public "
+    "routines do";
+
+const char* const notes =
+    "For *FRICTION, USER=COEFFICIENT in Abaqus/Standard: contact pairs and general contact; stick "
+    "and slip are the solver's own. The argument list changed after 2020: set [export.options] "
+    "abaqus_release to 2024 or 2020, by whether the manual of your release names slipData or "
+    "slipRate; both have 16 arguments, so the wrong one compiles, links and reads other numbers. "
+    "The solver multiplies the coefficient tau_R/p with its pressure, so the shear limit holds as "
+    "the coefficient falls with pressure. Below 1 MPa (or the low end "
+    "of the range) the coefficient is held: a law whose tau_R does not vanish with the pressure "
+    "would need an infinite one. Derivatives by pressure act with *STEP, UNSYMM=YES. Slip history "
+    "is the solver's equivalent slip (2024) or not known (2020: a property, or a field). Friction "
+    "work and peak pressure take DEPVAR=11, further histories of a traced law two more each; they "
+    "exist only with the list of 2024; "
+    "abaqus_coefficient = \"start_of_increment\" needs them too. Rates are slip over time: a "
+    "static step needs times that mean seconds. Surface expansion and flow stress are not known "
+    "to the solver: [export.inputs] says constant:VALUE, property or field:N. Beyond a side with "
+    "outside = error STDB_ABQERR ends the analysis, and states of unconverged iterations count "
+    "too: prefer clamp or law in Standard.";
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "abaqus_fric_coef";
+  out.order = 26;
+  out.title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives";
+  out.signature_source = source_of_signature;
+  out.notes = notes;
+  out.options = {{"abaqus_release",
+                  {"2024", "2020"},
+                  "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
+                  "about 2020; between them see which one your manual shows"},
+                 abaqus::coefficient_option(),
+                 values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::abaqus::fric_coef

@@ -1,0 +1,108 @@
+// Fills templates/abaqus/fric_coef/frictab_fric_coef.f.
+#include "source.h"
+
+#include "abaqus/standard.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/histories.h"
+#include "core/error.h"
+
+namespace frictab::abaqus::fric_coef {
+
+namespace {
+
+const Exporter& target() {
+  return *find_exporter("abaqus_fric_coef");
+}
+
+SolverGives given(bool release_2024) {
+  SolverGives all = {.states = {{.state = "sigma_n_MPa",
+                                 .text = "pressure",
+                                 .read = "peval",
+                                 .canonical = true,
+                                 .slope = "dmup = dy(@{index})"},
+                                {.state = "v_rel_mm_s",
+                                 .text = release_2024 ? "slipData(:,1), slip rate" : "slipRate",
+                                 .read = "rate",
+                                 .slope = "dmuv = dy(@{index})/peval@{convert}"},
+                                {.state = "T_contact_C",
+                                 .text = "tempAvg",
+                                 .without = "nTemp = 0",
+                                 .read = "tempAvg(k)",
+                                 .exists = "nTemp .gt. 0",
+                                 .slope = "if (nTemp .gt. 0) dmut = dy(@{index})/peval"}},
+                     .property = {.text = "property @{property}",
+                                  .read = "props(@{property})",
+                                  .exists = "nProps .ge. @{property}",
+                                  .part = "once"},
+                     .field = {.text = "mean predefined field @{field}, fieldAvg",
+                               .read = "fieldAvg(k,@{field})",
+                               .exists = "nFields .ge. @{field}"},
+                     .constant = {.read = "@{fallback}", .canonical = true, .part = "once"}};
+  if (!release_2024) return all;
+  all.states.push_back({.state = "s_mm",
+                        .text = "slipData(:,4), equivalent slip",
+                        .read = "s",
+                        .slope = "dmus = dy(@{index})/peval@{convert}"});
+  all.states.push_back({.state = "friction_work",
+                        .text = "state variable 1, at the start of the increment",
+                        .read = "s0(1)"});
+  all.states.push_back({.state = "peak_sigma_n",
+                        .text = "state variable 2, with the pressure now",
+                        .read = "max(s0(2), p)",
+                        .slope = "if (p .gt. s0(2)) dpeak = dy(@{index})"});
+  all.history = "state variable @{number}";
+  all.before_histories = history;
+  return all;
+}
+
+std::vector<std::string> release_lines(bool release_2024) {
+  if (release_2024)
+    return {"Verified: the list of the 2024 reference and of 3DEXPERIENCE, where fCoefDeriv is "
+            "(nBlock,20,2) and slipData (nBlock,6). Up to about 2020 it was another one of as many "
+            "arguments, which no compiler tells apart; which release changed it is not known. "
+            "Look into the manual of yours: a page that names slipRate instead of slipData needs "
+            "[export.options] abaqus_release = \"2020\"."};
+  return {"Verified: the list of releases up to about 2020, where fCoefDeriv is (nBlock,3) and "
+          "slipRate (nBlock). That of 2024 is another one of as many arguments, which no compiler "
+          "tells apart; which release changed it is not known. Look into the manual of yours: a "
+          "page that names slipData instead of slipRate needs [export.options] abaqus_release = "
+          "\"2024\"."};
+}
+
+} // namespace
+
+bool is_2024(const ExportRequest& request) {
+  return target().option(request, "abaqus_release") == "2024";
+}
+
+const SolverGives& gives(bool release_2024) {
+  static const SolverGives newer = given(true), older = given(false);
+  return release_2024 ? newer : older;
+}
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return history + history_count(inputs);
+}
+
+std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const bool newer = is_2024(request);
+  if (!newer && abaqus::coefficient_is_frozen(target(), request))
+    throw InputError({"export.options.abaqus_coefficient", 0, 0},
+                     "abaqus_fric_coef keeps no coefficient with abaqus_release = \"2020\": that "
+                     "argument list has no state variables",
+                     "\"current\", or the target abaqus_fric");
+  TemplateValues values;
+  values.flags["uses_unknown"] =
+      abaqus::add_routine(values, target(), request, inputs, gives(newer), false);
+  values.text["reads_once"] = fortran::reads(inputs, gives(newer), "once");
+  values.text["reads"] = fortran::reads(inputs, gives(newer), "", 4);
+  values.text["slopes"] = fortran::slopes(inputs, gives(newer), {}, 4);
+  values.flags["new"] = newer;
+  values.text["release"] = newer ? "2024" : "2020";
+  values.text["n_props"] = std::to_string(property_count(inputs));
+  abaqus::add_states(values, state_count(inputs));
+  values.lists["release_lines"] = fortran::comments(release_lines(newer));
+  return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);
+}
+
+} // namespace frictab::abaqus::fric_coef

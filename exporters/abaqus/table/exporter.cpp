@@ -1,0 +1,169 @@
+// Target `abaqus_table`: data lines of *FRICTION without USER, for Abaqus/Standard and /Explicit.
+#include "codegen/exporter.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "codegen/native_table.h"
+#include "codegen/template.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace frictab::abaqus::table {
+
+namespace {
+
+constexpr const char* file_name = "frictab_friction.inp";
+constexpr std::size_t first_field = 3; // cells behind the coefficient: rate, pressure, temperature
+
+NativeForm form(const ExportRequest&) {
+  NativeForm out;
+  out.gives = {.states = {{.state = "v_rel_mm_s", .text = "column 2, slip rate"},
+                          {.state = "sigma_n_MPa", .text = "column 3, contact pressure"},
+                          {.state = "T_contact_C",
+                           .text = "column 4, average temperature of both surfaces"}},
+               .field = {.text = "field variable @{field}"}};
+  out.limits = true;
+  out.most_fields = 4; // further ones go on another line
+  out.interpolation =
+      "linear between the lines, the slip rate varies fastest (recalled); TAUMAX limits the stress";
+  return out;
+}
+
+std::size_t cell_of(const NativeColumn& column) {
+  if (column.field > 0) return first_field + column.field - 1;
+  if (column.state == "T_contact_C") return 2;
+  return column.state == "sigma_n_MPa" ? 1 : 0;
+}
+
+// Fields of *FRICTION count from 1 without a gap.
+std::size_t field_count(const std::vector<NativeColumn>& columns) {
+  std::size_t count = 0, last = 0;
+  for (const NativeColumn& column : columns) {
+    count += column.field > 0;
+    last = std::max(last, column.field);
+  }
+  if (count != last)
+    throw InputError(
+        {"export.inputs", 0, 0},
+        fmt::format("*FRICTION counts its fields from 1: {} of {} are used", count, last),
+        "field:1, field:2, ... without a gap");
+  return count;
+}
+
+std::string data_lines(const NativeTable& table, std::size_t fields) {
+  std::string out;
+  for (std::size_t i = 0; i < table.values.value.size(); ++i) {
+    const std::vector<double> place = place_of(table.values, i);
+    std::vector<std::string> cells(first_field + fields);
+    for (std::size_t c = 0; c < place.size(); ++c)
+      if (!std::isnan(place[c])) cells[cell_of(table.columns[c])] = " " + native_number(place[c]);
+    while (!cells.empty() && cells.back().empty())
+      cells.pop_back();
+    out += " " + native_number(table.values.value[i]);
+    for (const std::string& cell : cells)
+      out += "," + cell;
+    out += "\n";
+  }
+  out.pop_back();
+  return out;
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  const Exporter& self = *find_exporter("abaqus_table");
+  const NativeTable table = native_table(request, form(request));
+  const std::size_t fields = field_count(table.columns);
+  TemplateValues values;
+  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.text["taumax"] =
+      table.values.limit ? ", TAUMAX=" + native_number(*table.values.limit) : "";
+  values.text["dependencies"] = fields > 0 ? fmt::format(", DEPENDENCIES={}", fields) : "";
+  values.text["data"] = data_lines(table, fields);
+  SourceBundle files;
+  files[file_name] = render_template("abaqus/table/frictab_friction.inp", values);
+  files["recipe.json"] = native_recipe(
+      self, request, form(request), table, files, "*FRICTION",
+      "*Surface Interaction, name=FRICTAB\n*Include, input=" + std::string(file_name) + "\n");
+  return files;
+}
+
+// "*FRICTION, TAUMAX=350" -> the limit.
+void read_keyword(std::string_view line, NativeValues& values) {
+  const auto cells = split_cells(line, ',');
+  if (cells[0] != "*FRICTION") throw std::runtime_error("no *FRICTION line");
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    if (cells[i].starts_with("TAUMAX=")) values.limit = read_number(cells[i].substr(7));
+}
+
+NativeValues read(const std::string& text, const std::vector<NativeColumn>& columns) {
+  const auto lines = deck_lines(text, "**");
+  if (lines.empty()) throw std::runtime_error("no *FRICTION line");
+  NativeValues keyword;
+  read_keyword(lines[0], keyword);
+  std::vector<std::vector<double>> places;
+  std::vector<double> value;
+  for (std::size_t l = 1; l < lines.size(); ++l) {
+    const auto cells = split_cells(lines[l], ',');
+    value.push_back(read_number(cells[0]));
+    std::vector<double> place(columns.size(), std::nan(""));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (const std::size_t at = cell_of(columns[c]) + 1; at < cells.size() && !cells[at].empty())
+        place[c] = read_number(cells[at]);
+    places.push_back(std::move(place));
+  }
+  NativeValues out = values_of_rows(places, value);
+  out.limit = keyword.limit;
+  return out;
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const NativeValues values =
+      read(read_file(built.directory / file_name), native_columns(request, form(request)));
+  drive_native(form(request), values, request, rows, columns, tau);
+}
+
+HeldStates held(const ExportRequest& request) {
+  return native_held(request, form(request));
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "abaqus_table";
+  out.order = 70;
+  out.title = "Abaqus *FRICTION data lines, no user routine";
+  out.signature_source =
+      "verified: order of the columns, DEPENDENCIES and TAUMAX (keyword guide). recalled, check "
+      "against your release: the slip rate varies fastest, linear between lines, constant beyond "
+      "the ends";
+  out.notes =
+      "Columns for slip rate, pressure, temperature, and field variables where [export.inputs] "
+      "says field:N (up to 4, counted from 1); every other state of the law is held at the job's "
+      "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
+      "run say; verify.json has what that costs on the validation rows. A column the law does not "
+      "depend on stays blank. TAUMAX holds the law's shear limit at the held flow stress. The "
+      "grid is made to table.tolerance_MPa with at most 20,000 lines. Beyond the ends Abaqus keeps "
+      "the coefficient there, whatever `outside` says.";
+  out.generate = generate;
+  out.variants = native_variants;
+  out.drive = drive;
+  out.held = held;
+  return out;
+}
+
+void write_plain(const PlainRequest& request, std::ostream& out) {
+  out << native_plain(request, *find_exporter("abaqus_table"), form({request.table, "mm-t-s", {}}))
+             .at(file_name);
+}
+
+const Registered<Exporter> registered{exporter};
+const Registered<PlainFormat> plain{[] {
+  const Exporter self = exporter();
+  return PlainFormat{"abaqus", 3, "*FRICTION data lines: mu over slip rate, pressure, temperature",
+                     self.signature_source, write_plain};
+}};
+
+} // namespace
+
+} // namespace frictab::abaqus::table

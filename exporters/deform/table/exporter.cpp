@@ -1,0 +1,157 @@
+// Target `deform_table`: FRCFAC of type 5, friction over pressure, temperature and surface stretch,
+// in 2-D and 3-D.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+
+#include "codegen/native_table.h"
+#include "codegen/template.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace frictab::deform::table {
+
+namespace {
+
+constexpr const char* file_name = "frictab_frcfac.key";
+constexpr const char* friction_option = "deform_friction";
+
+const std::vector<ExportOption> options = {
+    {friction_option,
+     {"coulomb", "shear"},
+     "what DEFORM multiplies: coulomb = mu, by pressure (FricType 2); shear = m, by the shear "
+     "yield stress (FricType 1)"}};
+
+// The routine of the same name knows a third word.
+bool is_shear(const ExportRequest& request) {
+  const std::string& said = find_exporter("deform_table")->option(request, friction_option);
+  if (said != "shear" && said != "coulomb")
+    throw InputError({std::string("export.options.") + friction_option, 0, 0},
+                     "a FRCFAC table holds mu or m, not '" + said + "'",
+                     "coulomb or shear; only deform_usrbcc takes constant");
+  return said == "shear";
+}
+
+NativeForm form(const ExportRequest& request) {
+  NativeForm out;
+  out.gives.states = {{.state = "sigma_n_MPa", .text = "Press, interface pressure"},
+                      {.state = "T_contact_C", .text = "Temp, temperature"},
+                      {.state = "psi", .text = "Stretch, surface stretch"}};
+  out.factor = is_shear(request) ? NativeFactor::shear_yield : NativeFactor::pressure;
+  out.every_column = true;
+  out.interpolation = "rule not stated in the manual; taken as linear (recalled)";
+  return out;
+}
+
+std::string number_line(std::span<const double> numbers) {
+  std::string line;
+  for (const double x : numbers)
+    line += (line.empty() ? "" : " ") + native_number(x);
+  return line;
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  const Exporter& self = *find_exporter("deform_table");
+  const NativeTable table = native_table(request, form(request));
+  TemplateValues values;
+  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.text["type"] = is_shear(request) ? "1" : "2";
+  const auto& nodes = table.values.nodes;
+  for (std::size_t c = 0; c < 3; ++c)
+    values.lists["axes"].push_back(item(number_line(nodes[c])));
+  values.text["n_press"] = std::to_string(nodes[0].size());
+  values.text["n_temp"] = std::to_string(nodes[1].size());
+  values.text["n_stretch"] = std::to_string(nodes[2].size());
+  const std::span<const double> all = table.values.value;
+  for (std::size_t i = 0; i < all.size(); i += nodes[0].size())
+    values.lists["rows"].push_back(item(number_line(all.subspan(i, nodes[0].size()))));
+  SourceBundle files;
+  files[file_name] = render_template("deform/table/frictab_frcfac.key", values);
+  files["recipe.json"] = native_recipe(
+      self, request, form(request), table, files, "FRCFAC",
+      "load frictab_frcfac.key in the preprocessor, with your object numbers in its FRCFAC line");
+  return files;
+}
+
+std::vector<double> numbers(std::string_view line) {
+  std::vector<double> out;
+  for (const std::string_view cell : split_cells(line, ' '))
+    out.push_back(read_number(cell));
+  return out;
+}
+
+NativeValues read(const std::string& text, bool shear) {
+  const auto lines = deck_lines(text, "*");
+  if (lines.size() < 5 || !lines[0].starts_with("FRCFAC ")) throw std::runtime_error("no FRCFAC");
+  const std::vector<double> head = numbers(lines[0].substr(7));
+  if (head.size() != 7 || head[2] != (shear ? 1 : 2) || head[3] != 5)
+    throw std::runtime_error("FRCFAC is of another type");
+  NativeValues out;
+  for (std::size_t c = 0; c < 3; ++c) {
+    out.nodes.push_back(numbers(lines[1 + c]));
+    if (static_cast<double>(out.nodes[c].size()) != head[4 + c])
+      throw std::runtime_error("an axis of FRCFAC has another number of places than it says");
+  }
+  for (std::size_t l = 4; l < lines.size(); ++l) {
+    const std::vector<double> row = numbers(lines[l]);
+    if (row.size() != out.nodes[0].size())
+      throw std::runtime_error("a line of FRCFAC has not one value per pressure");
+    out.value.insert(out.value.end(), row.begin(), row.end());
+  }
+  if (out.value.size() != out.nodes[0].size() * out.nodes[1].size() * out.nodes[2].size())
+    throw std::runtime_error("FRCFAC has not one value per place");
+  return out;
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_native(form(request), read(read_file(built.directory / file_name), is_shear(request)),
+               request, rows, columns, tau);
+}
+
+HeldStates held(const ExportRequest& request) {
+  return native_held(request, form(request));
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "deform_table";
+  out.order = 85;
+  out.title = "DEFORM FRCFAC table of friction, 2-D and 3-D, no user routine";
+  out.signature_source =
+      "verified: FRCFAC of type 5 over pressure, temperature and surface stretch, the pressure "
+      "varies fastest, FricType 1 = m and 2 = mu (keyword documentation of v14). recalled, check "
+      "against your release: linear between and constant beyond the ends (the manual does not "
+      "say), lines that start with * are comments, numbers are separated by blanks";
+  out.notes =
+      "Pressure, temperature and surface stretch are all this table knows, in 2-D as in 3-D; "
+      "every other state of the law, sliding speed and distance among them, is held at the job's "
+      "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
+      "run say; verify.json has what that costs on the validation rows. deform_friction = "
+      "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
+      "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
+      "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
+      "at most 20,000 values.";
+  out.options = options;
+  out.generate = generate;
+  out.variants = native_variants;
+  out.drive = drive;
+  out.held = held;
+  return out;
+}
+
+void write_plain(const PlainRequest& request, std::ostream& out) {
+  out << native_plain(request, *find_exporter("deform_table"), form({request.table, "mm-t-s", {}}))
+             .at(file_name);
+}
+
+const Registered<Exporter> registered{exporter};
+const Registered<PlainFormat> plain{[] {
+  const Exporter self = exporter();
+  return PlainFormat{"deform", 6, "FRCFAC of type 5: mu over pressure, temperature, stretch",
+                     self.signature_source, write_plain};
+}};
+
+} // namespace
+
+} // namespace frictab::deform::table

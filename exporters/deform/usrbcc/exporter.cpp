@@ -1,0 +1,166 @@
+// Target `deform_usrbcc`: DEFORM-2D. What it is called, how it is compiled and how a database
+// refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/driver.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::deform::usrbcc {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+using fortran::Coefficient;
+
+constexpr const char* main_file = "frictab_usrbcc.f";
+constexpr const char* update_file = "frictab_usrupd.f";
+
+std::string keyword(Coefficient kind) {
+  const char* type = kind == Coefficient::shear ? "1" : kind == Coefficient::coulomb ? "2" : "3";
+  return std::string("FRCFAC <workpiece>, <die>, ") + type + ", -1, 0\n";
+}
+
+json result(Coefficient kind, const SolverUnit& stress) {
+  json out = {{"name", "VARIABLE"}};
+  if (kind == Coefficient::coulomb) {
+    out["meaning"] = "friction coefficient mu = tau_R/p";
+    out["least_pressure_MPa"] = fortran::least_pressure;
+  } else if (kind == Coefficient::shear) {
+    out["meaning"] = "shear factor m = tau_R/(flow stress/sqrt(3)); 0 without pressure";
+  } else {
+    out["meaning"] = "frictional shear stress tau_R; 0 without pressure";
+  }
+  out["unit"] = kind == Coefficient::stress ? stress.name : "1";
+  return out;
+}
+
+json user_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", request.units).name;
+  const std::string stress = solver_unit("MPa", request.units).name;
+  json all = {
+      {{"number", 1}, {"unit", length}, {"meaning", "accumulated slip while under pressure"}},
+      {{"number", 2}, {"unit", stress + "*" + length}, {"meaning", "friction work per area"}},
+      {{"number", 3}, {"unit", stress}, {"meaning", "peak pressure"}}};
+  for (const HistoryState& state : history_states(inputs, request.units))
+    all.push_back({{"number", all.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
+  return all;
+}
+
+json build_steps(const SourceBundle& files, const std::vector<SolverInput>& inputs) {
+  json steps = {"copy the folder UserRoutine\\DEF_SIM (or DEF_SIM_DLL) of the 2-D installation",
+                "replace subroutine USRBCC in usr_bcc.f by frictab_usrbcc.f; USRBCC2 stays"};
+  if (files.count(update_file))
+    steps.push_back(
+        fmt::format("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
+                    "that copies USRN1 to USRN2; at least {} user variables per node",
+                    state_count(inputs)));
+  steps.push_back("build with the Fortran compiler of the release (Intel or Absoft) and name the "
+                  "new engine in DEF_SIM_DIR.DAT of the problem's folder");
+  return steps;
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  const Coefficient kind = coefficient_kind(request);
+  json out = recipe_head(*find_exporter("deform_usrbcc"), request, "usrbcc", files);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
+                          "where each state comes from";
+  out["result"] = result(kind, solver_unit("MPa", request.units));
+  out["acts_when"] = "IMODE = 1 and ITYPE = 2; otherwise VARIABLE stays as it is";
+  out["state_variables_by"] = "node, USRNOD(i,node); written by FTUPD once per converged step";
+  out["state_variables"] = takes_history(inputs) ? user_variables(request, inputs) : json::array();
+  out["properties"] = json::array();
+  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+  out["build"] = build_steps(files, inputs);
+  out["compile"] = {fixed_form_check("frictab_usrbcc.f")};
+  out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
+  out["input_deck"] = keyword(kind);
+  out["input_deck_note"] =
+      "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM computes neither SLDVEL "
+      "nor PRESS";
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = inputs_of(request);
+  SourceBundle files;
+  files[main_file] = usrbcc_source(request, inputs);
+  if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  std::vector<std::string> sources = {main_file};
+  if (takes_history(inputs_of(request))) sources.push_back(update_file);
+  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, sources);
+  add_driver(out, render_template("deform/usrbcc/driver.f", {}));
+  return {out};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_routine({.gives = gives(), .result = coefficient_kind(request)}, built, request, rows,
+                columns, tau);
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "deform_usrbcc";
+  out.order = 52;
+  out.title = "DEFORM-2D USRBCC";
+  out.signature_source =
+      "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies "
+      "only, "
+      "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, "
+      "/USRCTL/ "
+      "and /SSTU/ as declared in public routines for v12. Recalled or inferred, check against your "
+      "release: STRCH is the surface expansion, EFSTS the flow stress, DTMAXC the step's time "
+      "increment; the signs of PRESS and PRESR(2)";
+  out.notes =
+      "deform_friction says what VARIABLE is: \"coulomb\" mu = tau_R/p, \"shear\" m = tau_R/k, "
+      "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to "
+      "be "
+      "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and "
+      "with "
+      "0 in both mu is that of the smallest pressure, m and tau are 0. mu below 0.001 MPa is that "
+      "of "
+      "0.001 MPa. Sliding distance, friction work and peak pressure come from USRNOD(1..3), which "
+      "FTUPD (frictab_usrupd.f, called in USRUPD) accumulates once per converged step, so friction "
+      "sees them one step late; further histories of a traced law (energy, times, means, peaks, "
+      "friction power) follow from USRNOD(4) on; [export.inputs] takes field:N for another "
+      "USRNOD(N), "
+      "constant:VALUE "
+      "for a number in the source. DEFORM's own SI units are mm-t-s: MPa, mm/s, mm, degC. USRBCC "
+      "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "
+      "side "
+      "with outside = error the routine writes state and value to the standard output and stops "
+      "(FTQUIT). There is no USRBCC in DEFORM-3D.";
+  out.options = {{"deform_friction",
+                  {"coulomb", "shear", "constant"},
+                  "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
+                 values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::deform::usrbcc

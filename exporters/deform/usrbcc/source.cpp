@@ -1,0 +1,195 @@
+// Fills templates/deform/usrbcc/.
+#include "source.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_core.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
+#include "core/error.h"
+
+namespace frictab::deform::usrbcc {
+
+using fortran::Coefficient;
+
+namespace {
+
+constexpr std::size_t first_three = 3; // USRNOD(1..3): slip, work, peak pressure
+
+const char* result_name(Coefficient kind) {
+  switch (kind) {
+  case Coefficient::coulomb:
+    return "friction coefficient mu";
+  case Coefficient::shear:
+    return "shear factor m";
+  case Coefficient::stress:
+    break;
+  }
+  return "frictional shear stress tau_R";
+}
+
+// Histories behind the first three.
+void add_further(TemplateValues& values, const ExportRequest& request,
+                 const std::vector<SolverInput>& inputs) {
+  fortran::add_histories(values, inputs, request.units, false);
+  values.text["n_histories"] = std::to_string(history_count(inputs));
+  values.lists["further"] = fortran::comments(
+      numbered(history_states(inputs, request.units), first_three + 1, "USRNOD({})"));
+}
+
+// What FTUPD takes for the temperature, as the job says; by default the node's own.
+std::string node_temperature(const std::vector<SolverInput>& inputs) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].argument.name != "T_contact_C") continue;
+    if (inputs[i].source == Source::constant) return fmt::format("cst({})", i + 1);
+    if (inputs[i].source == Source::field) return fmt::format("usrn1({})", inputs[i].field);
+  }
+  return "tempn";
+}
+
+std::string result_text(Coefficient kind, const std::string& stress) {
+  switch (kind) {
+  case Coefficient::coulomb:
+    return fmt::format("VARIABLE: mu = tau_R/p, for Coulomb friction (FRCFAC type 2). Below {} MPa "
+                       "it is mu of that pressure: at 0 it would be 0/0.",
+                       fortran::least_pressure);
+  case Coefficient::shear:
+    return "VARIABLE: m = tau_R/k, for shear friction (FRCFAC type 1), k = flow stress/sqrt(3); 0 "
+           "without pressure or flow stress.";
+  case Coefficient::stress:
+    break;
+  }
+  return "VARIABLE: tau_R (" + stress +
+         "), for a constant shear stress (FRCFAC type 3); 0 without pressure.";
+}
+
+} // namespace
+
+Coefficient coefficient_kind(const ExportRequest& request) {
+  const std::string& word = find_exporter("deform_usrbcc")->option(request, "deform_friction");
+  return word == "shear"      ? Coefficient::shear
+         : word == "constant" ? Coefficient::stress
+                              : Coefficient::coulomb;
+}
+
+const SolverGives& gives() {
+  static const SolverGives all = {
+      .states = {{.state = "sigma_n_MPa",
+                  .text = "|PRESS| of COMMON /UFHCOM/",
+                  .read = "p",
+                  .canonical = true},
+                 {.state = "v_rel_mm_s", .text = "|SLDVEL| of COMMON /UFHCOM/", .read = "speed"},
+                 {.state = "s_mm",
+                  .text = "USRNOD(1), mean of NODE1 and NODE2, kept by FTUPD",
+                  .read = "0.5D0*(usrnod(1,node1) + usrnod(1,node2))",
+                  .exists = "kept",
+                  .absent = "0.0D0"},
+                 {.state = "friction_work",
+                  .text = "USRNOD(2), mean of NODE1 and NODE2, kept by FTUPD",
+                  .read = "0.5D0*(usrnod(2,node1) + usrnod(2,node2))",
+                  .exists = "kept",
+                  .absent = "0.0D0"},
+                 {.state = "peak_sigma_n",
+                  .text = "the larger of USRNOD(3), kept by FTUPD, and |PRESS|",
+                  .read = "@{x} = 0.0D0\n"
+                          "if (kept) @{x} = 0.5D0*(usrnod(3,node1) + usrnod(3,node2))\n"
+                          "call ftpeak(@{x}, abs(press))"},
+                 {.state = "T_contact_C",
+                  .text = "mean of TEMC(1) and TEMC(2)",
+                  .read = "0.5D0*(temc(1) + temc(2))"},
+                 {.state = "sigma_f_MPa",
+                  .text = "EFSTS of COMMON /UFHCOM2/ (meaning inferred)",
+                  .read = "flow",
+                  .canonical = true},
+                 {.state = "psi",
+                  .text = "STRCH of COMMON /UFHCOM2/ (meaning inferred)",
+                  .read = "strch"}},
+      .field = {.text = "mean of USRNOD(@{field}) at NODE1 and NODE2",
+                .read = "0.5D0*(usrnod(@{field},node1) + usrnod(@{field},node2))",
+                .exists = "nusrn .ge. @{field}",
+                .absent = "cst(@{index})"},
+      .constant = fortran::settable_constant,
+      .history = "USRNOD(@{number}), mean of NODE1 and NODE2, kept by FTUPD",
+      .before_histories = first_three};
+  return all;
+}
+
+bool takes_history(const std::vector<SolverInput>& inputs) {
+  return takes(inputs, "s_mm") || takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
+         uses(inputs, Source::history);
+}
+
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return first_three + history_count(inputs);
+}
+
+std::vector<SolverInput> inputs_of(const ExportRequest& request) {
+  std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  FaultList faults;
+  if (takes_history(inputs))
+    for (const SolverInput& input : inputs)
+      if (input.source == Source::field && input.field <= state_count(inputs))
+        faults.add({"export.inputs." + input.argument.name, 0, 0},
+                   fmt::format("USRNOD({}) holds a history that the law needs", input.field),
+                   fmt::format("field:{} or higher", state_count(inputs) + 1));
+  faults.throw_if_any();
+  return inputs;
+}
+
+std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const Table& table = request.table;
+  const Coefficient kind = coefficient_kind(request);
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  TemplateValues values;
+  fortran::add_head(values, *find_exporter("deform_usrbcc"), request, inputs,
+                    "FTQUIT ends the simulation");
+  const bool refuses = values.flags["refuses"];
+  values.lists["result"] = fortran::comments({result_text(kind, stress.name)});
+  values.text["result_name"] = result_name(kind);
+  values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
+  values.text["result_convert"] =
+      kind == Coefficient::stress ? values.text.at("to_solver") : std::string();
+  const auto flow = std::find_if(inputs.begin(), inputs.end(), [](const SolverInput& input) {
+    return input.argument.name == "sigma_f_MPa" && input.source != Source::given;
+  });
+  values.flags["given_flow"] = flow != inputs.end();
+  values.text["flow_index"] = std::to_string(flow - inputs.begin() + 1);
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.text["constants"] = fortran::constants_data(inputs);
+  values.text["coefficient"] = fortran::coefficient(table, kind);
+  values.text["core"] =
+      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
+  values.flags["histories"] = takes_history(inputs);
+  Lines& warmest = values.lists["warmest"];
+  for (const std::size_t state : peak_temperatures(inputs))
+    warmest.push_back(item(std::to_string(state)));
+  Lines& started = values.lists["started"];
+  for (const std::size_t state : start_temperatures(inputs))
+    started.push_back(item(std::to_string(state)));
+  values.flags["has_started"] = !started.empty();
+  values.flags["has_warmest"] = !warmest.empty();
+  values.text["n_states"] = std::to_string(state_count(inputs));
+  add_further(values, request, inputs);
+  values.flags["uses_peak"] = takes(inputs, "peak_sigma_n");
+  values.text["reads"] = fortran::reads(inputs, gives());
+  return render_template("deform/usrbcc/frictab_usrbcc.f", values);
+}
+
+std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  TemplateValues values, all;
+  values.text = {{"version", FRICTAB_VERSION},
+                 {"length", solver_unit("mm", request.units).name},
+                 {"stress", solver_unit("MPa", request.units).name}};
+  add_further(all, request, inputs);
+  values.text["n_histories"] = all.text.at("n_histories");
+  values.text["node_temperature"] = node_temperature(inputs);
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.flags = all.flags;
+  values.lists = all.lists;
+  return render_template("deform/usrbcc/frictab_usrupd.f", values);
+}
+
+} // namespace frictab::deform::usrbcc

@@ -1,0 +1,30 @@
+// The Fortran sources of USRBCC, and of what USRUPD calls for it, for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/coefficient.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab::deform::usrbcc {
+
+// What the job's [export.options] say: mu, m or tau_R.
+fortran::Coefficient coefficient_kind(const ExportRequest& request);
+
+// What USRBCC's arguments and COMMON blocks hold.
+const SolverGives& gives();
+
+// Whether the law takes the history of a node.
+bool takes_history(const std::vector<SolverInput>& inputs);
+
+// USRNOD(1..n) that then hold it: slip, work, peak pressure and those of codegen/histories.h.
+std::size_t state_count(const std::vector<SolverInput>& inputs);
+
+// As solver_inputs; throws InputError also where a field's number is one of the histories.
+std::vector<SolverInput> inputs_of(const ExportRequest& request);
+
+std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::deform::usrbcc

@@ -1,0 +1,159 @@
+// Target `lsdyna_table`: *DEFINE_TABLE of relative velocities, each with a curve of the coefficient
+// over pressure, as FS=2 of *CONTACT_..._SURFACE_TO_SURFACE reads it.
+#include "codegen/exporter.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "codegen/native_table.h"
+#include "codegen/template.h"
+#include "io/atomic_file.h"
+
+namespace frictab::lsdyna::table {
+
+namespace {
+
+constexpr const char* file_name = "frictab_friction.k";
+constexpr int table_id = 90000; // curves count on from it
+constexpr std::size_t width = 20;
+
+NativeForm form(const ExportRequest&) {
+  NativeForm out;
+  out.gives.states = {
+      {.state = "sigma_n_MPa", .text = "abscissa of the curves, interface pressure"},
+      {.state = "v_rel_mm_s", .text = "value of the table, relative velocity"}};
+  out.every_column = true;
+  out.interpolation = "linear along each curve and between curves (recalled)";
+  return out;
+}
+
+Lines curves(const NativeTable& table) {
+  const auto &pressure = table.values.nodes[0], &speed = table.values.nodes[1];
+  Lines out;
+  for (std::size_t s = 0; s < speed.size(); ++s) {
+    std::string points;
+    for (std::size_t p = 0; p < pressure.size(); ++p)
+      points += fmt::format("{:>20}{:>20}{}", native_number(pressure[p]),
+                            native_number(table.values.value[s * pressure.size() + p]),
+                            p + 1 < pressure.size() ? "\n" : "");
+    TemplateValues curve;
+    curve.text = {{"id", fmt::format("{:>10}", table_id + 1 + static_cast<int>(s))},
+                  {"points", points}};
+    out.push_back(curve);
+  }
+  return out;
+}
+
+std::string input_deck() {
+  return fmt::format("*INCLUDE\n{}\n$ *CONTACT_..._SURFACE_TO_SURFACE, card 2: FS=2, FD={} (the "
+                     "table), with the thickness offset option\n$        fs        fd\n"
+                     "       2.0   {}.0\n",
+                     file_name, table_id, table_id);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  const Exporter& self = *find_exporter("lsdyna_table");
+  const NativeTable table = native_table(request, form(request));
+  TemplateValues values;
+  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.text["id"] = fmt::format("{:>10}", table_id);
+  values.text["stress"] = solver_unit("MPa", request.units).name;
+  values.text["speed"] = solver_unit("mm/s", request.units).name;
+  for (const double speed : table.values.nodes[1])
+    values.lists["speeds"].push_back(item(fmt::format("{:>20}", native_number(speed))));
+  values.lists["curves"] = curves(table);
+  SourceBundle files;
+  files[file_name] = render_template("lsdyna/table/frictab_friction.k", values);
+  files["recipe.json"] = native_recipe(self, request, form(request), table, files,
+                                       fmt::format("*DEFINE_TABLE {}", table_id), input_deck());
+  return files;
+}
+
+double card(std::string_view line, std::size_t cell) {
+  if (line.size() < width * (cell + 1)) throw std::runtime_error("a card is too short");
+  const auto cells = split_cells(line.substr(width * cell, width), ' ');
+  if (cells.size() != 1) throw std::runtime_error("a card has no number where one belongs");
+  return read_number(cells[0]);
+}
+
+double number_of(std::string_view line) {
+  const auto cells = split_cells(line, ' ');
+  return read_number(cells.size() == 1 ? cells[0] : line);
+}
+
+NativeValues read(const std::string& text) {
+  const auto lines = deck_lines(text, "$");
+  if (lines.empty() || lines[0] != "*DEFINE_TABLE") throw std::runtime_error("no *DEFINE_TABLE");
+  std::vector<double> speeds, value;
+  std::vector<std::vector<double>> places;
+  if (lines.size() < 2 || number_of(lines[1]) != table_id)
+    throw std::runtime_error("no number of the table");
+  std::size_t at = 2;
+  for (; at < lines.size() && lines[at][0] != '*'; ++at)
+    speeds.push_back(card(lines[at], 0));
+  for (const double speed : speeds) { // the curves follow in the order of the table's values
+    if (at >= lines.size() || lines[at] != "*DEFINE_CURVE")
+      throw std::runtime_error("fewer curves than values of the table");
+    if (++at >= lines.size() || !(number_of(lines[at]) > table_id))
+      throw std::runtime_error("no number of a curve");
+    for (++at; at < lines.size() && lines[at][0] != '*'; ++at) {
+      places.push_back({card(lines[at], 0), speed});
+      value.push_back(card(lines[at], 1));
+    }
+  }
+  if (at < lines.size() && lines[at] != "*END")
+    throw std::runtime_error("more curves than values of the table");
+  return values_of_rows(places, value);
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_native(form(request), read(read_file(built.directory / file_name)), request, rows, columns,
+               tau);
+}
+
+HeldStates held(const ExportRequest& request) {
+  return native_held(request, form(request));
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "lsdyna_table";
+  out.order = 75;
+  out.title = "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine";
+  out.signature_source =
+      "verified: FS=2 with FD the number of a table over relative velocity and pressure, together "
+      "with the thickness offset option; in such tables a curve over pressure per velocity (fields "
+      "of the keywords). recalled, check against your release: the curves stand directly behind "
+      "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
+  out.notes =
+      "Velocity and pressure are all this table knows; every other state of the law is held at "
+      "the job's constant:VALUE, else in the middle of its range, as the file, recipe.json (held) "
+      "and the run say; verify.json has what that costs on the validation rows. The shear limit "
+      "is part of the table, at the held flow stress. Table and curves are numbered from 90000: "
+      "renumber them where your deck has these. The grid is made to table.tolerance_MPa with at "
+      "most 20,000 points.";
+  out.generate = generate;
+  out.variants = native_variants;
+  out.drive = drive;
+  out.held = held;
+  return out;
+}
+
+void write_plain(const PlainRequest& request, std::ostream& out) {
+  out << native_plain(request, *find_exporter("lsdyna_table"), form({request.table, "mm-t-s", {}}))
+             .at(file_name);
+}
+
+const Registered<Exporter> registered{exporter};
+const Registered<PlainFormat> plain{[] {
+  const Exporter self = exporter();
+  return PlainFormat{"lsdyna", 4,
+                     "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed",
+                     self.signature_source, write_plain};
+}};
+
+} // namespace
+
+} // namespace frictab::lsdyna::table

@@ -1,0 +1,158 @@
+// Target `lsdyna_usrfrc`: LS-DYNA, SMP. What it is called, how it is compiled and how the keyword
+// file refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/driver.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::lsdyna::usrfrc {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string keywords(const Table& table, const std::vector<SolverInput>& inputs) {
+  const std::vector<std::string> values = property_values(inputs);
+  std::string deck = fmt::format(
+      "*CONTROL_CONTACT\n"
+      "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
+      "       0.1\n"
+      "$   usrstr    usrfrc     nsbcs    interm     xpene     ssthk      ecdt   tiedprj\n"
+      "         0{:>10}\n"
+      "$ recalled, check against your release:\n"
+      "*USER_INTERFACE_FRICTION\n"
+      "$     ifid       noc      noci      nhsv\n"
+      "{:>10}{:>10}{:>10}{:>10}\n",
+      std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
+      state_count(table, inputs));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    deck += fmt::format("{:>10}{}", values[i], i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+  return deck;
+}
+
+json history(const Table& table, std::string_view units, const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
+  const auto one = [](std::size_t number, const std::string& unit, const std::string& meaning) {
+    return json{{"number", number}, {"unit", unit}, {"meaning", meaning}};
+  };
+  json out = {one(1, length, "accumulated slip while under pressure"),
+              one(2, stress + "*" + length, "friction work per area"),
+              one(3, stress, "peak pressure")};
+  if (state_count(table, inputs) >= 4)
+    out.push_back(
+        one(4, "1",
+            table.axes.empty() ? "not used" : "cycles in which the state was outside the range"));
+  for (const HistoryState& state :
+       with_remainders(history_states(inputs, units), gives().before_histories))
+    out.push_back(one(out.size() + 1, state.unit, state.meaning));
+  return out;
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  json out = recipe_head(*find_exporter("lsdyna_usrfrc"), request, "usrfrc", files);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
+  out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
+                   {"meaning", "force along what would hold the node, of magnitude "
+                               "min(tau_R*areas*frc(1,.), that force)"}};
+  out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
+  out["state_variables"] = history(request.table, request.units, inputs);
+  out["properties"] = recipe_properties(inputs);
+  out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
+                  "object package; older ones end at isurface and have no history",
+                  "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
+                  "build with the package's Makefile, which sets the kinds of real and integer"};
+  out["compile"] = {"make", fixed_form_check("frictab_usrfrc.f")};
+  out["compile_note"] = "the last line only checks the source";
+  out["input_deck"] = keywords(request.table, inputs);
+  out["input_deck_note"] =
+      "a forming contact, or one-way or node-to-surface contact (only they have nodal areas), with "
+      "FS above 0 (recalled: friction is processed only then)";
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  SourceBundle files;
+  files["frictab_usrfrc.f"] = usrfrc_source(request, inputs);
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+BuildVariant variant(const ExportRequest& request, const std::string& name, double eps,
+                     const std::vector<std::string>& flags) {
+  BuildVariant out =
+      fortran::fortran_variant(request, name, eps, {"frictab_usrfrc.f"}, flags, true);
+  out.command.push_back("@{dir}/cstop.f"); // for the bundle's own ftquit
+  out.extra["cstop.f"] = "C     Stand-in for the solver's routine.\n"
+                         "      subroutine cstop(text)\n"
+                         "      character*(*) text\n"
+                         "      end\n";
+  add_driver(out, render_template("lsdyna/usrfrc/driver.f", {}));
+  return out;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  return {variant(request, "double", 0x1p-53,
+                  {"-fdefault-real-8", "-fdefault-double-8", "-fdefault-integer-8"}),
+          variant(request, "single", 0x1p-24, {})};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_routine({.gives = gives(), .most_points = 128}, built, request, rows, columns, tau);
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "lsdyna_usrfrc";
+  out.order = 54;
+  out.title = "LS-DYNA USRFRC, SMP";
+  out.signature_source =
+      "verified: argument list, meaning of the arguments and what the routine has to update, in a "
+      "public copy of dyn21.F (revision 86848, January 2014); 8-byte reals and integers of the "
+      "double-precision solver in a public Makefile; CSTOP and COMMON /THROPT/ in the same copy. "
+      "Older manuals list arguments up to isurface only: check against your release. Recalled: the "
+      "cards of *USER_INTERFACE_FRICTION, and that FS has to be above 0; what MPP and mortar "
+      "contacts call";
+  out.notes =
+      "LS-DYNA leaves the friction FORCE to this routine: changing FRIC1..4 would change nothing. "
+      "The force that would hold the node (old force plus stiffness times relative displacement, "
+      "its tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
+      "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
+      "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
+      "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
+      "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where "
+      "nothing is tabulated); two more for each further history of a traced law (energy, times, "
+      "means, peaks, friction power). Surface expansion and flow stress are not known to the "
+      "solver: "
+      "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
+      "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
+      "histories would count every iteration of an implicit one. Works in both precisions; table "
+      "and arithmetic are double in both. Beyond a side with outside = error the routine writes "
+      "state and value to the standard output and ends the analysis through CSTOP.";
+  out.options = {values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::lsdyna::usrfrc

@@ -1,0 +1,82 @@
+// Fills templates/lsdyna/usrfrc/frictab_usrfrc.f.
+#include "source.h"
+
+#include "codegen/fortran_core.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/histories.h"
+
+namespace frictab::lsdyna::usrfrc {
+
+namespace {
+
+constexpr std::size_t before_histories = 4;
+
+} // namespace
+
+const SolverGives& gives() {
+  static const SolverGives all = {
+      .states = {{.state = "sigma_n_MPa", .text = "-FNI/AREAS of the node", .read = "press"},
+                 {.state = "v_rel_mm_s",
+                  .text = "tangential part of DX, DY, DZ, times FDT2",
+                  .read = "speed"},
+                 {.state = "s_mm",
+                  .text = "UFHIST(1), accumulated slip under pressure",
+                  .read = "ssum"},
+                 {.state = "friction_work",
+                  .text = "UFHIST(2), friction work per area before this cycle",
+                  .read = "wsum"},
+                 {.state = "peak_sigma_n",
+                  .text = "the larger of UFHIST(3) and the pressure",
+                  .read = "pmax"},
+                 {.state = "T_contact_C",
+                  .text = "mean of the node and the segment where it touches",
+                  .without = "no temperatures are computed",
+                  .read = "h1 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 - tt(ii))\n"
+                          "h2 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 - tt(ii))\n"
+                          "h3 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 + tt(ii))\n"
+                          "h4 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 + tt(ii))\n"
+                          "tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii)) + h3*temp(ix3(ii)) + "
+                          "h4*temp(ix4(ii))\n"
+                          "@{x} = 0.5D0*(temp(insv(ii)) + tseg)",
+                  .exists = "itopaz(1) .eq. 999"}},
+      .property = {.text = "UA(@{property})",
+                   .read = "ua(@{property})",
+                   .exists = "ninput .ge. @{property}",
+                   .part = "once"},
+      .constant = {.read = "@{fallback}", .canonical = true, .part = "once"},
+      .history = "UFHIST(@{number})",
+      .before_histories = before_histories};
+  return all;
+}
+
+std::size_t state_count(const Table& table, const std::vector<SolverInput>& inputs) {
+  const std::size_t further = history_count(inputs);
+  if (further > 0) return before_histories + 2 * further;
+  return table.axes.empty() ? 3 : 4;
+}
+
+std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const Table& table = request.table;
+  const std::string end = "call cstop('E r r o r   t e r m i n a t i o n')";
+  TemplateValues values;
+  fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,
+                    "CSTOP ends the analysis");
+  const std::size_t before_rest = before_histories + history_count(inputs);
+  fortran::add_histories(values, inputs, request.units, false);
+  values.text["n_history"] = std::to_string(state_count(table, inputs));
+  values.text["n_histories"] = std::to_string(history_count(inputs));
+  values.text["before_rest"] = std::to_string(before_rest);
+  values.text["first_rest"] = std::to_string(before_rest + 1);
+  values.lists["histories"] =
+      fortran::comments(numbered(history_states(inputs, request.units), before_histories + 1));
+  values.text["core"] =
+      fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
+  values.flags["has_axes"] = !table.axes.empty();
+  values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
+  values.text["reads_once"] = fortran::reads(inputs, gives(), "once");
+  values.text["reads"] = fortran::reads(inputs, gives(), "", 4);
+  return render_template("lsdyna/usrfrc/frictab_usrfrc.f", values);
+}
+
+} // namespace frictab::lsdyna::usrfrc

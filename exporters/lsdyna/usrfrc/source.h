@@ -1,0 +1,20 @@
+// The Fortran source of USRFRC for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/solver_inputs.h"
+
+namespace frictab::lsdyna::usrfrc {
+
+// What USRFRC's arguments hold.
+const SolverGives& gives();
+
+// Values of UFHIST per node that the routine keeps: 3, 4 where it counts, and two for each of
+// codegen/histories.h.
+std::size_t state_count(const Table& table, const std::vector<SolverInput>& inputs);
+
+std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::lsdyna::usrfrc

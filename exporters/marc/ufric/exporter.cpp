@@ -1,0 +1,133 @@
+// Target `marc_ufric`: Marc and Simufact Forming. What it is called, how it is compiled and how a
+// model refers to it; the source text is filled in source.cpp.
+#include "codegen/exporter.h"
+
+#include <nlohmann/json.hpp>
+
+#include "codegen/driver.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::marc::ufric {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string input_deck(const Choices& chosen) {
+  const bool coulomb = chosen.coefficient == fortran::Coefficient::coulomb;
+  return std::string(
+             "$ recalled, check against your release\n"
+             "$ Mentat: Contact > Contact Control (or Jobs > Properties > Contact Control)\n"
+             "$   Friction > Type: ") +
+         (coulomb ? "Coulomb" : "Shear") + " (" +
+         (chosen.by_force ? "nodal force" : "nodal stress") +
+         " based), Coefficient: User Subroutine UFRIC\n"
+         "$ Mentat: Jobs > Run > User Subroutine File: frictab_ufric.f\n"
+         "$ Simufact Forming: the same routine in the Marc installation that it runs\n";
+}
+
+json result(const Choices& chosen) {
+  if (chosen.coefficient == fortran::Coefficient::shear)
+    return {{"name", "FRIC"},
+            {"meaning", "shear factor m = tau_R/(YIEL/sqrt(3)); 0 without normal stress"},
+            {"unit", "1"}};
+  return {{"name", "FRIC"},
+          {"meaning", "friction coefficient mu = tau_R/|FN|"},
+          {"least_pressure_MPa", fortran::least_pressure},
+          {"unit", "1"}};
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  const Choices chosen = choices(request);
+  json out = recipe_head(*find_exporter("marc_ufric"), request, "ufric", files);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
+  out["result"] = result(chosen);
+  out["dimension"] = chosen.slip_components == 1 ? "2d" : "3d";
+  out["state_variables"] = json::array();
+  out["properties"] = json::array();
+  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+  out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
+                    fixed_form_check("frictab_ufric.f")};
+  out["compile_note"] = "the first line is recalled; the last one only checks the source";
+  out["input_deck"] = input_deck(chosen);
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives(choices(request)));
+  SourceBundle files;
+  files["frictab_ufric.f"] = ufric_source(request, inputs);
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
+  add_driver(out, render_template("marc/ufric/driver.f", {}));
+  if (!fortran::ends(request)) return {out};
+  out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
+  out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
+                        "      subroutine quit(number)\n"
+                        "      integer number\n"
+                        "      end\n";
+  return {out};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const Choices chosen = choices(request);
+  drive_routine({.gives = gives(chosen), .result = chosen.coefficient}, built, request, rows,
+                columns, tau);
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "marc_ufric";
+  out.order = 50;
+  out.title = "Marc and Simufact Forming UFRIC";
+  out.signature_source =
+      "recalled: the argument list, what its arguments hold (MIBODY(4); VREL and X of 1 and 2 "
+      "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
+      "ones; TEMP(1) the temperature; YIEL the flow stress; FRIC mu or m) and the menu's words: no "
+      "public text of Volume D shows them; check against your release. Verified: public user "
+      "routines call QUIT(1234) (only where outside = error)";
+  out.notes =
+      "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
+      "tau_R/(YIEL/sqrt(3)). "
+      "The friction model of the job has to be of the same kind. FN is a stress in stress-based "
+      "models only; with marc_normal = \"force\" a law is refused whose coefficient depends on the "
+      "pressure (every one with a shear limit, if mu is asked for), because UFRIC gives no area to "
+      "divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it would be 0/0. Marc keeps no "
+      "history for this routine, so sliding distance, surface expansion and whatever else is not "
+      "among its arguments are constants: [export.inputs] says constant:VALUE, else the middle of "
+      "the range the table was made for. They lie in COMMON /FTCONS/ and can be read and changed "
+      "at "
+      "one place. Temperatures have to be degC. Beyond a side with outside = error the routine "
+      "writes state and value to the standard output and ends the analysis through QUIT(1234).";
+  out.options = {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
+                 {"marc_normal",
+                  {"stress", "force"},
+                  "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
+                 {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
+                 values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::marc::ufric

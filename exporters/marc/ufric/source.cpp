@@ -1,0 +1,100 @@
+// Fills templates/marc/ufric/frictab_ufric.f.
+#include "source.h"
+
+#include <fmt/format.h>
+
+#include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
+#include "core/error.h"
+
+namespace frictab::marc::ufric {
+
+using fortran::Coefficient;
+
+Choices choices(const ExportRequest& request) {
+  const Exporter& self = *find_exporter("marc_ufric");
+  return {self.option(request, "marc_friction") == "shear" ? Coefficient::shear
+                                                           : Coefficient::coulomb,
+          self.option(request, "marc_normal") == "force",
+          self.option(request, "marc_dimension") == "2d" ? 1 : 2};
+}
+
+namespace {
+
+SolverGives given(bool by_force) {
+  return {.states = {{.state = "sigma_n_MPa",
+                      .text = "|FN|",
+                      .read = by_force ? "1.0D0" : "press",
+                      .canonical = true},
+                     {.state = "v_rel_mm_s", .text = "|VREL|", .read = "speed"},
+                     {.state = "T_contact_C", .text = "TEMP(1)", .read = "temp(1)"},
+                     {.state = "sigma_f_MPa",
+                      .text = "YIEL, flow stress at the point",
+                      .read = "flow",
+                      .canonical = true}},
+          .constant = fortran::settable_constant};
+}
+
+} // namespace
+
+const SolverGives& gives(const Choices& chosen) {
+  static const SolverGives stress = given(false), force = given(true);
+  return chosen.by_force ? force : stress;
+}
+
+namespace {
+
+std::vector<std::string> result_lines(const Choices& chosen, const std::string& stress) {
+  std::vector<std::string> lines;
+  if (chosen.coefficient == Coefficient::coulomb)
+    lines.push_back(fmt::format("FRIC: mu = tau_R/p, for Coulomb friction. Below {} MPa it is mu "
+                                "of that pressure: at 0 it would be 0/0.",
+                                fortran::least_pressure));
+  else
+    lines.push_back("FRIC: m = tau_R/k, k = YIEL/sqrt(3), for shear friction; 0 without normal "
+                    "stress, which alone would not keep the solver from applying m k.");
+  if (chosen.by_force)
+    lines.push_back("FN: a force (nodal models). The coefficient is the same at every pressure, so "
+                    "that none is needed.");
+  else
+    lines.push_back("FN: the normal stress (" + stress +
+                    "), as stress-based friction models pass it. Not to be used with nodal ones, "
+                    "which pass a force.");
+  return lines;
+}
+
+} // namespace
+
+std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  const Table& table = request.table;
+  const Choices chosen = choices(request);
+  if (chosen.by_force && !fortran::same_at_every_pressure(table, chosen.coefficient))
+    throw InputError({"export.options.marc_normal", 0, 0},
+                     fmt::format("the coefficient of {} depends on the pressure, which cannot be "
+                                 "known where FN is a force: UFRIC gives no area",
+                                 table.model),
+                     "a stress-based friction model and marc_normal = \"stress\"");
+  TemplateValues values;
+  fortran::add_head(values, *find_exporter("marc_ufric"), request, inputs,
+                    "QUIT ends the analysis");
+  const bool refuses = values.flags["refuses"];
+  const bool coulomb = chosen.coefficient == Coefficient::coulomb;
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  values.lists["result"] = fortran::comments(result_lines(chosen, stress.name));
+  values.text["result_name"] = coulomb ? "friction coefficient mu" : "shear factor m";
+  values.text["n_coord"] = std::to_string(chosen.slip_components + 1);
+  values.text["n_slip"] = std::to_string(chosen.slip_components);
+  values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.text["constants"] = fortran::constants_data(inputs);
+  values.text["coefficient"] = fortran::coefficient(table, chosen.coefficient);
+  values.text["core"] =
+      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("call quit(1234)")}).text;
+  values.flags["coulomb"] = coulomb;
+  values.flags["by_force"] = chosen.by_force;
+  values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);
+  values.text["reads"] = fortran::reads(inputs, gives(chosen));
+  return render_template("marc/ufric/frictab_ufric.f", values);
+}
+
+} // namespace frictab::marc::ufric

@@ -1,0 +1,26 @@
+// The Fortran source of UFRIC for one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/coefficient.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab::marc::ufric {
+
+// What the job's [export.options] say.
+struct Choices {
+  fortran::Coefficient coefficient; // coulomb | shear
+  bool by_force;                    // FN is a force
+  int slip_components;              // VREL: 1 in 2-D, 2 in 3-D
+};
+Choices choices(const ExportRequest& request);
+
+// What UFRIC's arguments hold.
+const SolverGives& gives(const Choices& chosen);
+
+// Throws InputError where FN is a force and the coefficient depends on the pressure.
+std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+
+} // namespace frictab::marc::ufric

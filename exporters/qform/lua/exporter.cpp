@@ -1,0 +1,141 @@
+// Target `qform_lua`: a friction subroutine in Lua for QForm, run here by LuaJIT and by Lua.
+#include "codegen/exporter.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/compile.h"
+#include "codegen/recipe.h"
+#include "codegen/template.h"
+#include "io/atomic_file.h"
+#include "io/json.h"
+#include "source.h"
+
+namespace frictab::qform::lua {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr const char* file_name = "frictab_qform.lua";
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  json out = recipe_head(*find_exporter("qform_lua"), request, "FrictionStress", files);
+  out["arguments"] = json::array();
+  for (const InputArgument& argument : entry_arguments(request.table, request.units)) {
+    std::string source = "not used by this law";
+    for (const SolverInput& input : inputs)
+      if (input.argument.name == argument.name) source = input.text;
+    out["arguments"].push_back({{"name", argument.argument},
+                                {"quantity", argument.name},
+                                {"unit", argument.solver.name},
+                                {"meaning", argument.meaning},
+                                {"used", argument.used},
+                                {"source", source}});
+  }
+  out["arguments_note"] = "of frictab_tau_R; FrictionStress calls it, with names to be checked";
+  out["result"] = {{"unit", solver_unit("MPa", request.units).name},
+                   {"meaning", "frictional shear stress tau_R"}};
+  out["state_variables"] = json::array();
+  out["properties"] = json::array();
+  for (const SolverInput& input : inputs)
+    if (input.property)
+      out["properties"].push_back({{"name", input.argument.argument},
+                                   {"quantity", input.argument.name},
+                                   {"unit", input.argument.solver.name}});
+  out["compile"] = json::array();
+  out["input_deck"] = "lubricant database: load from file, frictab_qform.lua";
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_table(request.table);
+  check_table_size(request.table);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  SourceBundle files;
+  files[file_name] = lua_source(request, inputs);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest&) {
+  std::vector<BuildVariant> out;
+  for (const char* program : {"luajit", "lua5.4"}) {
+    BuildVariant variant;
+    variant.name = variant.interpreter = program;
+    variant.eps = 0x1p-53;
+    out.push_back(variant);
+  }
+  return out;
+}
+
+// All rows in one process: states and answers go through files.
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const std::vector<std::string> needed = request.table.inputs();
+  std::vector<std::pair<const double*, SolverUnit>> arguments; // null: not used
+  for (const InputArgument& argument : entry_arguments(request.table, request.units)) {
+    const auto at = std::find(needed.begin(), needed.end(), argument.name);
+    arguments.emplace_back(
+        at == needed.end() ? nullptr : columns[static_cast<std::size_t>(at - needed.begin())],
+        argument.solver);
+  }
+  const auto path = [&](const char* name) { return (built.directory / name).string(); };
+  std::string text;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (const auto& [column, unit] : arguments)
+      fmt::format_to(std::back_inserter(text), "{:.17g} ",
+                     column ? unit.from_canonical(column[i]) : 0.0);
+    text += '\n';
+  }
+  std::ofstream(path("rows.txt"), std::ios::binary) << text;
+  std::ofstream(path("rows.lua"), std::ios::binary)
+      << embedded_template("qform/lua/frictab_rows.lua");
+  run_program({built.variant.interpreter, path("rows.lua"), path(file_name), path("rows.txt"),
+               path("tau.txt")},
+              built.directory / "lua.log");
+  const std::string answers = read_file(path("tau.txt"));
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  const char* at = answers.c_str();
+  for (std::size_t i = 0; i < rows; ++i) {
+    char* end = nullptr;
+    tau[i] = stress.to_canonical(std::strtod(at, &end));
+    if (end == at) throw std::runtime_error("fewer answers than rows");
+    at = end;
+  }
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "qform_lua";
+  out.order = 90;
+  out.title = "QForm friction subroutine in Lua";
+  out.signature_source =
+      "verified: a lubricant's subroutine is Lua (LuaJIT), a function FrictionStress that returns "
+      "the stress, parameter(name, default) gives a number of the user's (QForm documentation). "
+      "recalled, check against your release: the names of the arguments of FrictionStress";
+  out.notes =
+      "frictab_tau_R holds law, table and interpolation and is what is verified; FrictionStress "
+      "only calls it, with argument names that you have to check against your release. Pressure, "
+      "sliding speed and temperature are taken from its arguments, every other state is a "
+      "parameter of the subroutine with the typical value as default, or the constant that "
+      "[export.inputs] gives. Strains and positions of QForm's Lua are current, other fields those "
+      "of the step before. Beyond a side with outside = error the answer is NaN. "
+      "frictab_outside tells whether a state lies outside the range.";
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::qform::lua

@@ -1,0 +1,42 @@
+// Calls a Fortran routine as its solver would. The call itself is a file in the language of the
+// solver's manual: templates/<target>/driver.f, a subroutine
+//
+//   ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+//     integer*4 n, ns, np, nf, nh
+//     real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+//
+// that is compiled with the routine and shares nothing with it. It puts n contact points where the
+// solver has them and gives back what the routine says of each. v(i,k): the state of row i of the
+// solver's table (SolverGives::states) at point k; prop: the deck's properties; field: field
+// variables; hist: state variables of further histories (codegen/histories.h). All in the solver's
+// units.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "codegen/coefficient.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab {
+
+struct Driver {
+  const SolverGives& gives;
+  fortran::Coefficient result = fortran::Coefficient::stress; // what the routine says
+  std::size_t most_points = 1;                                // in a call of ftdriv
+  // MPa: at the points of laws that ask for no pressure; a power of two, which changes no bits.
+  double pressure = 1;
+  // Where such a law takes the peak pressure, that is the pressure instead.
+  bool peak_presses = false;
+};
+
+// As Exporter::drive. Rows that contradict themselves as the state of a contact point (two sliding
+// distances, a peak below the present pressure) keep what is in `tau`. Constants of the source are
+// set where it has them in COMMON /FTCONS/.
+void drive_routine(const Driver& driver, const Built& built, const ExportRequest& request,
+                   std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+
+// Adds the driver's file to what the variant compiles.
+void add_driver(BuildVariant& variant, const std::string& text);
+
+} // namespace frictab

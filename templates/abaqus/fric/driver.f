@@ -1,0 +1,70 @@
+C     Calls FRIC as Abaqus/Standard does: each point in the first
+C     increment of a contact that already slips (see ftdriv in
+C     src/codegen/driver.h). States: 1 pressure, 2 speed, 3 slip,
+C     4 work, 5 peak pressure, 6 temperature.
+      subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+      include 'aba_param.inc'
+      integer*4 n, ns, np, nf, nh
+      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+C     Powers of two: dividing by them changes no bits. Any motion is
+C     more than the critical slip.
+      parameter (dtime = 2.0D0**(-30), slipcr = 2.0D0**(-50))
+      character*80 cin, csl, cms
+      dimension t(2), ddg(2,2), ddp(2), ds(2), ddt(2,2), dg(2), lam(2)
+      dimension tot(2), time(2), co(3), rco(3), drot(2,2), temp(2)
+      dimension st(15+2*nh), pre(2,nf), props(np+1), along(2)
+      cin = 'FRICTAB'
+      csl = 'SEC'
+      cms = 'MAIN'
+      nst = 15 + 2*nh
+      nprops = np + 1
+      npred = nf
+      do i = 1, np
+        props(i) = prop(i)
+      end do
+      props(nprops) = slipcr
+      time = 0
+      co = 0
+      rco = 0
+      lam = 0
+      tot = 0
+      drot = 0
+      drot(1,1) = 1
+      drot(2,2) = 1
+      do k = 1, n
+C       Every other point slips in two directions.
+        nfdir = 1 + mod(k, 2)
+        along = 0
+        along(1) = 1
+        if (nfdir .eq. 2) along(1) = 0.6D0
+        if (nfdir .eq. 2) along(2) = 0.8D0
+        ddg = 0
+        ddp = 0
+        ds = 0
+        ddt = 0
+        t = 0
+        temp = v(6,k)
+        pre(1,:) = field(:,k)
+        pre(2,:) = field(:,k)
+C       The slip that was there before this increment, in the same
+C       direction
+        dg = along*(v(2,k)*dtime)
+        st = 0
+        st(1) = v(3,k) - v(2,k)*dtime
+        st(2) = v(4,k)
+        st(3) = v(5,k)
+        st(5) = along(1)*slipcr
+        st(6) = along(2)*slipcr
+        do i = 1, nh
+          st(7+i) = hist(i,k)
+        end do
+        lm = 0
+        pnewdt = 1
+        call fric(lm, t, ddg, ddp, ds, sed, sfd, ddt, pnewdt, st, dg,
+     &    lam, v(1,k), 0.0D0, 0.0D0, tot, 1, 1, time, dtime, 0, cin,
+     &    csl, cms, 1, 7, 0, co, rco, drot, temp, pre, nfdir, nfdir+1,
+     &    npred, nst, 1.0D0, props, nprops)
+        tau(k) = t(1)
+        if (nfdir .eq. 2) tau(k) = hypot(t(1), t(2))
+      end do
+      end

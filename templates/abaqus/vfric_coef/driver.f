@@ -1,0 +1,32 @@
+C     Calls VFRIC_COEF as Abaqus/Explicit does, with a block of contact
+C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
+C     2 speed, 3 temperature.
+      subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+      include 'vaba_param.inc'
+      integer*4 n, ns, np, nf, nh
+      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+      character*80 cin, csec, cmain
+      dimension coef(n), deriv(n,3), props(np), rate(n), press(n)
+      dimension temp(n), fav(n,nf), jflags(2), rdata(3)
+      cin = ' '
+      csec = ' '
+      cmain = ' '
+      jflags = 1
+      rdata = 0
+      coef = 0
+      deriv = 0
+      do i = 1, np
+        props(i) = real(prop(i), kind(props))
+      end do
+      do k = 1, n
+        press(k) = real(v(1,k), kind(press))
+        rate(k) = real(v(2,k), kind(rate))
+        temp(k) = real(v(3,k), kind(temp))
+        do i = 1, nf
+          fav(k,i) = real(field(i,k), kind(fav))
+        end do
+      end do
+      call vfric_coef(coef, deriv, n, np, 1, nf, jflags, rdata, cin,
+     &  csec, cmain, props, rate, press, temp, fav)
+      tau = coef
+      end

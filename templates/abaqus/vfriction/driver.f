@@ -1,0 +1,79 @@
+C     Calls VFRICTION as Abaqus/Explicit does, with a block of contact
+C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
+C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
+      subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+      include 'vaba_param.inc'
+      integer*4 n, ns, np, nf, nh
+      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n), a
+C     Powers of two, as areas: dividing by them changes no bits.
+      parameter (dtime = 2.0**(-30))
+      character*80 cin, csec, cmain
+      dimension ftan(2,n), st(6+2*nh,1,n), slip(3,n), stick(n)
+      dimension prev(3,n), fnorm(n), area(n), dn(3,n), dsl(3,n)
+      dimension shs(1,1), shm(4,n), xs(3,1,n), xm(3,4,n), vs(3,1,n)
+      dimension vm(3,4,n), ts(n), tm(n), fs(nf,n), fm(nf,n), props(np)
+      dimension jsec(1,n), jmain(4,n), jflags(3), rdata(4)
+      nst = 6 + 2*nh
+      cin = 'FRICTAB'
+      csec = ' '
+      cmain = ' '
+      jflags = 1
+      rdata = 0
+      rdata(3) = dtime
+      ftan = 0
+      st = 0
+      slip = 0
+      stick = 1.0E30
+      prev = 0
+C     What no law asks for
+      dn = huge(dn)
+      dsl = huge(dsl)
+      shs = huge(shs)
+      shm = huge(shm)
+      xs = huge(xs)
+      xm = huge(xm)
+      vs = huge(vs)
+      vm = huge(vm)
+      jsec = 7
+      jmain = 8
+      do i = 1, np
+        props(i) = real(prop(i), kind(props))
+      end do
+      do k = 1, n
+        a = 2.0D0**(mod(k - 1, 4) - 2)
+        area(k) = real(a, kind(area))
+        fnorm(k) = real(v(1,k)*a, kind(fnorm))
+        slip(1,k) = real(v(2,k)*dtime, kind(slip))
+        ts(k) = real(v(6,k), kind(ts))
+        do i = 1, nf
+          fs(i,k) = real(field(i,k), kind(fs))
+        end do
+C       Slip before the increment; what single precision rounds off the
+C       sums lies behind them.
+        call ftput(st(1,1,k), 1, 5, v(3,k) - abs(slip(1,k)), nst)
+        call ftput(st(1,1,k), 2, 6, v(4,k), nst)
+        call ftput(st(1,1,k), 3, 0, v(5,k), nst)
+        do i = 1, nh
+          call ftput(st(1,1,k), 6+i, 6+nh+i, hist(i,k), nst)
+        end do
+      end do
+      tm = ts
+      fm = fs
+      call vfriction(ftan, st, n, n, 1, 1, 1, 4, 2, 3, nst, np, 1, nf,
+     &  jflags, rdata, cin, csec, cmain, jsec, jmain, props, slip,
+     &  stick, prev, fnorm, area, dn, dsl, shs, shm, xs, xm, vs, vm, ts,
+     &  tm, fs, fm)
+      do k = 1, n
+        a = area(k)
+        tau(k) = -ftan(1,k)/a
+      end do
+      end
+C
+C     Sets a state variable, and another one to what is rounded off it.
+      subroutine ftput(st, i, j, value, nst)
+      include 'vaba_param.inc'
+      dimension st(nst)
+      real*8 value
+      st(i) = real(value, kind(st))
+      if (j .gt. 0) st(j) = real(value - st(i), kind(st))
+      end

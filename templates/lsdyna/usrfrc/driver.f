@@ -1,0 +1,89 @@
+C     Calls USRFRC as LS-DYNA does, for a block of contact nodes (see
+C     ftdriv in src/codegen/driver.h). States: 1 pressure, 2 speed,
+C     3 slip, 4 work, 5 peak pressure, 6 temperature. Default real and
+C     integer are the solver's, as the routine's.
+      subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+      implicit none
+      integer*4 n, ns, np, nf, nh
+      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+C     Powers of two: dividing by them changes no bits.
+      real*8 step, a
+      parameter (step = 2.0D0**(-30))
+      integer insv(n), lsv(n), ix(n,4), iisv5(n), iseg(n), ilbsv(n)
+      integer npc(1), lcfst(1), lcfdt(1), isurf(5*n,1), nhv, i, k, j
+      integer nact, nin, nodes
+      real areas(n), none(5*n), fni(n), d(n,3), ua(np), rn(n,3)
+      real fdat(5,n), f(n,3), ss(n), tt(n), stfk(n), frc(2,n), pld(2,1)
+      real temp(5*n), ufhist(4+2*nh,n), ufeps(1,1)
+      character*6 side
+      integer itopaz
+      common /thropt/ itopaz(101)
+      itopaz(1) = 999
+      nhv = 4 + 2*nh
+      nact = n
+      nin = np
+      nodes = 5*n
+      do i = 1, np
+        ua(i) = real(prop(i), kind(ua))
+      end do
+      none = 0
+      npc = 0
+      lcfst = 0
+      lcfdt = 0
+      isurf = 0
+      pld = 0
+      ufeps = 0
+      side = 'master'
+      d = 0
+      rn = 0
+      rn(:,3) = 1
+      f = 0
+      ss = 0
+      tt = 0
+      stfk = 0
+      frc = 1
+      fdat = 0
+      iseg = 0
+      do k = 1, n
+        insv(k) = k
+        lsv(k) = k
+        iisv5(k) = k
+C       Histories not in the nodes' order
+        j = n + 1 - k
+        ilbsv(k) = j
+        do i = 1, 4
+          ix(k,i) = i*n + k
+        end do
+        a = 2.0D0**(mod(k - 1, 4) - 2)
+        areas(k) = real(a, kind(areas))
+        fni(k) = real(-v(1,k)*a, kind(fni))
+C       Across the force that was there before, and along the normal;
+C       that force is large, so that sliding is what happens.
+        d(k,2) = real(v(2,k)*step, kind(d))
+        d(k,3) = 3
+        fdat(3,k) = 2.0**60
+        do i = 0, 4
+          temp(i*n+k) = real(v(6,k), kind(temp))
+        end do
+C       What was slipped before this cycle
+        ufhist(:,j) = 0
+        ufhist(1,j) = real(v(3,k), kind(ufhist)) - abs(d(k,2))
+        ufhist(2,j) = real(v(4,k), kind(ufhist))
+        ufhist(3,j) = real(v(5,k), kind(ufhist))
+        do i = 1, nh
+          ufhist(4+i,j) = real(hist(i,k), kind(ufhist))
+          ufhist(4+nh+i,j) = real(hist(i,k) - ufhist(4+i,j),
+     &      kind(ufhist))
+        end do
+      end do
+      call usrfrc(1, none, 1, none, insv, areas, none, none, none, lsv,
+     &  ix(1,1), ix(1,2), ix(1,3), ix(1,4), none, none, none, none,
+     &  none, none, fni, d(1,1), d(1,2), d(1,3), real(1/step, kind(d)),
+     &  nin, ua, side, iisv5, nact, rn(1,1), rn(1,2), rn(1,3), none,
+     &  none, none, none, none, fdat, iseg, f(1,1), f(1,2), f(1,3), ss,
+     &  tt, ilbsv, stfk, frc, nodes, npc, pld, lcfst, lcfdt, temp, none,
+     &  none, isurf, nhv, ufhist, 1, ufeps, real(1, kind(d)))
+      do k = 1, n
+        tau(k) = f(k,1)/2.0D0**(mod(k - 1, 4) - 2)
+      end do
+      end

@@ -1,0 +1,27 @@
+C     Calls UFRIC as Marc does, once per contact point (see ftdriv in
+C     src/codegen/driver.h). States: 1 normal stress, 2 speed,
+C     3 temperature, 4 flow stress.
+      subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
+      implicit none
+      integer*4 n, ns, np, nf, nh
+      real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
+      integer mibody(4), inc, nsurf, k
+      double precision coord(3), vrel(2), temp(2), time
+      mibody(1) = 11
+      mibody(2) = 2
+      mibody(3) = 1
+      mibody(4) = 7
+      coord = 0.0D0
+      time = 0.0D0
+      inc = 1
+      nsurf = 1
+      do k = 1, n
+        vrel(1) = v(2,k)
+        vrel(2) = 0.0D0
+        temp(1) = v(3,k)
+        temp(2) = 0.0D0
+        tau(k) = 777.0D0
+        call ufric(mibody, coord, v(1,k), vrel, temp, v(4,k), tau(k),
+     &    time, inc, nsurf)
+      end do
+      end
