@@ -1,11 +1,10 @@
 #!/bin/sh
-# Fetches CalculiX 2.20 as Debian's source package, inserts the calls of usrmu and builds it with
-# the generated routine of ROUTINE (a folder with frictab_tau_R.c and .h) into WORK/ccx_NAME.
+# Fetches CalculiX 2.20 as Debian's source package, inserts the calls of USRMU and builds it with
+# the generated routine of ROUTINE (a folder of target calculix_usrmu) into WORK/ccx_NAME.
 # Usage: build.sh WORK ROUTINE NAME        NAME: the law, only part of the file's name
 # Needs dpkg-dev, gcc, gfortran, libarpack2-dev libspooles-dev liblapack-dev; no root, and no change
 # of the machine's list of package sources.
 set -eu
-here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 work=$(cd "$1" && pwd)
 routine=$(cd "$2" && pwd)
@@ -23,7 +22,7 @@ if [ ! -e "$source/ccx_2.20.c" ]; then
   # shellcheck disable=SC2086
   apt-get $own source -q calculix-ccx=2.20-1
 fi
-"$here/hook.sh" "$source"
+sh "$routine/frictab_hook.sh" "$source"
 cd "$source"
 c_flags="-w -O1 -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1"
 make -s -j"$(nproc)" CFLAGS="$c_flags" FFLAGS="-w -O1 -fallow-argument-mismatch -fopenmp" \
@@ -31,9 +30,8 @@ make -s -j"$(nproc)" CFLAGS="$c_flags" FFLAGS="-w -O1 -fallow-argument-mismatch 
   tail "$work/make.log"
   exit 1
 }
-gcc -std=c11 -O2 -ffp-contract=off -I"$routine" -c "$here/usrmu.c" -o "$work/usrmu_$name.o"
-gcc -std=c99 -O2 -ffp-contract=off -c "$routine/frictab_tau_R.c" -o "$work/routine_$name.o"
-gcc -shared -fPIC -O2 -ffp-contract=off "$routine/frictab_tau_R.c" -o "$work/routine_$name.so"
-gfortran -fopenmp ccx_2.20.o "$work/usrmu_$name.o" "$work/routine_$name.o" ccx_2.20.a \
+gfortran -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off -c "$routine/frictab_usrmu.f" \
+  -o "$work/usrmu_$name.o"
+gfortran -fopenmp ccx_2.20.o "$work/usrmu_$name.o" ccx_2.20.a \
   -lspooles -lpthread -larpack -llapack -lblas -lm -o "$work/ccx_$name"
 echo "$work/ccx_$name"

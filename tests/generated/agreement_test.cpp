@@ -49,7 +49,8 @@ TEST_P(Agreement, OfTheRoutineWithFrictabItself) {
   const std::size_t rows = exporter.batch ? 200000 : 20000;
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
-    const ExportRequest request{sample.table, GetParam().units, {}};
+    const test::SampleRequest sampled(exporter, sample.table, GetParam().units);
+    const ExportRequest request = sampled.get();
     // Properties are constants of a call: most points share them, as in a solver.
     const std::map<std::string, double> fixed = {
         {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};

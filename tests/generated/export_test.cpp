@@ -32,7 +32,8 @@ TEST(Export, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   for (const Exporter& exporter : all_exporters())
     for (const test::NamedTable& sample : test::sample_tables()) {
-      const ExportRequest request{sample.table, "mm-t-s", {}};
+      const test::SampleRequest sampled(exporter, sample.table, "mm-t-s");
+      const ExportRequest request = sampled.get();
       for (const BuildVariant& variant : exporter.variants(request)) {
         if (variant.program() != "gfortran") continue;
         SCOPED_TRACE(exporter.name + " " + sample.name + " " + variant.name);

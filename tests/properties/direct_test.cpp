@@ -56,7 +56,8 @@ void expect_law(const Model& model) {
     columns.push_back(column.data());
   for (const Exporter& exporter : all_exporters()) {
     if (!exporter.whole()) continue; // solvers' own tables have tests of their own
-    const ExportRequest request{table, "mm-t-s", {}};
+    const test::SampleRequest sampled(exporter, table, "mm-t-s");
+    const ExportRequest request = sampled.get();
     const BuildVariant variant = exporter.variants(request)[0]; // double precision
     if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
     std::vector<double> tau(probe.law.size(), -1);

@@ -249,6 +249,7 @@ const std::vector<NamedTable>& sample_tables() {
 
 SampleRequest::SampleRequest(const Exporter& exporter, const Table& table, const std::string& units)
     : table_(table), units_(units) {
+  if (exporter.name == "calculix_usrmu") inputs_ = {{"sigma_f_MPa", "constant:480"}};
   if (exporter.whole()) return;
   table_.number_attributes["tolerance_MPa"] = 40;
   table_.number_attributes["worst_case_MPa"] = 0.25;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Inserts calls of usrmu (usrmu.c) into the sources of CalculiX 2.20, in the folder `src` given.
-# Nothing else of CalculiX is changed, and none of its text is kept here.
+# Inserts calls of USRMU (frictab_usrmu.f) into the sources of CalculiX 2.20, in the folder `src`
+# given. Nothing else of CalculiX is changed, and none of its text is kept here.
 set -eu
 cd "$1"
 if grep -q usrmu springforc_f2f.f; then

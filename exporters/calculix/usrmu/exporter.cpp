@@ -1,0 +1,152 @@
+// Target `calculix_usrmu`: CalculiX CrunchiX. Its friction knows one number; a script puts calls of
+// this routine into its open source instead.
+#include "codegen/exporter.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/driver.h"
+#include "codegen/fortran_core.h"
+#include "codegen/fortran_stop.h"
+#include "codegen/recipe.h"
+#include "codegen/recipe_states.h"
+#include "codegen/values_file.h"
+#include "io/json.h"
+
+namespace frictab::calculix::usrmu {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+using fortran::Coefficient;
+
+const char* const file = "frictab_usrmu.f";
+const char* const hook = "frictab_hook.sh";
+
+const SolverGives& gives() {
+  static const SolverGives all = {
+      .states = {{.state = "sigma_n_MPa",
+                  .text = "DFNL/SPRINGAREA(1) of the contact point",
+                  .read = "press",
+                  .canonical = true},
+                 {.state = "v_rel_mm_s",
+                  .text = "tangential part of AL over the time increment (0 where that is 0)",
+                  .read = "speed"},
+                 {.state = "s_mm",
+                  .text = "|T|, tangential displacement since first contact",
+                  .read = "slide"},
+                 {.state = "T_contact_C",
+                  .text = "T1L, where it is not 0: a deck without temperatures gives 0",
+                  .read = "t1l",
+                  .exists = "warm"}},
+      .constant = fortran::settable_constant};
+  return all;
+}
+
+std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  TemplateValues values;
+  fortran::add_head(values, *find_exporter("calculix_usrmu"), request, inputs,
+                    "STOP ends the analysis");
+  const bool refuses = values.flags.at("refuses");
+  values.text["least"] = fmt::format("{}", fortran::least_pressure);
+  values.text["stress_convert"] = fortran_conversion(solver_unit("MPa", request.units));
+  values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
+  values.text["constants"] = fortran::constants_data(inputs);
+  values.text["coefficient"] = fortran::coefficient(request.table, Coefficient::coulomb);
+  values.text["reads"] = fortran::reads(inputs, gives());
+  values.text["core"] =
+      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
+  return render_template("calculix/usrmu/frictab_usrmu.f", values);
+}
+
+std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                   const SourceBundle& files) {
+  json out = recipe_head(*find_exporter("calculix_usrmu"), request, "usrmu", files);
+  out["arguments"] = recipe_states(inputs);
+  out["arguments_note"] =
+      "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
+      "where each state comes from";
+  out["result"] = {{"name", "UM"},
+                   {"meaning", "friction coefficient mu = tau_R/p"},
+                   {"least_pressure_MPa", fortran::least_pressure},
+                   {"unit", "1"}};
+  out["state_variables"] = json::array();
+  out["properties"] = json::array();
+  out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
+  out["build"] = {
+      "take the source of CalculiX CrunchiX 2.20 (Debian: apt-get source calculix-ccx)",
+      "sh frictab_hook.sh <its folder src>: puts calls of USRMU where friction is limited",
+      "build as its README says, with frictab_usrmu.f among the objects (gfortran "
+      "-frecursive)"};
+  out["compile"] = {fixed_form_check(file)};
+  out["compile_note"] = "this line only checks the source; the program is built as `build` says";
+  out["input_deck"] = "*Surface Interaction, name=FRICTAB\n"
+                      "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"
+                      "*Friction\n 0.1, <stick slope>\n"
+                      "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
+                      " <secondary>, <main>\n";
+  out["input_deck_note"] = "the coefficient has to be above 0; USRMU takes its place";
+  out["table"] = recipe_table(request);
+  return json_text(out);
+}
+
+SourceBundle generate(const ExportRequest& request) {
+  check_request(request);
+  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
+  SourceBundle files;
+  files[file] = source(request, inputs);
+  files[hook] = embedded_template("calculix/usrmu/frictab_hook.sh");
+  add_values_file(files, request);
+  files["recipe.json"] = recipe(request, inputs, files);
+  return files;
+}
+
+std::vector<BuildVariant> variants(const ExportRequest& request) {
+  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {file});
+  add_driver(out, render_template("calculix/usrmu/driver.f", {}));
+  return {out};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  drive_routine({.gives = gives(), .result = Coefficient::coulomb}, built, request, rows, columns,
+                tau);
+}
+
+Exporter exporter() {
+  Exporter out;
+  out.name = "calculix_usrmu";
+  out.order = 56;
+  out.title = "CalculiX CrunchiX 2.20, calls put into its source";
+  out.signature_source =
+      "the list is our own: CalculiX has no user routine for friction. verified: what the arguments "
+      "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
+      "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
+      "frictionheating.f)";
+  out.notes =
+      "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine "
+      "lines "
+      "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
+      "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
+      "with any number above 0. Increments need the time they take (speed = slip/time). The "
+      "stiffness that CalculiX forms leaves out how mu changes: more iterations, the same result. "
+      "|T| is where the point has slid to, not how far it went, where a slide turns back. The "
+      "temperature is the mean of the spring's first two nodes; exactly 0 stands for none. Surface "
+      "expansion, flow stress and further histories are not at hand there: they are constants, "
+      "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
+      "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "
+      "[table.axes.sigma_n_MPa] outside = \"law\". Beyond a side with outside = error the routine "
+      "writes state and value to the standard output and stops. CalculiX is under the GPL, and so "
+      "is a program linked from both when it is passed on.";
+  out.options = {values_option()};
+  out.generate = generate;
+  out.variants = variants;
+  out.drive = drive;
+  return out;
+}
+
+const Registered<Exporter> registered{exporter};
+
+} // namespace
+
+} // namespace frictab::calculix::usrmu
