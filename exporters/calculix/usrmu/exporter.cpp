@@ -119,7 +119,8 @@ Exporter exporter() {
   out.order = 56;
   out.title = "CalculiX CrunchiX 2.20, calls put into its source";
   out.signature_source =
-      "the list is our own: CalculiX has no user routine for friction. verified: what the arguments "
+      "the list is our own: CalculiX has no user routine for friction. verified: what the "
+      "arguments "
       "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
       "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
       "frictionheating.f)";
