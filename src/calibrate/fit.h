@@ -53,19 +53,4 @@ struct FitOptions {
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
                    const FitOptions& options = {});
 
-// Standard errors by the cluster sandwich with whole experiments as clusters (Liang and Zeger
-// 1986), scores corrected for their own leverage (CR2: Bell and McCaffrey 2002): the 95 % interval
-// is +- the t-quantile with E-1 degrees of freedom. NaN where a parameter is held by a bound or not
-// determined by the data; `remarks` says which, why, and what data would settle it.
-struct Uncertainty {
-  std::vector<double> std_error;
-  std::vector<std::string> remarks;
-  // The parameters moved along the directions that the data do not determine, to where they are
-  // nearest to their default starts: to first order as good a fit, without arbitrary values.
-  std::vector<double> settled;
-};
-Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss,
-                             std::span<const double> parameters,
-                             std::span<const std::size_t> first_row);
-
 } // namespace frictab

@@ -256,7 +256,8 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
   // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
   const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
                                              : LossFunction{kind, huber_delta_MPa};
-  fit.uncertainty = cluster_sandwich(all, loss, result.parameters, first_row);
+  fit.uncertainty = cluster_sandwich(law_.parameters, result.parameters,
+                                     sums_by_experiment(all, loss, result.parameters, first_row));
   if (fit.uncertainty.settled == result.parameters) return;
   const double here = mean_cost(all, loss, result.parameters);
   const FitResult settled = fit_from(all, loss, fit.uncertainty.settled);

@@ -7,6 +7,7 @@
 
 #include "calibrate/fit.h"
 #include "calibrate/options.h"
+#include "calibrate/sandwich.h"
 #include "data/dataset.h"
 
 namespace frictab {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "calibrate/fit.h"
+#include "calibrate/sandwich.h"
 
 namespace frictab {
 
@@ -23,10 +24,6 @@ Normal normal_equations(const FitProblem& problem, const LossFunction& loss,
                         std::span<const double> parameters);
 
 // Scores and curvature (loss.curvature, not the step's) of each experiment, at the optimum.
-struct ExperimentSums {
-  Eigen::VectorXd score;   // sum of loss'(r) J
-  Eigen::MatrixXd hessian; // sum of curvature J'J
-};
 std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,
                                                std::span<const double> parameters,
                                                std::span<const std::size_t> first_row);

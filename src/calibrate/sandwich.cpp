@@ -1,4 +1,6 @@
 // Standard errors with the experiment as the statistical unit, and what the data do not determine.
+#include "calibrate/sandwich.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "calibrate/normal.h"
+#include "calibrate/fit.h"
 
 namespace frictab {
 
@@ -15,6 +17,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Parameters = std::span<const Parameter>;
+
+constexpr double no_error = std::numeric_limits<double>::quiet_NaN();
 
 std::string settled_by(const std::vector<const Parameter*>& parameters) {
   std::string text;
@@ -32,6 +37,9 @@ struct Scaled {
   Eigen::SelfAdjointEigenSolver<MatrixXd> eigen; // of the curvature
   MatrixXd root;                                 // of its (pseudo) inverse
 
+  std::size_t at(Index a) const {
+    return static_cast<std::size_t>(used[static_cast<std::size_t>(a)]);
+  }
   MatrixXd matrix(const MatrixXd& m) const {
     MatrixXd part(scale.size(), scale.size());
     for (Index a = 0; a < scale.size(); ++a)
@@ -66,7 +74,7 @@ Scaled scale_by(const MatrixXd& hessian, std::vector<Index> used) {
 // The sandwich (scaled), each experiment's score corrected for its leverage: CR2 of Bell and
 // McCaffrey 2002, which for equal curvature in all rows needs the p x p sums of an experiment only.
 // `alone` are the directions that a single experiment determines: no scatter can be seen there.
-MatrixXd covariance(const Scaled& s, const std::vector<ExperimentSums>& sums,
+MatrixXd covariance(const Scaled& s, std::span<const ExperimentSums> sums,
                     std::vector<VectorXd>& alone) {
   MatrixXd meat = MatrixXd::Zero(s.root.rows(), s.root.cols());
   for (const ExperimentSums& experiment : sums) {
@@ -84,12 +92,12 @@ MatrixXd covariance(const Scaled& s, const std::vector<ExperimentSums>& sums,
   return s.root * meat * s.root;
 }
 
-std::vector<const Parameter*> named(const FitProblem& problem, const Scaled& s,
+std::vector<const Parameter*> named(Parameters parameters, const Scaled& s,
                                     const std::vector<char>& flags) {
-  std::vector<const Parameter*> parameters;
+  std::vector<const Parameter*> chosen;
   for (std::size_t a = 0; a < flags.size(); ++a)
-    if (flags[a]) parameters.push_back(&problem.parameters[static_cast<std::size_t>(s.used[a])]);
-  return parameters;
+    if (flags[a]) chosen.push_back(&parameters[s.at(static_cast<Index>(a))]);
+  return chosen;
 }
 
 std::string names(const std::vector<const Parameter*>& parameters) {
@@ -101,76 +109,146 @@ std::string names(const std::vector<const Parameter*>& parameters) {
 
 // Marks the parameters along flat directions, and moves them along these to where they are nearest
 // to their default starts.
-std::vector<char> settle(const FitProblem& problem, const Scaled& s, std::vector<double>& settled) {
+std::vector<char> settle(Parameters parameters, const Scaled& s, std::vector<double>& settled) {
   std::vector<char> flat(s.used.size(), 0);
   for (Index d = 0; d < s.scale.size(); ++d) {
     if (s.eigen.eigenvalues()(d) > undetermined) continue;
     const VectorXd direction = s.eigen.eigenvectors().col(d);
     double excess = 0; // along the flat direction, in scaled parameters
+    for (Index a = 0; a < s.scale.size(); ++a)
+      excess += direction(a) * (settled[s.at(a)] - parameters[s.at(a)].start) / s.scale(a);
     for (Index a = 0; a < s.scale.size(); ++a) {
-      const auto i = static_cast<std::size_t>(s.used[a]);
-      excess += direction(a) * (settled[i] - problem.parameters[i].start) / s.scale(a);
-    }
-    for (Index a = 0; a < s.scale.size(); ++a) {
-      const auto i = static_cast<std::size_t>(s.used[a]);
-      const Parameter& p = problem.parameters[i];
-      settled[i] = std::clamp(settled[i] - excess * direction(a) * s.scale(a), p.lower, p.upper);
+      const Parameter& p = parameters[s.at(a)];
+      double& value = settled[s.at(a)];
+      value = std::clamp(value - excess * direction(a) * s.scale(a), p.lower, p.upper);
       if (std::abs(direction(a)) > 0.05) flat[static_cast<std::size_t>(a)] = 1;
     }
   }
   return flat;
 }
 
+// An error as wide as all that the fit may choose from says nothing: the valley is not flat to the
+// last bit, but its floor leads from bound to bound.
+bool spans_its_bounds(const Parameter& p, double value, double error) {
+  return is_scale(p) ? error > value * std::log(p.upper / p.lower) : error > p.upper - p.lower;
+}
+
+class Judge {
+public:
+  Judge(Parameters parameters, std::span<const double> values)
+      : parameters_(parameters), values_(values) {
+    const auto size = static_cast<Index>(values.size());
+    result_ = {std::vector<double>(values.size(), no_error),
+               std::vector<std::string>(values.size()),
+               {},
+               {values.begin(), values.end()},
+               MatrixXd::Zero(size, size)};
+  }
+
+  Uncertainty of(std::span<const ExperimentSums> sums, const MatrixXd& penalty) {
+    if (sums.size() < 2) return one_experiment();
+    MatrixXd hessian = MatrixXd::Zero(sums[0].score.size(), sums[0].score.size());
+    for (const ExperimentSums& experiment : sums)
+      hessian += experiment.hessian;
+    std::vector<Index> used = not_held(hessian);
+    if (used.empty()) return std::move(result_);
+    if (penalty.size() > 0) hessian += penalty;
+    const Scaled s = scale_by(hessian, std::move(used));
+    const std::vector<char> flat = settle(parameters_, s, result_.settled);
+    std::vector<VectorXd> alone;
+    const MatrixXd variance = covariance(s, sums, alone);
+    const std::vector<char> single = along(alone, flat);
+    fill_covariance(s, variance, single);
+    remark(named(parameters_, s, flat), "determined only in combination", " by these data", true);
+    fill_errors(s, variance, flat, single);
+    remark(named(parameters_, s, single), "determined by a single experiment",
+           ": no standard error", false);
+    return std::move(result_);
+  }
+
+private:
+  Uncertainty one_experiment() {
+    result_.remarks.push_back("one experiment only: no standard error");
+    result_.why_none.assign(values_.size(), "one experiment only");
+    result_.covariance.setConstant(no_error);
+    return std::move(result_);
+  }
+
+  // Parameters that the data say something about, and that no bound holds.
+  std::vector<Index> not_held(const MatrixXd& hessian) {
+    std::vector<Index> used;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const Parameter& p = parameters_[i];
+      const auto at = static_cast<Index>(i);
+      if (!(hessian(at, at) > 0)) {
+        result_.remarks.push_back(p.name + " has no influence on these data" + settled_by({&p}));
+        result_.why_none[i] = "without influence";
+        result_.settled[i] = p.start;
+      } else if (values_[i] <= p.lower || values_[i] >= p.upper) {
+        result_.remarks.push_back(
+            fmt::format("{} is at its bound {}{}", p.name, values_[i], settled_by({&p})));
+        result_.why_none[i] = "at its bound";
+      } else
+        used.push_back(at);
+    }
+    return used;
+  }
+
+  // Parameters along directions that one experiment alone determines.
+  static std::vector<char> along(const std::vector<VectorXd>& alone,
+                                 const std::vector<char>& flat) {
+    std::vector<char> single(flat.size(), 0);
+    for (std::size_t a = 0; a < flat.size(); ++a)
+      for (const VectorXd& direction : alone)
+        if (!flat[a] && std::abs(direction(static_cast<Index>(a))) > 0.05 * direction.norm())
+          single[a] = 1;
+    return single;
+  }
+
+  void fill_covariance(const Scaled& s, const MatrixXd& variance, const std::vector<char>& single) {
+    for (std::size_t a = 0; a < single.size(); ++a)
+      for (std::size_t b = 0; b < single.size(); ++b) {
+        const auto i = static_cast<Index>(a), j = static_cast<Index>(b);
+        result_.covariance(s.used[a], s.used[b]) =
+            single[a] || single[b] ? no_error : variance(i, j) * s.scale(i) * s.scale(j);
+      }
+  }
+
+  void fill_errors(const Scaled& s, const MatrixXd& variance, const std::vector<char>& flat,
+                   const std::vector<char>& single) {
+    for (std::size_t a = 0; a < flat.size(); ++a) {
+      if (flat[a] || single[a]) continue;
+      const auto at = static_cast<Index>(a);
+      const std::size_t i = s.at(at);
+      const Parameter& p = parameters_[i];
+      const double error = std::sqrt(variance(at, at)) * s.scale(at);
+      if (spans_its_bounds(p, values_[i], error))
+        remark({&p}, "not determined",
+               fmt::format(" between its bounds {} and {}", p.lower, p.upper), true);
+      else
+        result_.std_error[i] = error;
+    }
+  }
+
+  void remark(const std::vector<const Parameter*>& which, const std::string& why,
+              const std::string& more, bool may_be_settled) {
+    if (which.empty()) return;
+    for (const Parameter* p : which)
+      result_.why_none[static_cast<std::size_t>(p - parameters_.data())] = why;
+    result_.remarks.push_back(names(which) + " " + why + more +
+                              (may_be_settled ? settled_by(which) : ""));
+  }
+
+  Parameters parameters_;
+  std::span<const double> values_;
+  Uncertainty result_;
+};
+
 } // namespace
 
-Uncertainty cluster_sandwich(const FitProblem& problem, const LossFunction& loss,
-                             std::span<const double> parameters,
-                             std::span<const std::size_t> first_row) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  Uncertainty result{
-      std::vector<double>(parameters.size(), nan), {}, {parameters.begin(), parameters.end()}};
-  if (first_row.size() < 3) {
-    result.remarks.push_back("one experiment only: no standard error");
-    return result;
-  }
-  const auto sums = sums_by_experiment(problem, loss, parameters, first_row);
-  MatrixXd hessian = MatrixXd::Zero(sums[0].score.size(), sums[0].score.size());
-  for (const ExperimentSums& experiment : sums)
-    hessian += experiment.hessian;
-  std::vector<Index> used;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Parameter& p = problem.parameters[i];
-    const auto at = static_cast<Index>(i);
-    if (!(hessian(at, at) > 0)) {
-      result.remarks.push_back(p.name + " has no influence on these data" + settled_by({&p}));
-      result.settled[i] = p.start;
-    } else if (parameters[i] <= p.lower || parameters[i] >= p.upper)
-      result.remarks.push_back(
-          fmt::format("{} is at its bound {}{}", p.name, parameters[i], settled_by({&p})));
-    else
-      used.push_back(at);
-  }
-  if (used.empty()) return result;
-  const Scaled s = scale_by(hessian, std::move(used));
-  const std::vector<char> flat = settle(problem, s, result.settled);
-  std::vector<VectorXd> alone;
-  const MatrixXd variance = covariance(s, sums, alone);
-  std::vector<char> single(flat.size(), 0);
-  for (std::size_t a = 0; a < flat.size(); ++a) {
-    const auto at = static_cast<Index>(a);
-    for (const VectorXd& direction : alone)
-      if (!flat[a] && std::abs(direction(at)) > 0.05 * direction.norm()) single[a] = 1;
-    if (!flat[a] && !single[a])
-      result.std_error[static_cast<std::size_t>(s.used[a])] =
-          std::sqrt(variance(at, at)) * s.scale(at);
-  }
-  if (const auto together = named(problem, s, flat); !together.empty())
-    result.remarks.push_back(names(together) + " determined only in combination by these data" +
-                             settled_by(together));
-  if (const auto by_one = named(problem, s, single); !by_one.empty())
-    result.remarks.push_back(names(by_one) +
-                             " determined by a single experiment: no standard error");
-  return result;
+Uncertainty cluster_sandwich(Parameters parameters, std::span<const double> values,
+                             std::span<const ExperimentSums> sums, const MatrixXd& penalty) {
+  return Judge(parameters, values).of(sums, penalty);
 }
 
 } // namespace frictab

@@ -143,9 +143,10 @@ std::string parameters_of(const TracedEffect& effect) {
   std::string text;
   for (const TracedParameter& p : effect.parameters) {
     const ValueText shown = with_error(p.value, p.std_error);
-    text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", svg::escape(p.name), shown.value,
-                        shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
-                        p.unit == "1" || p.unit.empty() ? "" : " " + shown_unit(p.unit));
+    text += fmt::format("{}{} = {}{}{}{}", text.empty() ? "" : ", ", svg::escape(p.name),
+                        shown.value, shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
+                        p.unit == "1" || p.unit.empty() ? "" : " " + shown_unit(p.unit),
+                        p.why_none.empty() ? "" : " (" + svg::escape(p.why_none) + ")");
   }
   return text;
 }

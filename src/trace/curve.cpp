@@ -42,7 +42,11 @@ double deviation(const Program& program, const PlacedEffect& effect, double x,
     at[p] = kept;
     slope(static_cast<Index>(p)) = (up - down) / (2 * step);
   }
-  return std::sqrt(std::max(slope.dot(covariance * slope), 0.0));
+  double variance = 0; // (A parameter that does not act here may be as little known as it likes.)
+  for (Index a = 0; a < slope.size(); ++a)
+    for (Index b = 0; b < slope.size(); ++b)
+      if (slope(a) != 0 && slope(b) != 0) variance += slope(a) * covariance(a, b) * slope(b);
+  return std::sqrt(variance < 0 ? 0 : variance); // NaN where it is not known
 }
 
 // x of a plot: along the first column.

@@ -6,12 +6,11 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
 #include "calibrate/metrics.h"
+#include "calibrate/sandwich.h"
 #include "core/text.h"
 #include "data/derived.h"
 #include "data/quantity.h"
@@ -29,43 +28,32 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// Covariance of the parameters: sandwich with whole experiments as clusters.
-MatrixXd covariance_of(const Campaign& campaign, const Rival& rival) {
+// What each test says about the parameters, by whitened residuals. (Nuisance columns are projected
+// out of all tests together; what a test's own share in them is worth is not counted.)
+std::vector<ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
   const Whitener whitener(rival.weights, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd jacobian = rival.jacobian;
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(jacobian);
   whitener.apply(residual);
-  MatrixXd normal = jacobian.transpose() * jacobian;
-  if (const MatrixXd penalty = penalty_of(rival); penalty.size() > 0) normal += penalty;
-  VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
-  normal = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
-  normal.diagonal().array() += 1e-10;
-  const MatrixXd bread = normal.ldlt().solve(MatrixXd::Identity(normal.rows(), normal.cols()));
-  MatrixXd meat = MatrixXd::Zero(normal.rows(), normal.cols());
+  std::vector<ExperimentSums> sums;
   const auto& first = campaign.blocks.first;
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
     const auto begin = static_cast<Index>(first[e]);
     const auto count = static_cast<Index>(first[e + 1]) - begin;
-    const VectorXd score = scale.cwiseInverse().cwiseProduct(
-        jacobian.middleRows(begin, count).transpose() * residual.col(0).segment(begin, count));
-    meat += score * score.transpose();
+    const auto rows = jacobian.middleRows(begin, count);
+    sums.push_back(
+        {rows.transpose() * residual.col(0).segment(begin, count), rows.transpose() * rows});
   }
-  const double experiments = static_cast<double>(first.size() - 1);
-  const double free = std::max(1.0, experiments - rival.freedom);
-  const MatrixXd scaled = bread * meat * bread * (experiments / free);
-  return scale.cwiseInverse().asDiagonal() * scaled * scale.cwiseInverse().asDiagonal();
+  return sums;
 }
 
-std::vector<double> standard_errors(const MatrixXd& covariance) {
-  std::vector<double> errors;
-  for (Index p = 0; p < covariance.rows(); ++p)
-    errors.push_back(std::sqrt(std::max(covariance(p, p), 0.0)));
-  return errors;
+Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
+  return cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
+                          sums_by_test(campaign, rival), penalty_of(rival));
 }
 
 class Reporter {
@@ -122,10 +110,11 @@ private:
   void add_law(Trace& trace) {
     const Rival& rival = delivery_.rival;
     if (rival.effects.empty() && !search_.order.found) return;
-    covariance_ = covariance_of(search_.campaign(), rival);
+    uncertainty_ = uncertainty_of(search_.campaign(), rival);
     ModelFit& fit = trace.extended;
     fit.model = search_.model_of(rival);
-    fit.std_error = standard_errors(covariance_);
+    fit.std_error = uncertainty_.std_error;
+    fit.remarks = uncertainty_.remarks;
     fit.std_error_method = "cluster sandwich by experiment";
     fit.termination = rival.weights.gain > 0
                           ? "generalised least squares under the noise model of the trace"
@@ -165,7 +154,7 @@ private:
       add_alternatives(effect, finding);
       effect.gain_MPa = delivery_.gain_MPa[i];
       effect.curve = effect_curve(search_.campaign(), rival, search_.sensitivities(), i, parameter,
-                                  covariance_);
+                                  uncertainty_.covariance);
       parameter += count;
       trace.effects.push_back(std::move(effect));
     }
@@ -186,7 +175,8 @@ private:
     };
     for (std::size_t p = 0; p < fitted.size(); ++p)
       effect.parameters.push_back({fitted[p].name, fit.model.parameters[first + p],
-                                   fit.std_error[first + p], unit(fitted[p].unit)});
+                                   fit.std_error[first + p], unit(fitted[p].unit),
+                                   uncertainty_.why_none[first + p]});
     const std::vector<Parameter> all = parameters_of(effect.placed);
     for (std::size_t p = 0; p < all.size(); ++p) {
       const Parameter& parameter = all[p];
@@ -194,7 +184,7 @@ private:
                                      [&](const Parameter& f) { return f.name == parameter.name; });
       if (!known)
         effect.parameters.push_back(
-            {parameter.name, effect.placed.parameters[p], no_value, unit(parameter.unit)});
+            {parameter.name, effect.placed.parameters[p], no_value, unit(parameter.unit), ""});
     }
   }
 
@@ -222,7 +212,7 @@ private:
   const TraceInput& in_;
   const Search& search_;
   Delivery delivery_;
-  MatrixXd covariance_;
+  Uncertainty uncertainty_; // of the law that is handed on
 };
 
 // Tests and columns by name: nothing may depend on the order in which they were filed.

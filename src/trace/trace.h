@@ -15,8 +15,9 @@ namespace frictab {
 struct TracedParameter {
   std::string name;
   double value = 0;
-  double std_error = 0; // by experiment; NaN: a reference, set once
+  double std_error = 0; // by experiment; NaN: there is none
   std::string unit;
+  std::string why_none; // "at its bound"; empty: there is an error, or it is a reference, set once
 };
 
 // Another way to explain what an effect explains.

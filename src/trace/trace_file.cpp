@@ -39,9 +39,11 @@ const char* family_name(bool between) {
 
 Json parameters_json(const TracedEffect& effect) {
   Json list = Json::array();
-  for (const TracedParameter& p : effect.parameters)
+  for (const TracedParameter& p : effect.parameters) {
     list.push_back(
         {{"name", p.name}, {"value", p.value}, {"std_error", p.std_error}, {"unit", p.unit}});
+    if (!p.why_none.empty()) list.back()["no_error_because"] = p.why_none;
+  }
   return list;
 }
 
@@ -176,8 +178,8 @@ TracedEffect parse_effect_json(const Json& j) {
   e.columns = j.at("columns").get<std::vector<std::string>>();
   e.derived = parse_derived(j.at("derived"));
   for (const Json& p : j.at("parameters"))
-    e.parameters.push_back(
-        {p.at("name"), number(p.at("value")), number(p.at("std_error")), p.at("unit")});
+    e.parameters.push_back({p.at("name"), number(p.at("value")), number(p.at("std_error")),
+                            p.at("unit"), p.value("no_error_because", "")});
   e.between = j.at("family") == family_name(true);
   e.p_value = number(j.at("p_value"));
   e.statistic = number(j.at("statistic"));

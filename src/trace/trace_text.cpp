@@ -54,10 +54,14 @@ std::string error_table(const TraceErrors& before, const TraceErrors& after) {
 
 std::string parameter_text(const TracedEffect& effect) {
   std::string text;
-  for (const TracedParameter& p : effect.parameters)
-    if (std::isfinite(p.std_error))
-      text += fmt::format("{}{} = {:.4g} +- {:.2g}{}", text.empty() ? "" : ", ", p.name, p.value,
-                          p.std_error, p.unit == "1" || p.unit.empty() ? "" : " " + p.unit);
+  for (const TracedParameter& p : effect.parameters) {
+    const bool known = std::isfinite(p.std_error);
+    if (!known && p.why_none.empty()) continue; // a reference
+    text += fmt::format("{}{} = {:.4g}{}{}{}", text.empty() ? "" : ", ", p.name, p.value,
+                        known ? fmt::format(" +- {:.2g}", p.std_error) : "",
+                        p.unit == "1" || p.unit.empty() ? "" : " " + p.unit,
+                        known ? "" : " (" + p.why_none + ")");
+  }
   return text;
 }
 

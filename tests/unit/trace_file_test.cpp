@@ -1,12 +1,15 @@
 // Effects in trace.json read back as they were.
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "trace/trace_file.h"
 
 namespace frictab {
 namespace {
+
+using testing::HasSubstr;
 
 TracedEffect traced(PlacedEffect placed) {
   TracedEffect effect;
@@ -53,6 +56,24 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   EXPECT_EQ(again.front().effects[1].placed.tau_scale_MPa, 37.5);
   EXPECT_EQ(again.front().effects[1].placed.pressure_MPa, 12);
   EXPECT_EQ(trace_json(again, true), text);
+}
+
+TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {
+  PlacedEffect step;
+  step.form = find_effect("step");
+  step.inputs = {{"humidity_pct", {}, 30, 60}};
+  step.parameters = {0.2, 60, 2};
+  Trace trace;
+  trace.model = "coulomb";
+  trace.effects = {traced(step)};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  trace.effects[0].parameters = {{"a", 0.2, 0.01, "1", ""},
+                                 {"x0", 60, none, "%", "at its bound"},
+                                 {"w", 2, none, "%", ""}}; // a reference: nobody asks
+  EXPECT_THAT(trace_text(trace), HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
+  const std::string text = trace_json({trace}, false);
+  EXPECT_THAT(text, HasSubstr("\"no_error_because\": \"at its bound\""));
+  EXPECT_EQ(trace_json(parse_traces(text, "trace.json"), false), text);
 }
 
 TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {

@@ -293,6 +293,18 @@ TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
 }
 
 // Not the twin's: its effects act on one of the two branches.
+TEST(Trace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
+  // Orowan's kink is Shaw's law with an exponent beyond any bound.
+  const Data data = data_of(campaign("orowan", 5, "form=power,column=humidity_pct,strength=0.8"));
+  const Trace t = traced(data, "shaw");
+  ASSERT_EQ(t.extended_model, "shaw_traced") << trace_text(t);
+  const ModelFit& fit = t.extended;
+  EXPECT_EQ(fit.model.law->parameters[2].name, "n");
+  EXPECT_TRUE(std::isnan(fit.std_error[2]));
+  EXPECT_GT(fit.std_error[3], 0) << "of the effect";
+  EXPECT_THAT(fit.remarks, Contains(StartsWith("n is at its bound 20: experiments with sigma_N")));
+}
+
 TEST(Trace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
   Data data = data_of(campaign("orowan", 6));
   for (Dataset* part : {&data.training, &data.validation}) {

@@ -1,0 +1,45 @@
+// Standard errors of fitted parameters, with the experiment as the statistical unit.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/law.h"
+
+namespace frictab {
+
+// What one experiment says about the parameters at the optimum; J are the derivatives of its
+// predicted values (tau_R in MPa, or whitened), r what is measured beyond them.
+struct ExperimentSums {
+  Eigen::VectorXd score;   // sum of loss'(r) J
+  Eigen::MatrixXd hessian; // sum of curvature J'J
+};
+
+struct Uncertainty {
+  // NaN where a parameter is held by a bound or not determined by the data; in the parameter's unit
+  std::vector<double> std_error;
+  std::vector<std::string> why_none; // per parameter: "at its bound"; empty where there is an error
+  std::vector<std::string> remarks;  // in sentences, with what data would settle it
+  // The parameters moved along the directions that the data do not determine, to where they are
+  // nearest to their default starts: to first order as good a fit, without arbitrary values.
+  std::vector<double> settled;
+  // Of the parameters, for what is computed from several of them: 0 for those that are held, NaN
+  // for those that one experiment alone determines. Directions that the data leave open are not in
+  // it.
+  Eigen::MatrixXd covariance;
+};
+
+// Cluster sandwich with whole experiments as clusters (Liang and Zeger 1986), scores corrected for
+// their own leverage (CR2: Bell and McCaffrey 2002): the 95 % interval is +- the t-quantile with
+// E-1 degrees of freedom. `parameters` say the bounds of the fit, `values` where it ended, `sums`
+// hold one entry per experiment. `penalty` (symmetric; empty: none) is what the fit adds to the
+// curvature; it counts as data that do not scatter, so that stiff curves look as well known as the
+// penalty makes them.
+Uncertainty cluster_sandwich(std::span<const Parameter> parameters, std::span<const double> values,
+                             std::span<const ExperimentSums> sums,
+                             const Eigen::MatrixXd& penalty = {});
+
+} // namespace frictab
