@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/derived.h"
+#include "data/quantity.h"
 #include "effects/natural_spline.h"
 
 namespace frictab {
@@ -58,6 +60,21 @@ std::vector<Parameter> parameters_of(const PlacedEffect& effect) {
 
 std::size_t amplitudes_of(const PlacedEffect& effect) {
   return effect.form->parameters_of ? parameters_of(effect).size() : 1;
+}
+
+const EffectInput* input_of(const Parameter& parameter, const PlacedEffect& effect) {
+  const auto symbols = input_symbols(*effect.form);
+  const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
+  return at == symbols.end() ? nullptr
+                             : &effect.inputs[static_cast<std::size_t>(at - symbols.begin())];
+}
+
+std::string unit_of(const Parameter& parameter, const PlacedEffect& effect) {
+  const EffectInput* input = input_of(parameter, effect);
+  if (!input) return parameter.unit;
+  if (const Quantity* quantity = find_quantity(input->column)) return quantity->unit;
+  if (const DerivedQuantity* quantity = find_derived(input->column)) return quantity->unit;
+  return "";
 }
 
 Expr formula_of(const PlacedEffect& effect) {

@@ -102,6 +102,11 @@ std::vector<double> growing(const PlacedEffect& effect);
 // All parameters of a form that is placed, and how many of them, in front, it is linear in.
 std::vector<Parameter> parameters_of(const PlacedEffect& effect);
 std::size_t amplitudes_of(const PlacedEffect& effect);
+// The input that a parameter of a form is a value of, as its unit x, x2 or x3 says; nullptr: none.
+const EffectInput* input_of(const Parameter& parameter, const PlacedEffect& effect);
+// Its unit: that input's, empty where nobody has said it (a recorded column that is no canonical
+// quantity); of a parameter that is no value of an input, its own.
+std::string unit_of(const Parameter& parameter, const PlacedEffect& effect);
 // 1 + ..., of x, x2, x3 and the names of the parameters.
 Expr formula_of(const PlacedEffect& effect);
 // x, x2, x3: as many as the form takes.

@@ -239,6 +239,7 @@ Law extended_law(const Law& law, const Conventions& conventions, std::span<const
     const auto values = fitted_values(effects[i]);
     std::vector<Parameter> own = fitted_parameters(effects[i]);
     for (std::size_t p = 0; p < own.size(); ++p) {
+      own[p].unit = unit_of(own[p], effects[i]);
       own[p].name = prefix_of(i) + own[p].name;
       own[p].start = values[p];
       extended.parameters.push_back(std::move(own[p]));

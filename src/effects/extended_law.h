@@ -42,10 +42,10 @@ bool has_limit(const Law& law, const Conventions& conventions);
 bool has_own_limit(const Law& law, const Conventions& conventions);
 
 // The law with all effects, named `name`. Parameters: the law's own, then per effect its fitted
-// ones as e1_a, e1_x0, e2_a, ...; where an effect acts on a limit that the law does not have, the
-// shear limit k becomes m_limit k; where one is added, the pressure is an input. Neutral effects
-// (amplitude 0, m_limit 1) leave every bit. `start` holds the law's own parameters; effects start
-// at theirs.
+// ones as e1_a, e1_x0, e2_a, ..., in the units of its inputs; where an effect acts on a limit that
+// the law does not have, the shear limit k becomes m_limit k; where one is added, the pressure is
+// an input. Neutral effects (amplitude 0, m_limit 1) leave every bit. `start` holds the law's own
+// parameters; effects start at theirs.
 Law extended_law(const Law& law, const Conventions& conventions, std::span<const double> start,
                  std::span<const PlacedEffect> effects, const std::string& name);
 

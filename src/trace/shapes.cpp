@@ -90,13 +90,6 @@ bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
   return true;
 }
 
-// The input that a shape parameter is a value of, by its unit.
-const EffectInput& input_of(const Parameter& parameter, const PlacedEffect& effect) {
-  const auto symbols = input_symbols(*effect.form);
-  const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
-  return effect.inputs[at == symbols.end() ? 0 : static_cast<std::size_t>(at - symbols.begin())];
-}
-
 bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
   const bool slides = slid.name == "s_mm" || slid.name == "sliding_distance";
   const auto is_time = [&](const char* word) { return pause.name.find(word) != std::string::npos; };
@@ -240,11 +233,12 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
                   const Candidates& candidates) {
   std::size_t next = own;
   for (const PlacedEffect& effect : effects) {
-    const std::size_t count = fitted_parameters(effect).size();
-    for (std::size_t p = next + amplitudes_of(effect); p < next + count; ++p) {
-      Parameter& parameter = extended.parameters[p];
-      if (parameter.unit == "1") continue; // not a value of an input: the form's own bounds
-      const EffectInput& input = input_of(parameter, effect);
+    const std::vector<Parameter> fitted = fitted_parameters(effect);
+    for (std::size_t p = amplitudes_of(effect); p < fitted.size(); ++p) {
+      const EffectInput* of = input_of(fitted[p], effect);
+      if (!of) continue; // the form's own bounds
+      const EffectInput& input = *of;
+      Parameter& parameter = extended.parameters[next + p];
       const double span = input.high - input.low;
       const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;
       const bool width = parameter.lower > 0;
@@ -252,7 +246,7 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
       parameter.upper = width ? 6 * span : input.high;
       parameter.start = std::clamp(parameter.start, parameter.lower, parameter.upper);
     }
-    next += count;
+    next += fitted.size();
   }
 }
 

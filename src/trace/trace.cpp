@@ -12,8 +12,6 @@
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
 #include "core/text.h"
-#include "data/derived.h"
-#include "data/quantity.h"
 #include "trace/curve.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
@@ -160,31 +158,20 @@ private:
     }
   }
 
-  static std::string unit_of(const std::string& column) {
-    if (const Quantity* quantity = find_quantity(column)) return quantity->unit;
-    if (const DerivedQuantity* quantity = find_derived(column)) return quantity->unit;
-    return ""; // a bystander's own, which nobody has said
-  }
-
   void add_parameters(TracedEffect& effect, const ModelFit& fit, std::size_t first) const {
     const auto fitted = fitted_parameters(effect.placed);
-    const auto unit = [&](const std::string& text) {
-      if (text == "x") return unit_of(effect.placed.inputs[0].column);
-      if (text == "x2") return unit_of(effect.placed.inputs[1].column);
-      return text == "x3" ? unit_of(effect.placed.inputs[2].column) : text;
-    };
     for (std::size_t p = 0; p < fitted.size(); ++p)
-      effect.parameters.push_back({fitted[p].name, fit.model.parameters[first + p],
-                                   fit.std_error[first + p], unit(fitted[p].unit),
-                                   uncertainty_.why_none[first + p]});
+      effect.parameters.push_back(
+          {fitted[p].name, fit.model.parameters[first + p], fit.std_error[first + p],
+           fit.model.law->parameters[first + p].unit, uncertainty_.why_none[first + p]});
     const std::vector<Parameter> all = parameters_of(effect.placed);
     for (std::size_t p = 0; p < all.size(); ++p) {
       const Parameter& parameter = all[p];
       const bool known = std::any_of(fitted.begin(), fitted.end(),
                                      [&](const Parameter& f) { return f.name == parameter.name; });
       if (!known)
-        effect.parameters.push_back(
-            {parameter.name, effect.placed.parameters[p], no_value, unit(parameter.unit), ""});
+        effect.parameters.push_back({parameter.name, effect.placed.parameters[p], no_value,
+                                     unit_of(parameter, effect.placed), ""});
     }
   }
 

@@ -4,7 +4,6 @@
 
 #include "core/text.h"
 #include "data/derived.h"
-#include "data/quantity.h"
 #include "io/json.h"
 #include "twin/twin_summary.h"
 
@@ -32,12 +31,6 @@ Json design_json(const TwinDesign& design) {
           {"validation", design.validation}};
 }
 
-std::string unit_of(const std::string& column) {
-  if (const Quantity* quantity = find_quantity(column)) return quantity->unit;
-  if (const DerivedQuantity* quantity = find_derived(column)) return quantity->unit;
-  return "1";
-}
-
 // Levels between tests and of the slow noise are the set's where they are not given.
 Json noise_json(const Twin& twin) {
   const TwinScatter& given = twin.options.scatter;
@@ -56,12 +49,9 @@ Json effect_json(const PlantedEffect& effect) {
   Json parameters = Json::array();
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
     const Parameter& parameter = effect.form->parameters[i];
-    const std::string unit = parameter.unit == "x"    ? unit_of(spec.column)
-                             : parameter.unit == "x2" ? unit_of(spec.column2)
-                             : parameter.unit == "x3" ? unit_of(spec.column3)
-                                                      : parameter.unit;
-    parameters.push_back(
-        {{"name", parameter.name}, {"value", effect.parameters[i]}, {"unit", unit}});
+    parameters.push_back({{"name", parameter.name},
+                          {"value", effect.parameters[i]},
+                          {"unit", unit_of(parameter, effect.placed)}});
   }
   const bool derived = find_derived(spec.column) != nullptr;
   Json columns = Json::array();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "data/derived.h"
 #include "data/quantity.h"
 #include "effects/extended_law.h"
 #include "expr/program.h"
@@ -160,6 +161,28 @@ TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
             (std::vector<std::string>{"mu", "e1_a", "e1_x0", "e2_a", "e2_x0", "m_limit"}));
   EXPECT_EQ(inputs(extended, {}),
             (std::vector<std::string>{"sigma_n_MPa", "sigma_f_MPa", "humidity_pct"}));
+}
+
+TEST(ExtendedLaw, ParametersHaveTheUnitsOfTheColumnsTheyAreValuesOf) {
+  const Law& coulomb = *find_law("coulomb");
+  PlacedEffect sliding = effect("saturation", "mu", 0.1), work = effect("step", "mu", 0.1);
+  PlacedEffect pair = effect("recovery", "mu", 0.1), humid = effect("hinge", "m", 0.2);
+  sliding.inputs[0].column = "s_mm";
+  work.inputs[0].column = "friction_work";
+  pair.inputs[0].column = "v_rel_mm_s";
+  pair.inputs[1].column = "T_contact_C";
+  const PlacedEffect all[] = {sliding, work, pair, humid};
+  const Law extended = extended_law(coulomb, {}, starts_of(coulomb), all, "extended");
+  std::map<std::string, std::string> unit;
+  for (const Parameter& parameter : extended.parameters)
+    unit[parameter.name] = parameter.unit;
+  EXPECT_EQ(unit.at("e1_a"), "1");
+  EXPECT_EQ(unit.at("e1_x0"), "mm");
+  EXPECT_EQ(unit.at("e2_x0"), find_derived("friction_work")->unit);
+  EXPECT_EQ(unit.at("e2_w"), find_derived("friction_work")->unit);
+  EXPECT_EQ(unit.at("e3_x0"), "mm/s");
+  EXPECT_EQ(unit.at("e3_t0"), find_quantity("T_contact_C")->unit);
+  EXPECT_EQ(unit.at("e4_x0"), "") << "of a recorded column nobody says the unit";
 }
 
 TEST(ExtendedLaw, TurnsAnyColumnNameIntoASymbol) {
