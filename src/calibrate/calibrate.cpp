@@ -40,7 +40,7 @@ std::vector<std::string> missing_for(const Law& law, const Conventions& conventi
 
 struct Selection {
   std::vector<const Law*> laws;
-  std::vector<std::string> left_out;
+  std::vector<LeftOut> left_out;
 };
 
 Selection select_laws(const CalibrationInput& input, const Conventions& conventions) {
@@ -55,13 +55,13 @@ Selection select_laws(const CalibrationInput& input, const Conventions& conventi
       selection.laws.push_back(&law);
       continue;
     }
-    const std::string why = fmt::format("{}: needs {}", law.name, join(missing, ", "));
+    const LeftOut left{law.name, join(missing, ", ")};
     if (asked)
-      faults.add(input.models.place, "law " + why + ", which the data do not have",
+      faults.add(input.models.place, "law " + left.text() + ", which the data do not have",
                  "map the columns in [data.columns], give a constant in [data.constants], or leave "
                  "the law out of models.use");
     else
-      selection.left_out.push_back(why);
+      selection.left_out.push_back(left);
   }
   faults.throw_if_any();
   if (selection.laws.empty())
@@ -200,6 +200,10 @@ ModelFit fit_law(const Law& law, const Conventions& conventions, const Calibrati
 }
 
 } // namespace
+
+std::string LeftOut::text() const {
+  return law + ": needs " + needs;
+}
 
 Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
   Conventions conventions;

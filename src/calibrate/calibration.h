@@ -27,10 +27,16 @@ struct ModelFit {
   std::optional<NetworkRecord> network; // how a neural network was trained
 };
 
+// A law that the columns do not allow.
+struct LeftOut {
+  std::string law;
+  std::string needs;        // "sigma_f_MPa, psi"
+  std::string text() const; // "levanov: needs sigma_f_MPa, psi"
+};
+
 struct Calibration {
   std::vector<ModelFit> fits; // ranked by validation MAE
-  std::vector<std::string>
-      left_out; // "levanov: needs sigma_f_MPa" for laws the columns do not allow
+  std::vector<LeftOut> left_out;
   Loss loss = Loss::l2;
   std::uint64_t seed = 1;
   bool synthetic = false;               // the data say they are

@@ -231,6 +231,23 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   return fit;
 }
 
+Json left_out_json(const std::vector<LeftOut>& left_out) {
+  Json list = Json::array();
+  for (const LeftOut& left : left_out)
+    list.push_back(left.text());
+  return list;
+}
+
+// As the file has it: "levanov: needs sigma_f_MPa".
+LeftOut parse_left_out(const std::string& text, const std::string& file) {
+  const std::string between = ": needs ";
+  const std::size_t at = text.find(between);
+  if (at == text.npos)
+    throw InputError({file, 0, 0}, "left_out has '" + text + "', not \"LAW: needs COLUMNS\"",
+                     "calibrate again");
+  return {text.substr(0, at), text.substr(at + between.size())};
+}
+
 } // namespace
 
 std::string calibration_json(const Calibration& calibration) {
@@ -245,7 +262,7 @@ std::string calibration_json(const Calibration& calibration) {
                     {"seed", calibration.seed},
                     {"noise_floor", noise_floors_json(calibration.noise_floors)},
                     {"models", models},
-                    {"left_out", calibration.left_out},
+                    {"left_out", left_out_json(calibration.left_out)},
                     {"comparisons", comparisons_json(calibration.comparisons)},
                     {"conditional", conditional_json(calibration.conditional)}});
 }
@@ -259,7 +276,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
     calibration.seed = j.at("seed");
     const std::string loss = j.at("loss");
     calibration.loss = loss == "L1" ? Loss::l1 : loss == "huber" ? Loss::huber : Loss::l2;
-    calibration.left_out = j.at("left_out").get<std::vector<std::string>>();
+    for (const Json& one : j.at("left_out"))
+      calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
     calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));
     calibration.comparisons = parse_comparisons(j.at("comparisons"));
     calibration.conditional = parse_conditional(j.at("conditional"));

@@ -121,7 +121,8 @@ void check_models(JobReader& reader, const std::string& path,
   const std::vector<std::string>& use = reader.job.models.use;
   if (use.empty() || path == "export.targets") return;
   for (const std::string& name : models)
-    if (const Law* law = law_behind(name); law && !std::count(use.begin(), use.end(), law->name))
+    if (const Law* law = read_model_name(name).base;
+        law && !std::count(use.begin(), use.end(), law->name))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),
                    "add " + (law->name == name ? "it" : law->name) + " to models.use");

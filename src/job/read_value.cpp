@@ -74,7 +74,8 @@ struct ValueReader {
     };
     const auto found = std::find_if(names.begin(), names.end(), same);
     if (found != names.end()) return *found;
-    if (rule.allowed.traced && node.text.ends_with(traced_suffix) && law_behind(node.text))
+    if (const ModelName name = read_model_name(node.text);
+        rule.allowed.traced && name.base && name.traced && !name.quantile)
       return node.text;
     if (rule.allowed.noun.empty()) {
       const std::string near = nearest_name(node.text, names);

@@ -40,7 +40,7 @@ struct Allowed {
   std::string noun; // "friction law"; empty: a few fixed words
   std::vector<std::string> (*names)() = nullptr;
   bool any_case = false;
-  bool traced = false; // and such a name with traced_suffix: the law with effects found in the data
+  bool traced = false; // and its traced_name: the law with effects found in the data
 };
 
 struct Problem {

@@ -29,11 +29,6 @@ Expr tau_formula(const Model& model) {
   return tau_formula(*model.law, model.conventions, model.gain);
 }
 
-std::string Model::name() const {
-  if (quantile == 0.5) return law->name;
-  return law->name + "_q" + fmt::format("{}", quantile).substr(2); // the digits behind "0."
-}
-
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
   auto used = symbols(tau_formula(law, conventions));
   for (const Parameter& parameter : law.parameters)
@@ -64,15 +59,43 @@ bool is_registered(const Law& law) {
   return find_law(law.name) == &law;
 }
 
-const Law* law_behind(std::string_view model) {
-  if (const Law* law = find_law(model)) return law;
-  const std::size_t band = model.rfind("_q");
-  if (band != model.npos && band + 2 < model.size() &&
-      model.find_first_not_of("0123456789", band + 2) == model.npos)
-    return law_behind(model.substr(0, band));
-  return model.ends_with(traced_suffix)
-             ? find_law(model.substr(0, model.size() - traced_suffix.size()))
-             : nullptr;
+namespace {
+
+constexpr std::string_view traced_suffix = "_traced", quantile_mark = "_q";
+
+// Where the quantile begins; npos: there is none.
+std::size_t quantile_in(std::string_view name) {
+  const std::size_t at = name.rfind(quantile_mark), digits = at + quantile_mark.size();
+  const bool found = at != name.npos && digits < name.size() &&
+                     name.find_first_not_of("0123456789", digits) == name.npos;
+  return found ? at : name.npos;
+}
+
+} // namespace
+
+const std::string& Model::base() const {
+  return traced() ? law->base : law->name;
+}
+
+std::string Model::name() const {
+  if (quantile == 0.5) return law->name;
+  const std::string digits = fmt::format("{}", quantile).substr(2); // behind "0."
+  return law->name + std::string(quantile_mark) + digits;
+}
+
+std::string traced_name(std::string_view base) {
+  return std::string(base) + std::string(traced_suffix);
+}
+
+ModelName read_model_name(std::string_view name) {
+  if (const Law* law = find_law(name)) return {law, false, false};
+  if (const std::size_t at = quantile_in(name); at != name.npos) {
+    ModelName read = read_model_name(name.substr(0, at));
+    read.quantile = true;
+    return read;
+  }
+  if (!name.ends_with(traced_suffix)) return {};
+  return {find_law(name.substr(0, name.size() - traced_suffix.size())), true, false};
 }
 
 const std::vector<Law>& all_laws() {

@@ -65,7 +65,7 @@ struct Law {
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
   std::vector<std::string> may_use; // trained laws: states used where the data vary in them
-  std::string base; // of a law that is in no registry: the registered one it extends
+  std::string base; // of a law with traced effects: the registered one it extends; else empty
   // Inputs that are text columns: the levels that their numbers 0, 1, ... stand for.
   std::map<std::string, std::vector<std::string>> levels;
   std::function<Formula(const Conventions&)> build;
@@ -101,6 +101,8 @@ struct Model {
   // Factors between experiments and the law, ascending: what the band is made of.
   std::vector<double> experiment_gains;
 
+  const std::string& base() const; // the registered law: its own, or the one it extends
+  bool traced() const { return !law->base.empty(); } // with effects found in the data
   std::string name() const; // the law's; log_coulomb_q05 for its 5 % quantile
 };
 
@@ -115,12 +117,17 @@ std::shared_ptr<const Law> made(Law law);
 // Whether the law is the registry's: then its name says all about it.
 bool is_registered(const Law& law);
 
-// A law with traced effects is called as its base, and this behind it.
-inline constexpr std::string_view traced_suffix = "_traced";
+// What a law with traced effects is called: log_coulomb_traced.
+std::string traced_name(std::string_view base);
 
-// The registered law behind the name of a model: log_coulomb of log_coulomb, log_coulomb_q05 and
-// log_coulomb_traced_q05. nullptr where there is none.
-const Law* law_behind(std::string_view model);
+// Where a name is all there is, in a job and on files of earlier runs; a Model says it itself.
+struct ModelName {
+  const Law* base = nullptr; // nullptr: it names no model
+  bool traced = false;
+  bool quantile = false;
+};
+// Of log_coulomb, log_coulomb_q05 and log_coulomb_traced_q05 the base is log_coulomb.
+ModelName read_model_name(std::string_view name);
 
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);

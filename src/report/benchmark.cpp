@@ -75,8 +75,8 @@ std::string benchmark_md(const Calibration& calibration) {
     out += floor_row(calibration, decimals);
   }
   if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
-  for (const std::string& left : calibration.left_out)
-    out += "- " + markdown_cell(left) + "\n";
+  for (const LeftOut& left : calibration.left_out)
+    out += "- " + markdown_cell(left.text()) + "\n";
   const int decimals = error_decimals(calibration);
   add_comparison(out, calibration, decimals);
   add_all_errors(out, calibration, decimals);

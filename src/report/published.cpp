@@ -39,8 +39,7 @@ std::string counterpart(const Calibration& calibration, std::size_t index) {
   if (index == 1) {
     std::string text;
     for (const ModelFit& fit : calibration.fits)
-      if (kind_of(*fit.model.law) == LawKind::literature &&
-          fit.model.law->name.rfind("coulomb", 0) == 0)
+      if (kind_of(*fit.model.law) == LawKind::literature && fit.model.law->quantity == "mu")
         text += (text.empty() ? "" : ", ") + figures(fit.validation.mae_MPa) + " (" +
                 fit.model.law->name + ")";
     return text;

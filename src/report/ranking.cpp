@@ -192,8 +192,8 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   }
   add_plots(page, input, laws);
   std::vector<TemplateValues>& left_out = page.lists["left_out"];
-  for (const std::string& left : calibration.left_out)
-    left_out.push_back({{{"text", svg::escape(left)}}, {}, {}});
+  for (const LeftOut& left : calibration.left_out)
+    left_out.push_back({{{"text", svg::escape(left.text())}}, {}, {}});
   page.flags["has_left_out"] = !left_out.empty();
 }
 

@@ -140,7 +140,7 @@ std::vector<std::string> Pipeline::model_names() const {
   if (!fs::is_directory(models)) return names;
   for (const auto& entry : fs::directory_iterator(models))
     if (const std::string name = entry.path().stem().string();
-        law_behind(name) && !find_law(name) && entry.path().extension() == ".json")
+        read_model_name(name).base && !find_law(name) && entry.path().extension() == ".json")
       names.push_back(name);
   return names;
 }
@@ -156,7 +156,7 @@ std::vector<std::string> Pipeline::table_names() const {
     if (!fs::is_directory(place)) continue;
     for (const auto& entry : fs::directory_iterator(place))
       if (const std::string name = entry.path().stem().string();
-          law_behind(name) && std::find(names.begin(), names.end(), name) == names.end())
+          read_model_name(name).base && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
   }
   return names;
@@ -177,7 +177,7 @@ std::vector<const ModelFit*> Pipeline::chosen_fits() {
       }
     if (!found)
       throw InputError(job_.table.place, "table.model: law '" + name + "' was not calibrated",
-                       name.ends_with(traced_suffix)
+                       read_model_name(name).traced
                            ? "it is there where trace finds an effect that its law lacks"
                            : "add it to models.use, or map the columns it needs");
   }
@@ -205,14 +205,6 @@ void Pipeline::calibrate() {
   write_calibration();
 }
 
-namespace {
-
-bool is_traced(const ModelFit& fit) {
-  return fit.model.law->name.ends_with(traced_suffix);
-}
-
-} // namespace
-
 std::vector<const ModelFit*> Pipeline::fits_to_trace() const {
   std::vector<const ModelFit*> chosen;
   for (const std::string& name : job_.trace.models)
@@ -229,7 +221,8 @@ std::vector<const ModelFit*> Pipeline::fits_to_trace() const {
 void Pipeline::trace() {
   need_data();
   need_calibration();
-  std::erase_if(calibration_->fits, is_traced); // of an earlier trace
+  std::erase_if(calibration_->fits, // of an earlier trace
+                [](const ModelFit& fit) { return fit.model.traced(); });
   for (const std::string& name : model_names())
     output_.remove_old("models/" + name + ".json");
   const auto chosen = fits_to_trace();
@@ -256,9 +249,8 @@ void Pipeline::add_traced_laws() {
   add_comparisons(*calibration_, {*training_, *validation_, job_.models, job_.calibration});
   for (ModelFit& fit : nested) { // in front of their law, which they are better than
     const auto base = std::find_if(
-        calibration_->fits.begin(), calibration_->fits.end(), [&](const ModelFit& other) {
-          return other.model.law->name + std::string(traced_suffix) == fit.model.law->name;
-        });
+        calibration_->fits.begin(), calibration_->fits.end(),
+        [&](const ModelFit& other) { return other.model.law->name == fit.model.base(); });
     calibration_->fits.insert(base, std::move(fit));
   }
   write_calibration();

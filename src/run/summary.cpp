@@ -48,10 +48,9 @@ std::string parameters(const ModelFit& fit) {
 // "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
 void add_left_out(std::string& out, const Calibration& calibration) {
   std::map<std::string, std::string> laws;
-  for (const std::string& left : calibration.left_out) {
-    const std::size_t colon = left.find(": needs ");
-    std::string& list = laws[left.substr(colon + 8)];
-    list += (list.empty() ? "" : ", ") + left.substr(0, colon);
+  for (const LeftOut& left : calibration.left_out) {
+    std::string& list = laws[left.needs];
+    list += (list.empty() ? "" : ", ") + left.law;
   }
   for (const auto& [reason, list] : laws)
     out += fmt::format("  left out, for want of {}: {}\n", reason, list);

@@ -135,11 +135,19 @@ private:
     t_.improvement = gained(with, without);
   }
 
-  static std::string contradiction(const Difference& gain) {
-    return fmt::format(
-        "contradicted by the validation tests: {:.3g} MPa worse there (95 %: {:.3g} to {:.3g}); "
-        "another campaign, or not the cause but something that went with it in training",
-        -gain.value_MPa, -gain.interval.high, -gain.interval.low);
+  // Why a finding is not delivered.
+  struct Against {
+    std::string why;
+    bool contradicted = false; // by the validation tests
+  };
+
+  static Against contradiction(const Difference& gain) {
+    return {fmt::format(
+                "contradicted by the validation tests: {:.3g} MPa worse there (95 %: {:.3g} to "
+                "{:.3g}); "
+                "another campaign, or not the cause but something that went with it in training",
+                -gain.value_MPa, -gain.interval.high, -gain.interval.low),
+            true};
   }
 
   // Against the law as the calibration stage handed it on: what weights make worse is not excused
@@ -160,15 +168,16 @@ private:
     judge();
   }
 
-  static std::string no_better(const Difference& gain) {
-    return fmt::format("predicts the validation tests no better than the law as it was calibrated: "
-                       "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
-                       -gain.value_MPa, -gain.interval.high, -gain.interval.low);
+  static Against no_better(const Difference& gain) {
+    return {
+        fmt::format("predicts the validation tests no better than the law as it was calibrated: "
+                    "{:.3g} MPa worse (95 %: {:.3g} to {:.3g})",
+                    -gain.value_MPa, -gain.interval.high, -gain.interval.low)};
   }
 
-  void take_all_back(const std::string& why) {
+  void take_all_back(const Against& against) {
     for (const std::size_t f : d_.findings)
-      against_[f] = why;
+      against_[f] = against;
     d_.gain_MPa.clear();
     use(0, 0);
     judge();
@@ -183,7 +192,8 @@ private:
       lead.between = finding.between;
       lead.p_value = finding.p_value;
       const auto against = against_.find(i);
-      lead.why = against == against_.end() ? does_not_pay() : against->second;
+      lead.why = against == against_.end() ? does_not_pay() : against->second.why;
+      d_.contradicted |= against != against_.end() && against->second.contradicted;
       if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));
     }
@@ -205,7 +215,7 @@ private:
   Trace& t_;
   Delivery d_;
   std::size_t weights_ = 0;
-  std::map<std::size_t, std::string> against_; // by finding
+  std::map<std::size_t, Against> against_; // by finding
 };
 
 } // namespace

@@ -13,6 +13,7 @@ struct Delivery {
   std::vector<double> gain_MPa;      // of each, MAE on the unseen tests without it minus with it
   Rival baseline;                    // without
   NestedErrors nested;               // folds = 0: nothing was found
+  bool contradicted = false;         // a finding that is not delivered: by the validation tests
 };
 
 // Few validation tests judge nothing: from so many on they are the unseen ones.

@@ -185,7 +185,7 @@ Model Search::model_of(const Rival& rival) const {
   const Law& law = *input.fit.model.law;
   model.law = made(extended_law(law, model.conventions,
                                 std::span(rival.parameters).first(law.parameters.size()),
-                                rival.effects, law.name + std::string(traced_suffix)));
+                                rival.effects, traced_name(law.name)));
   model.parameters = rival.parameters;
   return model;
 }

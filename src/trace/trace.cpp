@@ -75,7 +75,7 @@ public:
     add_scatter(trace, search_, delivery_.rival);
     add_power(trace, search_, in_.seed);
     add_leads(trace, search_);
-    add_verdict(trace, search_);
+    add_verdict(trace, search_, delivery_.contradicted);
     return trace;
   }
 

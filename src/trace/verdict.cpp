@@ -68,12 +68,9 @@ std::string excess_sentence(const Trace& t) {
 
 } // namespace
 
-void add_verdict(Trace& t, const Search& search) {
+void add_verdict(Trace& t, const Search& search, bool contradicted) {
   const bool excess = scatters_more(t);
-  const bool contradicted =
-      t.effects.empty() && std::any_of(t.leads.begin(), t.leads.end(), [](const Lead& lead) {
-        return lead.why.starts_with("contradicted");
-      });
+  contradicted = contradicted && t.effects.empty();
   t.remaining.p_value = std::min(search.last_p_value, search.last_between.last_p_value);
   t.remaining.structure = t.order.found || excess || t.worlds.found || contradicted;
   std::vector<std::string> notes;

@@ -5,7 +5,8 @@
 
 namespace frictab {
 
-// Fills verdict and remaining. `trace` is complete but for those.
-void add_verdict(Trace& trace, const Search& search);
+// Fills verdict and remaining. `trace` is complete but for those. `contradicted`: the validation
+// tests say that a finding is worse than nothing.
+void add_verdict(Trace& trace, const Search& search, bool contradicted);
 
 } // namespace frictab

@@ -216,7 +216,7 @@ TEST(Calibration, LeavesOutLawsWhoseColumnsAreMissingAndSaysSo) {
   std::erase_if(data.columns, [](const Column& c) { return c.name == "sigma_f_MPa"; });
   const Calibration calibration = calibrate({data, data, {}, {}});
   EXPECT_EQ(calibration.fits.size(), 8U);
-  EXPECT_EQ(calibration.left_out.front(), "shear_0.12: needs sigma_f_MPa");
+  EXPECT_EQ(calibration.left_out.front().text(), "shear_0.12: needs sigma_f_MPa");
   CalibrationInput asked{data, data, {}, {}};
   asked.models.use = {"coulomb", "shaw"};
   asked.models.place = {"job.toml", 4, 1};

@@ -61,7 +61,7 @@ Model traced_model(const std::vector<std::string>& which) {
 Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects) {
   Model model;
   model.law = made(extended_law(*base.law, model.conventions, base.parameters, effects,
-                                base.law->name + std::string(traced_suffix)));
+                                traced_name(base.law->name)));
   for (const Parameter& parameter : model.law->parameters)
     model.parameters.push_back(parameter.start);
   return model;

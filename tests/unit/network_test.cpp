@@ -223,7 +223,8 @@ TEST(NeuralNetwork, NeedsFiveExperiments) {
   const Dataset data = campaign(0.05, 5, 3, 4);
   const Calibration calibration = calibrate({data, data, {}, {}});
   EXPECT_THAT(calibration.left_out,
-              testing::Contains("neural_network: needs 5 experiments to train"));
+              testing::Contains(testing::Property(&LeftOut::text,
+                                                  "neural_network: needs 5 experiments to train")));
 }
 
 TEST(NeuralNetwork, StaysFiniteOnDataWithoutFriction) {

@@ -83,7 +83,7 @@ TEST(Report, EscapesWhateverComesFromTheUser) {
   sample.training.notes = {bad};
   sample.training.dropped = {{bad, 3}};
   sample.training.columns.push_back({bad, "", std::vector<double>(120, 1.0), {}});
-  sample.calibration.left_out = {bad};
+  sample.calibration.left_out = {{bad, bad}};
   sample.calibration.fits[0].remarks = {bad};
   sample.tables[0].model = bad;
   sample.tables[0].axes[0].name = bad;
@@ -217,7 +217,7 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
   fixed.validation = {26.3, 30.2, -24.8, {21.6, 31.6}, {25, 35}, {none, none}, 16500, 30};
   orowan.band = {0.8, 1.2599, 27, 30};
   c.fits = {orowan, fixed};
-  c.left_out = {"wzl: needs v_rel_mm_s"};
+  c.left_out = {{"wzl", "v_rel_mm_s"}};
   EXPECT_EQ(
       benchmark_md(c),
       "# Friction laws on experiments they were not calibrated on\n"
