@@ -111,7 +111,7 @@ TEST(Docs, JobsThatAreShownCanBeRead) {
       EXPECT_NO_THROW(parse_job(job, page)) << job;
 }
 
-TEST(DocsExample, CommandsOfTheGuideRun) {
+TEST(SlowDocsExample, CommandsOfTheGuideRun) {
   const test::TemporaryDirectory directory;
   std::size_t run = 0;
   for (const std::string& block : blocks(text_of(house / "docs/guide.md"), "sh"))

@@ -33,7 +33,7 @@ T_contact_C = { nodes = 100 }
 targets = []
 )";
 
-class LargeTable : public testing::Test {
+class SlowLargeTable : public testing::Test {
 protected:
   void SetUp() override {
     ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
@@ -57,7 +57,7 @@ protected:
   TemporaryDirectory directory;
 };
 
-TEST_F(LargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
+TEST_F(SlowLargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
   const std::string script = std::string("'") + FRICTAB_BINARY +
                              "' tabulate job.toml -q > /dev/null & pid=$!\n"
                              "while [ \"$(cat out/tables/.log_coulomb.h5.chunks 2> /dev/null | wc "
@@ -78,7 +78,7 @@ TEST_F(LargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
             "");
 }
 
-TEST_F(LargeTable, IsVerifiedByTheJobAndAlone) {
+TEST_F(SlowLargeTable, IsVerifiedByTheJobAndAlone) {
   ASSERT_EQ(run("run", {"--set", "table.hdf5.fletcher32=true"}).exit_code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
   EXPECT_EQ(run("verify").exit_code, 0);
@@ -91,7 +91,7 @@ TEST_F(LargeTable, IsVerifiedByTheJobAndAlone) {
                         "fletcher32\n"));
 }
 
-TEST_F(LargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
+TEST_F(SlowLargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
   // 12,000,000 values, nodes and constants
   const std::string what = "error: the table of log_coulomb needs 12,000,5";
   const std::string why =
@@ -107,7 +107,7 @@ TEST_F(LargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
   EXPECT_THAT(sources.err, testing::AllOf(testing::StartsWith(what), testing::HasSubstr(why)));
 }
 
-TEST_F(LargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
+TEST_F(SlowLargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
   const CommandResult whole = run("run", {"--set", "export.targets=[\"c\",\"fortran\"]"});
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   const std::string c = directory.path("out/export/c/");
@@ -119,7 +119,7 @@ TEST_F(LargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
   EXPECT_EQ(run("verify").exit_code, 0); // the sources as they lie there
 }
 
-TEST_F(LargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
+TEST_F(SlowLargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
   EXPECT_EQ(run("tabulate", {"-q", "--progress"}).err, "");
   const CommandResult shown =
       run("tabulate", {"--progress", "-j", "1", "--set", "table.axes.psi.nodes=200"});

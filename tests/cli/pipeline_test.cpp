@@ -59,6 +59,8 @@ protected:
   std::string job;
 };
 
+using SlowMainJob = MainJob;
+
 TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   const auto result = run_frictab({"run", job, "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -73,7 +75,7 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
     EXPECT_TRUE(fs::exists(directory.path("out") + "/" + file)) << file;
 }
 
-TEST_F(MainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
+TEST_F(SlowMainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
   ASSERT_EQ(run_frictab({"run", job, "-j1", "-o", directory.path("one")}).exit_code, 0);
   ASSERT_EQ(run_frictab({"run", job, "-j2", "-o", directory.path("two")}).exit_code, 0);
   const auto one = files_below(directory.path("one")), two = files_below(directory.path("two"));
@@ -83,7 +85,7 @@ TEST_F(MainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_TRUE(two.at(name) == content) << name;
 }
 
-TEST_F(MainJob, StagesOneByOneGiveTheSameFilesAsRun) {
+TEST_F(SlowMainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   ASSERT_EQ(run_frictab({"run", job, "-o", directory.path("run")}).exit_code, 0);
   for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"}) {
     const auto result = run_frictab({stage, job, "-o", directory.path("stages")});
@@ -98,7 +100,7 @@ TEST_F(MainJob, StagesOneByOneGiveTheSameFilesAsRun) {
   }
 }
 
-TEST_F(MainJob, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
+TEST_F(SlowMainJob, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
   const std::vector<std::string> coarse = {"run",   job,
                                            "--set", "table.model=levanov",
                                            "--set", "table.axes.sigma_n_MPa.nodes=2",
@@ -132,7 +134,7 @@ TEST_F(MainJob, VerifyAloneChecksATableForAPipeline) {
   EXPECT_NE(directory.read("ci/junit.xml").find("failures=\"1\""), std::string::npos);
 }
 
-TEST_F(MainJob, VerifyRefusesATableOfAnotherLaw) {
+TEST_F(SlowMainJob, VerifyRefusesATableOfAnotherLaw) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const auto result = run_frictab({"verify", "--table", directory.path("out/tables/levanov.h5"),
                                    "--model", directory.path("out/models/wzl.json")});
@@ -143,7 +145,7 @@ TEST_F(MainJob, VerifyRefusesATableOfAnotherLaw) {
       << result.err;
 }
 
-TEST_F(MainJob, AFailedRunLeavesThePreviousResultsAsTheyWere) {
+TEST_F(SlowMainJob, AFailedRunLeavesThePreviousResultsAsTheyWere) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const auto before = files_below(directory.path("out"));
   std::string broken = directory.read("data/training.csv");
@@ -154,7 +156,7 @@ TEST_F(MainJob, AFailedRunLeavesThePreviousResultsAsTheyWere) {
   EXPECT_EQ(files_below(directory.path("out")), before);
 }
 
-TEST_F(MainJob, ResultsOfAnEarlierRunDoNotLinger) {
+TEST_F(SlowMainJob, ResultsOfAnEarlierRunDoNotLinger) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   ASSERT_EQ(run_frictab({"run", job, "--set", "table.model=coulomb", "--set",
                          "models.use=[\"coulomb\", \"shear\"]"})
@@ -165,7 +167,7 @@ TEST_F(MainJob, ResultsOfAnEarlierRunDoNotLinger) {
   EXPECT_TRUE(fs::exists(directory.path("out/export/c/recipe.json")));
 }
 
-TEST_F(MainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
+TEST_F(SlowMainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
   const std::vector<std::string> set = {"--set", "export.form=direct"};
   ASSERT_EQ(run_frictab({"run", job, set[0], set[1]}).exit_code, 0);
   for (const char* target : {"c", "abaqus_vfric"}) {
@@ -189,7 +191,7 @@ TEST_F(MainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
             std::string::npos);
 }
 
-TEST_F(MainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
+TEST_F(SlowMainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
   const auto result = run_frictab({"run", job});
   for (const char* part : {"Table or the law itself, as generated C", "law itself", "levanov"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
@@ -209,7 +211,7 @@ TEST_F(MainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
   EXPECT_EQ(directory.read("out/verify.json").find("ns_per_query"), std::string::npos);
 }
 
-TEST_F(MainJob, RowsOutsideTheRangeAreToldByAxisAndSide) {
+TEST_F(SlowMainJob, RowsOutsideTheRangeAreToldByAxisAndSide) {
   const auto run = [&](const std::string& outside) {
     return run_frictab({"run", job, "--set", "table.model=levanov", "--set",
                         "table.axes.sigma_n_MPa={range = [800, 1800], outside = " + outside + "}"});
@@ -226,7 +228,7 @@ TEST_F(MainJob, RowsOutsideTheRangeAreToldByAxisAndSide) {
   EXPECT_NE(directory.read("out/report.html").find("sigma_n_MPa above 1800"), std::string::npos);
 }
 
-TEST_F(MainJob, FilesOfTheUserInTheOutputDirectoryStay) {
+TEST_F(SlowMainJob, FilesOfTheUserInTheOutputDirectoryStay) {
   directory.write("out/models/mine.json", "{}");
   directory.write("out/export/c/driver.c", "int x;");
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
@@ -262,7 +264,7 @@ TEST_F(MainJob, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
                                "  hint: did you mean 'tolerance_MPa'?\n");
 }
 
-TEST_F(MainJob, JsonSummaryIsJson) {
+TEST_F(SlowMainJob, JsonSummaryIsJson) {
   const auto result = run_frictab({"run", job, "--json"});
   ASSERT_EQ(result.exit_code, 0);
   const auto j = nlohmann::json::parse(result.out);
@@ -304,7 +306,7 @@ TEST_F(MainJob, VerboseSaysWhatWasDerivedFromTheData) {
   EXPECT_EQ(result.err, "4 of 16 experiments held out to validate, drawn by seed 1\n");
 }
 
-TEST(Example, SyntheticCampaignReproducesThePublishedLevelsOfError) {
+TEST(SlowExample, SyntheticCampaignReproducesThePublishedLevelsOfError) {
   const TemporaryDirectory directory;
   ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--oracle"}).exit_code, 0);
   fs::copy(fs::path(FRICTAB_SOURCE_DIR) / "examples" / "01_synthetic_campaign" / "job.toml",
@@ -342,9 +344,9 @@ struct MeasuredExample {
 void PrintTo(const MeasuredExample& example, std::ostream* out) {
   *out << example.job;
 }
-class Measured : public testing::TestWithParam<MeasuredExample> {};
+class SlowMeasured : public testing::TestWithParam<MeasuredExample> {};
 
-TEST_P(Measured, ExampleRunsEndToEnd) {
+TEST_P(SlowMeasured, ExampleRunsEndToEnd) {
   const auto [example, folder, laws] = GetParam();
   const fs::path measured = measured_files(folder);
   if (!fs::is_directory(measured))
@@ -374,7 +376,7 @@ TEST_P(Measured, ExampleRunsEndToEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Examples, Measured,
+    Examples, SlowMeasured,
     testing::Values(MeasuredExample{"02_rock_velocity_steps", "rock_velocity_steps", 7},
                     MeasuredExample{"03_ptfe_pin_on_disc", "pps_ptfe_pin_on_disc", 8}));
 

@@ -27,7 +27,7 @@ TEST(ToyTarget, IsListedExplainedAndAllowedInJobsBecauseItIsLinked) {
   EXPECT_EQ(test::run_frictab({"explain", "toy"}).exit_code, 2);
 }
 
-TEST(ToyTarget, IsGeneratedDrivenAndVerifiedByTheMainJob) {
+TEST(SlowToyTarget, IsGeneratedDrivenAndVerifiedByTheMainJob) {
   const test::TemporaryDirectory directory;
   ASSERT_EQ(toy({"twin", "data", "-q"}, directory.path()).exit_code, 0);
   directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"

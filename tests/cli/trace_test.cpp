@@ -46,7 +46,9 @@ protected:
 const std::string humidity = "form=power,column=humidity_pct,strength=0.5";
 const std::string run_in = "form=saturation,column=s_mm,strength=0.3,x0=3";
 
-TEST_F(TraceCommand, RunShipsTheEffectThatNobodyDeclared) {
+using SlowTraceCommand = TraceCommand;
+
+TEST_F(SlowTraceCommand, RunShipsTheEffectThatNobodyDeclared) {
   make({humidity, run_in}, "[export]\ntargets = [\"c\", \"abaqus_vfric\"]\n"
                            "[export.inputs]\nhumidity_pct = \"field:1\"\n");
   const auto result = run_frictab({"run", job});
@@ -99,7 +101,7 @@ TEST_F(TraceCommand, SaysThatNothingWasFoundAndWhatItCouldHaveSeen) {
   EXPECT_EQ(trace().at("verdict"), "nothing_missing");
 }
 
-TEST_F(TraceCommand, ForgetsTheLawOfAnEarlierTrace) {
+TEST_F(SlowTraceCommand, ForgetsTheLawOfAnEarlierTrace) {
   make({humidity});
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
   ASSERT_EQ(run_frictab({"trace", job}).exit_code, 0);
@@ -109,7 +111,7 @@ TEST_F(TraceCommand, ForgetsTheLawOfAnEarlierTrace) {
   EXPECT_EQ(directory.read("out/calibration.json").find("humidity_pct"), std::string::npos);
 }
 
-TEST_F(TraceCommand, TracesEveryLawAskedFor) {
+TEST_F(SlowTraceCommand, TracesEveryLawAskedFor) {
   // (Coulomb's law lacks much here: few tests, so that a search is quick.)
   make({humidity}, "", "p=500,2750;psi=1,20;v=5,500;T=20,200;points=20");
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
@@ -120,7 +122,7 @@ TEST_F(TraceCommand, TracesEveryLawAskedFor) {
   EXPECT_EQ(t.at("others").at(0).at("model"), "coulomb");
 }
 
-TEST_F(TraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
+TEST_F(SlowTraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
   make({"form=saturation,column=friction_work,strength=0.5"});
   const auto result = run_frictab({"run", job});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -128,7 +130,7 @@ TEST_F(TraceCommand, ReportShowsAHistoryOfTheLawsOwnStress) {
   EXPECT_THAT(directory.read("out/report.html"), HasSubstr("friction_work"));
 }
 
-TEST_F(TraceCommand, ALawThatIsExactLacksNothing) {
+TEST_F(SlowTraceCommand, ALawThatIsExactLacksNothing) {
   ASSERT_EQ(run_frictab({"twin", directory.path("data"), "-q", "--law", "coulomb", "--noise-scale",
                          "0", "--design", "points=40;p=500,2000;psi=1,20;v=5;T=20,200"})
                 .exit_code,

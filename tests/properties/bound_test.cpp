@@ -49,9 +49,9 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-class BoundOfEveryLaw : public testing::TestWithParam<std::string> {};
+class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 
-TEST_P(BoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
+TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
   for (const char* interpolation : {"linear", "cubic"}) {
     const Case one = of_law(GetParam(), interpolation);
     const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, one.worst, 0.5);
@@ -61,7 +61,7 @@ TEST_P(BoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, BoundOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(law_names()), test_name);
 
 // Away from its law by a known amount: what is added to a node must come out again.
 TEST(Bound, IsAboveATableThatIsWrong) {
@@ -92,7 +92,7 @@ TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
     }
 }
 
-TEST(Bound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
+TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
   const Model model = test::network_model();
   const std::vector<StateRange> ranges = {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},

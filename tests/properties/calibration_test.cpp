@@ -76,7 +76,7 @@ TEST_P(EveryFittedLaw, ModelFileReadsBackToTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryFittedLaw, testing::ValuesIn(fitted_laws()));
 
-TEST(Calibration, OrowanFindsTheBestOfItsSeveralMinima) {
+TEST(SlowCalibration, OrowanFindsTheBestOfItsSeveralMinima) {
   // Brute force over a fine grid must not find anything better than the fit.
   const Law& law = *find_law("orowan");
   test::SampleOptions options;
@@ -118,7 +118,7 @@ TEST(Calibration, FixedConstantsAreNotTouched) {
   EXPECT_EQ(fit_of("shear_0.12", data).model.parameters, std::vector<double>{0.12});
 }
 
-TEST(Calibration, DoesNotDependOnTheNumberOfThreads) {
+TEST(SlowCalibration, DoesNotDependOnTheNumberOfThreads) {
   test::SampleOptions options;
   options.experiments = 200; // enough rows for every thinned copy
   options.noise_MPa = 8;

@@ -44,7 +44,7 @@ std::vector<LawErrors> exchangeable(std::size_t laws, std::size_t experiments, R
   return errors;
 }
 
-TEST(Comparison, OfALawWithItselfIsExactlyZero) {
+TEST(SlowComparison, OfALawWithItselfIsExactlyZero) {
   const std::vector<double> mae{3, 8, 1, 12, 5, 6, 2};
   const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", mae)}, 500, 1);
   ASSERT_EQ(c.pairs.size(), 1u);
@@ -58,7 +58,7 @@ TEST(Comparison, OfALawWithItselfIsExactlyZero) {
   EXPECT_THAT(possibly_best(c), ElementsAre("a", "b"));
 }
 
-TEST(Comparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
+TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
   std::vector<double> mae{3, 8, 1, 12, 5, 6, 2}, worse = mae;
   for (double& value : worse)
     value += 1;
@@ -70,7 +70,7 @@ TEST(Comparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
   EXPECT_THAT(possibly_best(c), ElementsAre("a"));
 }
 
-TEST(Comparison, FindsADifferenceThatTheSeparateIntervalsHide) {
+TEST(SlowComparison, FindsADifferenceThatTheSeparateIntervalsHide) {
   Random random(5);
   std::vector<double> better, worse;
   std::vector<std::size_t> first_row{0};
@@ -84,7 +84,7 @@ TEST(Comparison, FindsADifferenceThatTheSeparateIntervalsHide) {
   EXPECT_TRUE(compare(laws, 1000, 1).pairs[0].mae.distinguishable());
 }
 
-TEST(Comparison, IntervalLeavesZeroOutExactlyWhereThePValueIsBelowFivePercent) {
+TEST(SlowComparison, IntervalLeavesZeroOutExactlyWhereThePValueIsBelowFivePercent) {
   Random random(9);
   int distinguishable = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
@@ -98,7 +98,7 @@ TEST(Comparison, IntervalLeavesZeroOutExactlyWhereThePValueIsBelowFivePercent) {
   EXPECT_GT(distinguishable, 5);
 }
 
-TEST(Comparison, KeepsPairsInTheOrderOfRanks) {
+TEST(SlowComparison, KeepsPairsInTheOrderOfRanks) {
   Random random(1);
   const Comparisons c = compare(exchangeable(4, 10, random), 200, 1);
   std::vector<std::string> pairs;
@@ -109,7 +109,7 @@ TEST(Comparison, KeepsPairsInTheOrderOfRanks) {
 }
 
 // Kolmogorov-Smirnov: 1.63/sqrt(n) is passed by 1 of 100 uniform samples.
-TEST(Comparison, PValuesOfEquallyGoodLawsAreUniform) {
+TEST(SlowComparison, PValuesOfEquallyGoodLawsAreUniform) {
   constexpr std::size_t pairs = 200;
   std::vector<double> mae, rmse;
   Random random(11);
@@ -129,7 +129,7 @@ TEST(Comparison, PValuesOfEquallyGoodLawsAreUniform) {
 }
 
 // Pair by pair, the leader of 8 equally good laws beats one of them far more often than 5 %.
-TEST(Comparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
+TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
   constexpr int campaigns = 200;
   Random random(12);
   int first_excluded = 0, one_left = 0, naive = 0;
@@ -150,7 +150,7 @@ TEST(Comparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
   EXPECT_GT(naive, 0.2 * campaigns) << "why the family-wise answer is needed";
 }
 
-TEST(Comparison, IsTheSameForAnyNumberOfThreads) {
+TEST(SlowComparison, IsTheSameForAnyNumberOfThreads) {
   Random random(3);
   const auto laws = exchangeable(5, 12, random);
   Calibration one, two;
@@ -162,7 +162,7 @@ TEST(Comparison, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(calibration_json(one), calibration_json(two));
 }
 
-TEST(Comparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
+TEST(SlowComparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
   const std::vector<LawErrors> one{law("a", {3}), law("b", {4})};
   EXPECT_TRUE(compare(one, 500, 1).pairs.empty());
   const std::vector<LawErrors> two{law("a", {3, 4}), law("b", {4, 9})};
@@ -171,7 +171,7 @@ TEST(Comparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
   EXPECT_EQ(family_sentence(compare(one, 500, 1)), "");
 }
 
-TEST(Comparison, IsSaidInTheseWords) {
+TEST(SlowComparison, IsSaidInTheseWords) {
   Comparisons c;
   c.laws = {"a", "b", "c"};
   c.best_p_values = {1, 0.3, 0.01};

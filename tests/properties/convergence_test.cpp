@@ -104,7 +104,7 @@ const std::vector<Shape> shapes = {
      }},
 };
 
-class Convergence : public testing::TestWithParam<std::string> {};
+class SlowConvergence : public testing::TestWithParam<std::string> {};
 
 // The least loss of 50 starts spread over the bounds, each polished on all rows. L1 is polished
 // with a rounding that is small to `scatter`, and then taken without.
@@ -129,7 +129,7 @@ double best_of_many(const FitProblem& problem, Loss kind, double scatter) {
   return best;
 }
 
-TEST_P(Convergence, NoneOf50StartsFindsABetterFit) {
+TEST_P(SlowConvergence, NoneOf50StartsFindsABetterFit) {
   const Model truth = test::plausible_model(*find_law(GetParam()));
   const Law& law = *truth.law;
   const auto names = inputs(law, {});
@@ -151,7 +151,7 @@ TEST_P(Convergence, NoneOf50StartsFindsABetterFit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Convergence, testing::ValuesIn([] {
+INSTANTIATE_TEST_SUITE_P(Registry, SlowConvergence, testing::ValuesIn([] {
                            std::vector<std::string> names;
                            for (const Law& law : all_laws())
                              if (law.calibrated == Calibrated::fit) names.push_back(law.name);

@@ -36,9 +36,9 @@ Dataset campaign(const Model& truth, std::uint64_t replicate) {
   return data;
 }
 
-class Coverage : public testing::TestWithParam<std::tuple<const char*, Loss>> {};
+class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, Loss>> {};
 
-TEST_P(Coverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
+TEST_P(SlowCoverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
   const auto [name, loss] = GetParam();
   const Model truth = test::plausible_model(*find_law(name));
   const std::size_t size = truth.parameters.size();
@@ -63,7 +63,7 @@ TEST_P(Coverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sandwich, Coverage,
+INSTANTIATE_TEST_SUITE_P(Sandwich, SlowCoverage,
                          testing::Combine(testing::Values("coulomb", "orowan", "log_coulomb"),
                                           testing::Values(Loss::l2, Loss::l1)),
                          [](const auto& test) {

@@ -80,13 +80,13 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-class DirectFormOfEveryLaw : public testing::TestWithParam<std::string> {};
+class SlowDirectFormOfEveryLaw : public testing::TestWithParam<std::string> {};
 
-TEST_P(DirectFormOfEveryLaw, IsTheLawTo1e12InEveryTarget) {
+TEST_P(SlowDirectFormOfEveryLaw, IsTheLawTo1e12InEveryTarget) {
   expect_law(test::plausible_model(*find_law(GetParam())));
 }
 
-TEST_P(DirectFormOfEveryLaw, HasTheLawsOwnGradient) {
+TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
   const Model model = test::plausible_model(*find_law(GetParam()));
   const Table table = direct_of(model);
   const TableFunction direct(table);
@@ -103,9 +103,10 @@ TEST_P(DirectFormOfEveryLaw, HasTheLawsOwnGradient) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, DirectFormOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryLaw, testing::ValuesIn(law_names()),
+                         test_name);
 
-TEST(DirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
+TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
   expect_law(test::network_model(20, 8));
 }
 

@@ -45,9 +45,9 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-class ToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
+class SlowToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
 
-TEST_P(ToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
+TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
   for (const char* coordinates : {"law", "plain"})
     for (const char* interpolation : {"linear", "cubic"})
       for (const double tolerance : {0.5, 0.1}) {
@@ -64,7 +64,7 @@ TEST_P(ToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
       }
 }
 
-TEST_P(ToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
+TEST_P(SlowToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
   TableOptions options;
   options.coordinates = "plain";
   const Table table = make(GetParam(), options).table;
@@ -73,7 +73,7 @@ TEST_P(ToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
     EXPECT_FALSE(axis.log) << axis.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, ToleranceOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Laws, SlowToleranceOfEveryLaw, testing::ValuesIn(law_names()), test_name);
 
 TEST(Budget, IsKeptAndMoreNodesAreCloser) {
   for (const char* law : {"wanheim_bay", "levanov"}) {

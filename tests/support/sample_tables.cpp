@@ -232,6 +232,24 @@ Table history_table() {
   return table;
 }
 
+Table example_table() {
+  Table table;
+  table.model = "example";
+  table.axes = {axis("sigma_n_MPa", false, {500, 1000, 2000, 2750}),
+                axis("v_rel_mm_s", false, {5, 100, 500}),
+                axis("T_contact_C", false, {20, 110, 200})};
+  for (int p = 0; p < 4; ++p)
+    for (int v = 0; v < 3; ++v)
+      for (int t = 0; t < 3; ++t)
+        table.value.push_back((120 - 12 * p - 4 * v + 3 * t) / 1000.0);
+  table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
+  table.constants = {{"m", 0.8}};
+  table.text_attributes = {{"data_origin", "made up, to be read"}};
+  table.number_attributes = {
+      {"worst_case_MPa", 0.4}, {"range_low_sigma_f_MPa", 240}, {"range_high_sigma_f_MPa", 960}};
+  return table;
+}
+
 const std::vector<NamedTable>& sample_tables() {
   static const std::vector<NamedTable> tables = {{"constant", constant_table()},
                                                  {"one_axis", one_axis_table()},

@@ -25,6 +25,9 @@ Table sides_table();    // each way to go on beyond an end; uneven nodes; ln val
 Table direct_table();   // no values: a closed form, on some sides held at its range
 Table direct_network(); // no values: three nets of four units
 
+// Of plain numbers, for people to read: what every target writes of it lies in examples/generated.
+Table example_table();
+
 // Axes friction_work and peak_sigma_n, as traced effects add them; not among sample_tables().
 Table history_table();
 

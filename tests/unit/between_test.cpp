@@ -111,7 +111,7 @@ TEST(Between, ThreeColumnsThatHideEachOtherAreNamedTogether) {
   EXPECT_NEAR(sum / all * 20, 0.03, 0.004);
 }
 
-TEST(Between, NoiseIsNamedNoMoreOftenThanAsked) {
+TEST(SlowBetween, NoiseIsNamedNoMoreOftenThanAsked) {
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Campaign c(24, 0.05, seed);
@@ -204,7 +204,7 @@ TEST(Between, WhatIsKnownIsNotFoundAgain) {
   EXPECT_LT(p_beside(c.gains, MatrixXd(24, 0), shapes.front()), 1e-9);
 }
 
-TEST(Between, TheSmallestDifferenceItCouldHaveSeenIsSeenInFourOfFive) {
+TEST(SlowBetween, TheSmallestDifferenceItCouldHaveSeenIsSeenInFourOfFive) {
   int seen = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Campaign c(24, 0.05, seed);

@@ -46,9 +46,9 @@ Box random_box(Random& random) {
   return {{x, x + wide}, {y, y + wide * random.uniform()}};
 }
 
-class EncloseFormula : public testing::TestWithParam<const char*> {};
+class SlowEncloseFormula : public testing::TestWithParam<const char*> {};
 
-TEST_P(EncloseFormula, TaylorModelsHoldEveryValueInTheBox) {
+TEST_P(SlowEncloseFormula, TaylorModelsHoldEveryValueInTheBox) {
   const Expr formula = parse_expr(GetParam());
   for (const bool logarithmic : {false, true}) {
     const std::set<std::string> log_symbols =
@@ -85,7 +85,7 @@ TEST_P(EncloseFormula, TaylorModelsHoldEveryValueInTheBox) {
   }
 }
 
-TEST_P(EncloseFormula, BoundsAndSlopesHoldBetweenAnyTwoValues) {
+TEST_P(SlowEncloseFormula, BoundsAndSlopesHoldBetweenAnyTwoValues) {
   const Expr formula = parse_expr(GetParam());
   if (formula.op() == Op::where_le) return; // it jumps, and says so: below
   const Sensitivity sensitivity(formula, xy, "x");
@@ -108,7 +108,7 @@ TEST_P(EncloseFormula, BoundsAndSlopesHoldBetweenAnyTwoValues) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formulas, EncloseFormula, testing::ValuesIn(formulas));
+INSTANTIATE_TEST_SUITE_P(Formulas, SlowEncloseFormula, testing::ValuesIn(formulas));
 
 TEST(Enclosure, ErrorFallsWithThePowerOfTheDegree) {
   const Expr formula = parse_expr("exp(0.2*tanh(x - 1) - 0.1*tanh(y + x))");

@@ -151,12 +151,12 @@ TEST(NetworkFit, MinimisesTheGeneralisedLeastSquaresOfAnExplicitCovariance) {
     }
 }
 
-TEST(NeuralNetwork, FindsASmoothLawFromNoiseFreeExperiments) {
+TEST(SlowNeuralNetwork, FindsASmoothLawFromNoiseFreeExperiments) {
   const double error = mean_error(trained_on(campaign(0, 0, 1)), campaign(0, 0, 2));
   EXPECT_LT(error, 2.5) << "MPa, on other experiments";
 }
 
-TEST(NeuralNetwork, DoesNotLearnTheFactorOfAnExperiment) {
+TEST(SlowNeuralNetwork, DoesNotLearnTheFactorOfAnExperiment) {
   // Each experiment has a factor of its own (standard deviation 8 %) that no input explains: a net
   // that learnt it would predict its own training experiments far better than they scatter.
   const Dataset training = campaign(0.08, 2, 1);
@@ -169,7 +169,7 @@ TEST(NeuralNetwork, DoesNotLearnTheFactorOfAnExperiment) {
   EXPECT_LT(off, 6) << "MPa from the truth on other experiments";
 }
 
-TEST(NeuralNetwork, IsTheSameForAnyNumberOfThreads) {
+TEST(SlowNeuralNetwork, IsTheSameForAnyNumberOfThreads) {
   const Dataset data = campaign(0.05, 5, 3, 12);
   const auto text = [&] { return to_text(tau_formula(trained_on(data).law, {})); };
   set_threads(1);
@@ -180,12 +180,12 @@ TEST(NeuralNetwork, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
-TEST(NeuralNetwork, DependsOnTheSeed) {
+TEST(SlowNeuralNetwork, DependsOnTheSeed) {
   const Dataset data = campaign(0.05, 5, 3, 12);
   EXPECT_NE(trained_on(data, 1).record.cv_rmse_MPa, trained_on(data, 2).record.cv_rmse_MPa);
 }
 
-TEST(NeuralNetwork, NeverSeesTheValidationExperiments) {
+TEST(SlowNeuralNetwork, NeverSeesTheValidationExperiments) {
   const Dataset training = campaign(0.05, 5, 3, 12);
   const auto formula = [&](const Dataset& validation) {
     CalibrationInput input{training, validation, {}, {}};

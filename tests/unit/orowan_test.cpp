@@ -34,7 +34,7 @@ Rows random_rows(std::uint64_t seed, std::size_t count, double noise) {
   return rows;
 }
 
-TEST(OrowanOptimum, IsNowhereAboveAFineGridOverTheBounds) {
+TEST(SlowOrowanOptimum, IsNowhereAboveAFineGridOverTheBounds) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Rows rows = random_rows(seed, seed % 3 == 0 ? 4 : 25, seed % 2 ? 5 : 80);
     const OrowanPoint best = orowan_optimum(rows.view(), 0).front();
@@ -52,7 +52,7 @@ TEST(OrowanOptimum, IsNowhereAboveAFineGridOverTheBounds) {
   }
 }
 
-TEST(OrowanOptimum, RespectsTheBounds) {
+TEST(SlowOrowanOptimum, RespectsTheBounds) {
   // mu = 2 and m = 1.5 would fit: both are held at 1.
   Rows rows{{100, 110, 900, 1000}, {300, 310, 100, 110}, {200, 220, 150, 165}};
   const OrowanPoint best = orowan_optimum(rows.view(), 0).front();
@@ -60,7 +60,7 @@ TEST(OrowanOptimum, RespectsTheBounds) {
   EXPECT_DOUBLE_EQ(best.m, 1);
 }
 
-TEST(OrowanOptimum, LeavesFreeWhatTheRowsDoNotTell) {
+TEST(SlowOrowanOptimum, LeavesFreeWhatTheRowsDoNotTell) {
   Rows coulomb{{100, 200, 300}, {400, 400, 400}, {10, 20, 30}};
   const OrowanPoint slides = orowan_optimum(coulomb.view(), 0).front();
   EXPECT_NEAR(slides.mu, 0.1, 1e-15);
@@ -71,7 +71,7 @@ TEST(OrowanOptimum, LeavesFreeWhatTheRowsDoNotTell) {
   EXPECT_GT(sticks.mu * 1000, 80.001) << "Coulomb friction is out of the way";
 }
 
-TEST(OrowanOptimum, DoesNotDependOnTheOrderOfRowsOrOnRatiosThatAgree) {
+TEST(SlowOrowanOptimum, DoesNotDependOnTheOrderOfRowsOrOnRatiosThatAgree) {
   Rows rows = random_rows(7, 300, 10);
   for (std::size_t i = 0; i < 300; i += 2) { // half of all ratios are 3
     rows.k[i] = 200;

@@ -68,6 +68,8 @@ protected:
   test::TemporaryDirectory directory;
 };
 
+using SlowStreamedTableFile = StreamedTableFile;
+
 TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
   const Case c;
   ASSERT_TRUE(is_streamed(c.model, c.ranges, c.options));
@@ -101,7 +103,7 @@ TEST_F(StreamedTableFile, AnswersWithTheSameBitsAsTheTableInMemory) {
   }
 }
 
-TEST_F(StreamedTableFile, IsTheSameFileOnAnyNumberOfThreadsAndHoweverInterrupted) {
+TEST_F(SlowStreamedTableFile, IsTheSameFileOnAnyNumberOfThreadsAndHoweverInterrupted) {
   const Case c;
   set_threads(1);
   complete(c, stream(c));

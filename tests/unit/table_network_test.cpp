@@ -7,7 +7,7 @@
 namespace frictab {
 namespace {
 
-TEST(Table, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
+TEST(SlowTable, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
   const Model model = test::network_model();
   std::vector<StateRange> ranges = {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},

@@ -56,6 +56,8 @@ TableOptions options_of(const std::string& interpolation, double tolerance = 0.5
 }
 const char* const interpolations[] = {"linear", "cubic"};
 
+class SlowTableOfEveryLaw : public TableOfEveryLaw {};
+
 TEST_P(TableOfEveryLaw, MeetsTheAskedToleranceOverTheWholeRange) {
   for (const char* interpolation : interpolations)
     for (const double tolerance : {1.0, 0.05}) {
@@ -88,7 +90,7 @@ void expect_rebuilt(const Table& table) {
   EXPECT_EQ(test::rebuilt_by_python(table).substr(0, 3), "ok ");
 }
 
-TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
+TEST_P(SlowTableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
   const std::string python = FRICTAB_PYTHON;
   if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, scipy, xarray"}).exit_code !=
       0)
@@ -98,6 +100,7 @@ TEST_P(TableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowTableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
 
 TEST(Table, ProductsOfPowersAndLogarithmsNeedTwoNodesPerAxis) {
   for (const char* law : {"log_coulomb", "exp_coulomb"}) {

@@ -157,9 +157,9 @@ struct Planted {
   const char* acts_on;
 };
 
-class TracePlanted : public testing::TestWithParam<Planted> {};
+class SlowTracePlanted : public testing::TestWithParam<Planted> {};
 
-TEST_P(TracePlanted, EffectIsFoundPlacedAndRemoved) {
+TEST_P(SlowTracePlanted, EffectIsFoundPlacedAndRemoved) {
   const Planted& p = GetParam();
   const Trace t = traced(campaign("log_coulomb", 4, p.effect));
   ASSERT_EQ(t.verdict, Verdict::effect_added) << trace_text(t);
@@ -185,7 +185,7 @@ std::string name_of(const testing::TestParamInfo<Planted>& test) {
 
 // Twice as large as an 81-test campaign needs them.
 INSTANTIATE_TEST_SUITE_P(
-    Effects, TracePlanted,
+    Effects, SlowTracePlanted,
     testing::Values(Planted{"form=saturation,column=s_mm,strength=0.6", "s_mm", "mu"},
                     Planted{"form=power,column=humidity_pct,strength=0.6", "humidity_pct", "mu"},
                     Planted{"form=category,column=tool,strength=0.6", "tool", "mu"},
@@ -255,7 +255,7 @@ TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
 }
 
 // Also where a search sees a part of the tests only, which are not numbered without gaps.
-TEST(Trace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
+TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   TwinOptions options = campaign("log_coulomb", 6, "form=category,column=tool,strength=0.6");
   options.effects.push_back(parse_effect("form=linear,column=latent,latent=drift,strength=0.6"));
   options.design = parse_design("points=15", *options.design);
@@ -273,7 +273,7 @@ TEST(Trace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   EXPECT_EQ(trace_json({by_name}, true), trace_json({by_job}, true));
 }
 
-TEST(Trace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
+TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
   for (const char* hidden : {"latent=order,on=tau", "latent=batch"}) {
     const Trace t =
         traced(campaign("log_coulomb", 3,
@@ -284,7 +284,7 @@ TEST(Trace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
   }
 }
 
-TEST(Trace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
+TEST(SlowTrace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
   TraceOptions how = declared_order();
   how.tool_distance = "run_order";
   const Trace t =
@@ -361,7 +361,7 @@ TEST(Trace, IgnoredColumnsCannotBeACause) {
 }
 
 // One trace for what would cost three.
-TEST(Trace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
+TEST(SlowTrace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
   const TwinOptions options =
       campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
   set_threads(1);
@@ -393,7 +393,7 @@ void expect_same(const Trace& one, const Trace& other, const char* what) {
 }
 
 // (Coulomb's law: log_coulomb bounds the stress in its logarithm at 1 kPa, which a unit moves.)
-TEST(Trace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
+TEST(SlowTrace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
   TwinOptions options = campaign("coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
   options.design = parse_design("points=15", *options.design); // five traces
   const Data data = data_of(options);
@@ -444,7 +444,7 @@ Data with_factor(double size, double in_validation) {
   return data;
 }
 
-TEST(Trace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
+TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
   const Trace good = traced(with_factor(0.3, 1), "log_coulomb");
   EXPECT_EQ(good.verdict, Verdict::effect_added) << trace_text(good);
   EXPECT_EQ(causes(good), std::vector<std::string>{"wire"});
@@ -515,7 +515,7 @@ TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {
 }
 
 // Rates over small campaigns; frictab_bench_trace has the large set and the table.
-TEST(TraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
+TEST(SlowTraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   const std::pair<const char*, const char*> planted[] = {
       {"exponential", "T_tool_C"}, {"linear", "Ra_um"},
       {"logarithmic", "film_um"},  {"bump", "T_contact_C"},
@@ -534,7 +534,7 @@ TEST(TraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   EXPECT_GE(named, 7);
 }
 
-TEST(TraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
+TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
   int found = 0, added = 0, flagged = 0;
   for (std::uint64_t seed = 31; seed < 41; ++seed)
     for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
@@ -553,7 +553,7 @@ TEST(TraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
   EXPECT_LE(flagged, 3);
 }
 
-TEST(TraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
+TEST(SlowTraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
   for (const char* hidden : {"direction", "dwell_s", "film_um"})
     for (const std::uint64_t seed : {51u, 52u}) {
       TwinOptions options =

@@ -168,9 +168,9 @@ double strength_by_hand(const TwinPart& part) {
   return mae(part.base_MPa) / mae(part.oracle_MPa) - 1;
 }
 
-class PlantedStrength : public testing::TestWithParam<const char*> {};
+class SlowPlantedStrength : public testing::TestWithParam<const char*> {};
 
-TEST_P(PlantedStrength, IsWhatWasAskedFor) {
+TEST_P(SlowPlantedStrength, IsWhatWasAskedFor) {
   for (const double strength : {0.05, 0.15, 0.5}) {
     const std::string spec = GetParam() + (",strength=" + std::to_string(strength));
     const Twin twin = twin_of(3, {spec}, "points=110");
@@ -181,7 +181,7 @@ TEST_P(PlantedStrength, IsWhatWasAskedFor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Effects, PlantedStrength,
+    Effects, SlowPlantedStrength,
     testing::Values(
         "form=power,column=humidity_pct", "form=exponential,column=T_tool_C",
         "form=linear,column=Ra_um", "form=logarithmic,column=film_um",

@@ -1,0 +1,132 @@
+// Every target, every way to compile it, every sample table: the generated routine, called as its
+// solver calls it, gives what frictab's own evaluation gives.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "codegen/compile.h"
+#include "codegen/exporter.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+// log, exp and pow come from the same libm on both sides; what is left is the order of operations.
+constexpr double double_bound = 1e-13;
+// Each input is rounded to 24 bits before it is looked up, and the steepest sample table changes by
+// a factor of 10 within 30 % of an axis: 2^-24 * (10 per 0.3) * 6 inputs, and the result's own
+// rounding.
+constexpr double single_bound = 2e-5;
+
+struct Case {
+  std::string target;
+  std::string units;
+};
+
+class SlowAgreement : public testing::TestWithParam<Case> {};
+
+void compare(const Exporter& exporter, const ExportRequest& request, std::size_t rows,
+             const std::map<std::string, double>& fixed) {
+  const test::States states(request.table, rows, 11, 0.1, fixed);
+  const std::vector<double> truth = test::expected(request.table, states);
+  const SourceBundle bundle = exporter.generate(request);
+  for (const BuildVariant& variant : exporter.variants(request)) {
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is not installed";
+    std::vector<double> tau(rows, -1);
+    CompiledTarget(exporter, request, bundle, variant).drive(rows, states.columns(), tau);
+    const double bound = variant.eps < 1e-10 ? double_bound : single_bound;
+    EXPECT_LE(test::worst_relative(tau, truth), bound) << exporter.name << "/" << variant.name;
+  }
+}
+
+// The law alone, in C and in Fortran, over two million states; what stands around the same core in
+// a solver's routine over a tenth of them.
+TEST_P(SlowAgreement, OfTheRoutineWithFrictabItself) {
+  const Exporter& exporter = *find_exporter(GetParam().target);
+  const std::size_t rows = exporter.batch ? 200000 : 20000;
+  for (const test::NamedTable& sample : test::sample_tables()) {
+    SCOPED_TRACE(sample.name);
+    const test::SampleRequest sampled(exporter, sample.table, GetParam().units);
+    const ExportRequest request = sampled.get();
+    // Properties are constants of a call: most points share them, as in a solver.
+    const std::map<std::string, double> fixed = {
+        {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};
+    compare(exporter, request, rows, fixed);
+    compare(exporter, request, 2000, {});
+  }
+}
+
+// The table alone: what is interpolated is tau_R.
+Table without_formula(Table table) {
+  table.combine = Expr::symbol("value");
+  table.constants.clear();
+  table.extension.reset();
+  for (TableAxis& axis : table.axes)
+    axis.below = axis.above = Outside::clamp;
+  return table;
+}
+
+TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
+  const Exporter &c = *find_exporter("c"), &fortran = *find_exporter("abaqus_vfric");
+  for (const test::NamedTable& sample : test::sample_tables()) {
+    SCOPED_TRACE(sample.name);
+    const Table table = without_formula(sample.table);
+    if (table.axes.empty() || table.is_direct()) continue;
+    const ExportRequest request{table, "mm-t-s", {}};
+    const test::States states(table, 20000, 17, 0.1);
+    const std::vector<double> truth = test::expected(table, states);
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{}, {"-march=native", "-O3"}, {"-DFT_PLAIN", "-O1"}}) {
+      BuildVariant build = c.variants(request)[0];
+      if (!have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
+      build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
+      std::vector<double> tau(states.rows());
+      CompiledTarget(c, request, c.generate(request), build)
+          .drive(states.rows(), states.columns(), tau);
+      EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
+    }
+    const Exporter& free_form = *find_exporter("fortran");
+    const BuildVariant build = free_form.variants(request)[0];
+    if (!have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
+    std::vector<double> tau(states.rows());
+    CompiledTarget(free_form, request, free_form.generate(request), build)
+        .drive(states.rows(), states.columns(), tau);
+    EXPECT_EQ(tau, truth) << "Fortran 2008";
+    const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");
+    if (!library) GTEST_SKIP() << "gfortran is not installed";
+    const auto interpolate = library->find<double(const double*)>("ftintp_");
+    const std::vector<std::string> inputs = table.inputs();
+    for (std::size_t i = 0; i < states.rows(); ++i) {
+      std::vector<double> u;
+      for (const TableAxis& axis : table.axes) {
+        const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
+        const double x = states.columns()[static_cast<std::size_t>(input)][i];
+        u.push_back(axis.log ? std::log(x) : x);
+      }
+      const double value = interpolate(u.data());
+      ASSERT_EQ(table.log_value ? std::exp(value) : value, truth[i]) << "Fortran";
+    }
+  }
+}
+
+std::vector<Case> every_routine() {
+  std::vector<Case> cases;
+  for (const Exporter& exporter : all_exporters())
+    for (const char* units : {"mm-t-s", "m-kg-s"})
+      if (exporter.whole()) cases.push_back({exporter.name, units});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, SlowAgreement, testing::ValuesIn(every_routine()),
+                         [](const testing::TestParamInfo<Case>& given) {
+                           std::string name = given.param.target + "_" + given.param.units;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+} // namespace
+
+} // namespace frictab

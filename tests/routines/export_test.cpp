@@ -1,0 +1,201 @@
+// Exporters as a whole: what is refused, what the recipe says, that strict compilers are content.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal(const ExportRequest& request, const std::string& target = "abaqus_vfric") {
+  try {
+    find_exporter(target)->generate(request);
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
+  return nlohmann::json::parse(find_exporter(target)->generate(request).at("recipe.json"));
+}
+
+TEST(SlowExport, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  for (const Exporter& exporter : all_exporters())
+    for (const test::NamedTable& sample : test::sample_tables()) {
+      const test::SampleRequest sampled(exporter, sample.table, "mm-t-s");
+      const ExportRequest request = sampled.get();
+      for (const BuildVariant& variant : exporter.variants(request)) {
+        if (variant.program() != "gfortran") continue;
+        SCOPED_TRACE(exporter.name + " " + sample.name + " " + variant.name);
+        // The include's constants and the solver's other arguments are not ours to use.
+        EXPECT_NO_THROW(test::compiled(sample.name + " warnings", exporter, request, variant.name,
+                                       {"-Wall", "-Wextra", "-Werror", "-Wno-unused-dummy-argument",
+                                        "-Wno-unused-parameter"}));
+      }
+    }
+}
+
+TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {
+  const Table table = test::four_axis_table();
+  const std::string what = refusal({table,
+                                    "mm-t-s",
+                                    {{"sigma_n_MPa", "property"},
+                                     {"psi", "constant:abc"},
+                                     {"T_contact_C", "state"},
+                                     {"sigma_f_MPa", "constant:-5"},
+                                     {"v_rel_mm_z", "property"}}});
+  EXPECT_THAT(what, HasSubstr("export.inputs.sigma_n_MPa: error: the solver gives this state"));
+  EXPECT_THAT(what, HasSubstr("'abc' is not a number"));
+  EXPECT_THAT(what, HasSubstr("'state' is no source of a state"));
+  EXPECT_THAT(what, HasSubstr("-5 is below the smallest possible sigma_f_MPa"));
+  EXPECT_THAT(what, HasSubstr("did you mean 'v_rel_mm_s'?"));
+}
+
+TEST(Export, RefusesFieldNumbersThatAreNone) {
+  const Table table = test::four_axis_table();
+  for (const std::string choice : {"field:0", "field:", "field:-1", "field:1.5", "field:99999"})
+    EXPECT_THAT(refusal({table, "mm-t-s", {{"psi", choice}}}),
+                HasSubstr("names no field variable"));
+}
+
+TEST(Export, RefusesUnknownUnitSystemsInEveryTarget) {
+  const Table table = test::constant_table();
+  for (const Exporter& exporter : all_exporters())
+    EXPECT_THAT(refusal({table, "inch", {}}, exporter.name),
+                HasSubstr("unknown unit system 'inch'"));
+}
+
+TEST(Export, RefusesTablesThatCannotBecomeCode) {
+  for (const Exporter& exporter : all_exporters()) {
+    Table table = test::one_axis_table();
+    table.value[1] = std::nan("");
+    table.interpolation = "quintic";
+    table.axes[0].nodes[2] = table.axes[0].nodes[1];
+    const std::string what = refusal({table, "mm-t-s", {}}, exporter.name);
+    EXPECT_THAT(what, testing::AllOf(HasSubstr("not finite"), HasSubstr("'quintic' interpolation"),
+                                     HasSubstr("axis 'psi' do not ascend")));
+    table = test::one_axis_table();
+    table.value.pop_back();
+    EXPECT_THAT(refusal({table, "mm-t-s", {}}, exporter.name), HasSubstr("4 values for 5 nodes"));
+  }
+}
+
+TEST(Export, RefusesTablesNoCompilerTakesAndNamesTheRemedy) {
+  Table table = test::one_axis_table();
+  table.axes[0].nodes.clear();
+  for (int i = 0; i < 200000; ++i)
+    table.axes[0].nodes.push_back(1 + i);
+  table.value.assign(200000, 1.0);
+  for (const Exporter& exporter : all_exporters()) { // a file would still leave nodes and widths
+    if (!exporter.whole()) continue;
+    const char* numbers = exporter.name == "qform_lua" ? "600,000" : "400,000";
+    EXPECT_THAT(
+        refusal({table, "mm-t-s", {}}, exporter.name),
+        testing::AllOf(HasSubstr(std::string("needs ") + numbers + " numbers in the source"),
+                       HasSubstr("table.interpolation = \"cubic\"")));
+  }
+}
+
+TEST(Export, NamesAndTextsFromOutsideStayInsideComments) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  Table table = test::one_axis_table();
+  table.model = "a */ int x; /*\n      stop 'x'";
+  table.text_attributes["data_origin"] = std::string(300, 'w') + "\r\n*/\xff";
+  const ExportRequest request{table, "mm-t-s", {}};
+  EXPECT_NO_THROW(test::compiled("hostile", *find_exporter("c"), request, "c99", {"-Werror"}));
+  EXPECT_NO_THROW(test::compiled("hostile", *find_exporter("abaqus_vfric"), request, "double"));
+}
+
+TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
+  const Table table = test::four_axis_table();
+  const nlohmann::json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
+  EXPECT_EQ(out["entry"], "vfric");
+  EXPECT_THAT(std::string(out["input_deck"]),
+              HasSubstr("*Friction, user, depvar=6, properties=3\n 4.47214, 110, 4.8e+08\n"));
+  EXPECT_EQ(out["properties"][2]["unit"], "Pa");
+  EXPECT_EQ(out["state_variables"].size(), 6u);
+  EXPECT_EQ(out["state_variables"][1]["unit"], "Pa*m");
+  EXPECT_THAT(std::string(out["signature_source"]),
+              testing::AllOf(HasSubstr("verified:"), HasSubstr("Recalled")));
+  EXPECT_THAT(std::string(out["data_origin"]), HasSubstr("synthetic"));
+  EXPECT_EQ(out["table"]["axes"][0]["range"][1], 2750.0);
+  EXPECT_EQ(out["table"]["worst_case_MPa"], 0.31);
+}
+
+TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {
+  const Table table = test::constant_table();
+  const nlohmann::json out = recipe("abaqus_vfric", {table, "mm-t-s", {}});
+  EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=6\n*Contact"));
+  EXPECT_TRUE(out["properties"].empty());
+}
+
+TEST(Export, RecipeListsTheCArgumentsInContractOrderAndTracedOnesBehind) {
+  const Table table = test::traced_table();
+  std::vector<std::string> names;
+  const nlohmann::json out = recipe("c", {table, "mm-t-s", {}});
+  for (const auto& argument : out["arguments"])
+    names.push_back(argument["quantity"]);
+  EXPECT_THAT(names, testing::ElementsAre("sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm",
+                                          "sigma_f_MPa", "humidity %, room"));
+}
+
+TEST(SlowExport, SameRequestGivesTheSameBytes) {
+  for (const test::NamedTable& sample : test::sample_tables())
+    for (const Exporter& exporter : all_exporters())
+      EXPECT_EQ(exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()),
+                exporter.generate(test::SampleRequest(exporter, sample.table, "mm-t-s").get()));
+}
+
+TEST(Export, EveryTargetDescribesItself) {
+  ASSERT_GE(all_exporters().size(), 2u);
+  for (const Exporter& exporter : all_exporters()) {
+    EXPECT_FALSE(exporter.title.empty());
+    EXPECT_FALSE(exporter.notes.empty());
+    EXPECT_THAT(exporter.signature_source,
+                testing::AnyOf(HasSubstr("verified:"), HasSubstr("recalled:")));
+    EXPECT_EQ(find_exporter(exporter.name), &exporter);
+  }
+  EXPECT_EQ(find_exporter("none"), nullptr);
+}
+
+TEST(Compile, GivesTheCompilersWordsWhereItFails) {
+  if (!have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
+  const TemporaryDirectory work;
+  const BuildVariant build{"x", {"gcc", "-shared", "-o", "@{out}", "@{dir}/a.c"}, {}, 0};
+  try {
+    compile_library({{"a.c", "int f(void) { return missing; }\n"}}, build, work.path());
+    FAIL() << "compiled";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("gcc"), HasSubstr("missing")));
+  }
+}
+
+TEST(Compile, UsesNoShell) {
+  const TemporaryDirectory work;
+  const BuildVariant build{"x", {"echo", "$(touch hacked)", ";", "touch hacked"}, {}, 0};
+  compile_library({}, build, work.path());
+  EXPECT_FALSE(std::filesystem::exists("hacked"));
+}
+
+TEST(Compile, TellsAMissingProgram) {
+  EXPECT_FALSE(have_program("no-such-compiler-here"));
+  EXPECT_TRUE(have_program("sh"));
+  const TemporaryDirectory work;
+  const BuildVariant build{"x", {"no-such-compiler-here"}, {}, 0};
+  EXPECT_THROW(compile_library({}, build, work.path()), std::runtime_error);
+  EXPECT_THROW(Library("/nowhere/lib.so"), std::runtime_error);
+}
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,171 @@
+// FRIC_COEF of Abaqus/Standard, list of 2024: what its state variables keep over the solver's
+// iterations.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "routines/standard_case.h"
+#include "support/calls/fric_coef.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+using namespace test;
+using calls::CoefCall;
+
+// The list of 2024 has slip and state variables.
+class FricCoef2024 : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  }
+  static void* routine(const std::string& key, const ExportRequest& request) {
+    return Library::address(
+        compiled("states " + key, *find_exporter("abaqus_fric_coef"), request, "double", strict)
+            ->handle(),
+        "fric_coef_");
+  }
+  static CoefCall call(std::vector<double> properties) {
+    CoefCall c;
+    c.temperatures = true;
+    c.states = 11;
+    c.properties = std::move(properties);
+    c.resize(1);
+    c.pressure[0] = 1000;
+    c.slip[0] = 50;
+    c.temperature[0] = 100;
+    return c;
+  }
+  static void run(CoefCall& c, void* function) {
+    const FloatTraps traps;
+    c.run(function);
+  }
+};
+
+TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
+  static const Table table = branching_table();
+  static const TableFunction function(table);
+  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+    const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
+    void* const compiled = routine("branching " + units, {table, units, {}});
+    auto c = call({flow * stress});
+    c.pressure[0] = 300 * stress;
+    c.slip[0] = 20 * length;
+    c.slip[3] = 7 * length;
+    run(c, compiled);
+    const double state[] = {300, 20, 7, flow}, up[] = {300, 20, 7.001, flow},
+                 down[] = {300, 20, 6.999, flow};
+    EXPECT_CLOSE(c.coefficient[0], function(state) / 300);
+    EXPECT_NEAR(c.derivative[5] * length, (function(up) - function(down)) / 300 / 0.002, 1e-9);
+    EXPECT_EQ(c.derivative[6], 0);
+  }
+}
+
+TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
+  static const Table table = peak_and_work_table();
+  static const TableFunction function(table);
+  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
+  const std::vector<std::string> inputs = table.inputs();
+  const auto wanted = [&](double pressure, double peak, double work) {
+    std::vector<double> state;
+    for (const std::string& name : inputs)
+      state.push_back(name == "peak_sigma_n" ? peak : name == "friction_work" ? work : pressure);
+    return function(state);
+  };
+  for (const bool passes_start : {true, false}) {
+    SCOPED_TRACE(passes_start);
+    auto c = call({});
+    double work = 0, peak = 0;
+    for (int increment = 1; increment <= 3; ++increment) {
+      c.increment = increment;
+      const std::vector<double> start = c.state;
+      for (int iteration = 0; iteration < 5; ++iteration) {
+        if (passes_start) c.state = start;
+        c.pressure[0] = 900 - 100 * increment - 10 * iteration; // the last one counts
+        c.slip[3] = 0.1 * iteration + 0.4 * (increment - 1);
+        run(c, compiled);
+      }
+      peak = std::max(peak, c.pressure[0]);
+      const double tau = wanted(c.pressure[0], peak, work);
+      EXPECT_CLOSE(c.coefficient[0] * c.pressure[0], tau);
+      work += tau * 0.4;
+      EXPECT_NEAR(c.state[0], work, 1e-12 * work);
+      EXPECT_EQ(c.state[1], peak);
+    }
+  }
+}
+
+TEST_F(FricCoef2024, HasNoHistoryWithFewerStateVariablesOrInBlocks) {
+  static const Table table = peak_and_work_table();
+  void* const compiled = routine("peaks", {table, "mm-t-s", {}});
+  for (const int states : {0, 10}) {
+    auto c = call({});
+    c.states = states;
+    c.state.assign(static_cast<std::size_t>(states), 5);
+    run(c, compiled);
+    EXPECT_THAT(c.state, testing::Each(5));
+  }
+  auto c = call({});
+  c.resize(2);
+  c.state.assign(11, 5);
+  c.pressure = {1000, 500};
+  run(c, compiled);
+  EXPECT_THAT(c.state, testing::Each(5));
+  EXPECT_GT(c.coefficient[0], c.coefficient[1]) << "the peak pressure is the pressure";
+}
+
+TEST_F(FricCoef2024, CountsIncrementsOutsideTheRangeOnce) {
+  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
+  auto c = call({psi, 60, flow});
+  for (const double speed : {50.0, 900.0, 1000.0, 60.0}) {
+    c.slip[0] = speed;
+    for (int iteration = 0; iteration < 3; ++iteration)
+      run(c, compiled);
+    ++c.increment;
+  }
+  EXPECT_EQ(c.state[2], 2);
+}
+
+TEST_F(FricCoef2024, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
+  void* const compiled = routine(
+      "frozen", {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
+  static const TableFunction function(four_axis());
+  const auto mu = [](double pressure, double speed) {
+    const double state[] = {pressure, psi, speed, 100, flow};
+    return function(state) / pressure;
+  };
+  auto c = call({psi, 60, flow});
+  run(c, compiled);
+  EXPECT_CLOSE(c.coefficient[0], mu(1000, 50));
+  EXPECT_NE(c.derivative[1], 0);
+  c.increment = 2;
+  for (const double pressure : {700.0, 800.0, 900.0}) { // with a cutback among them
+    c.time_increment *= 0.5;
+    c.pressure[0] = pressure;
+    c.slip[0] = 200;
+    run(c, compiled);
+    EXPECT_CLOSE(c.coefficient[0], mu(1000, 50));
+    for (std::size_t i = 0; i < 20; ++i)
+      EXPECT_EQ(c.derivative[i], 0);
+  }
+  c.increment = 3;
+  run(c, compiled);
+  EXPECT_CLOSE(c.coefficient[0], mu(900, 200)) << "what increment 2 ended with";
+}
+
+TEST_F(FricCoef2024, GivesNaNForANaNHistoryAndKeepsIt) {
+  void* const compiled = routine("outside", {four_axis(), "mm-t-s", {}});
+  auto c = call({psi, 60, flow});
+  c.state[1] = nan;
+  run(c, compiled);
+  EXPECT_TRUE(std::isnan(c.coefficient[0]));
+  EXPECT_EQ(c.state[0], 0);
+}
+
+} // namespace
+
+} // namespace frictab

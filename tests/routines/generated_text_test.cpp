@@ -1,0 +1,82 @@
+// What every target writes: one whole example each, for people to read, and the columns that
+// compilers allow. (That the text is right the routines of this folder show, compiled and run.)
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "codegen/exporter.h"
+#include "io/atomic_file.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// UPDATE_EXAMPLES=1 rewrites it.
+const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "examples/generated";
+
+// By path below the root.
+SourceBundle examples() {
+  SourceBundle all;
+  for (const Exporter& exporter : all_exporters()) {
+    const test::SampleRequest request(exporter, test::example_table(), "mm-t-s");
+    for (auto& [path, content] : exporter.generate(request.get()))
+      all[exporter.name + "/" + path] = content;
+  }
+  return all;
+}
+
+bool update() {
+  const char* wish = std::getenv("UPDATE_EXAMPLES");
+  return wish && std::string(wish) == "1";
+}
+
+TEST(GeneratedExamples, AreWhatEveryTargetWrites) {
+  for (const auto& [path, content] : examples()) {
+    if (update()) {
+      fs::create_directories((root / path).parent_path());
+      std::ofstream(root / path, std::ios::binary) << content;
+    }
+    ASSERT_TRUE(fs::exists(root / path)) << path << " is not there; UPDATE_EXAMPLES=1 writes it";
+    EXPECT_EQ(content, read_file(root / path)) << path;
+  }
+}
+
+TEST(GeneratedExamples, HoldNothingElse) {
+  const SourceBundle all = examples();
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    const std::string path = fs::relative(entry.path(), root).generic_string();
+    if (!entry.is_regular_file() || path == "README.md") continue;
+    if (update() && !all.count(path)) fs::remove(entry.path());
+    EXPECT_TRUE(update() || all.count(path)) << path << " belongs to nothing; delete it";
+  }
+}
+
+TEST(SlowGeneratedText, KeepsToItsColumns) {
+  for (const test::NamedTable& sample : test::sample_tables())
+    for (const Exporter& exporter : all_exporters())
+      for (const auto& [path, content] :
+           exporter.generate(test::SampleRequest(exporter, sample.table, "m-kg-s").get())) {
+        const bool wide = path.ends_with(".json") || path.ends_with(".key"); // a line per axis
+        const std::size_t limit = path.ends_with(".f") ? 72 : wide ? 1000000 : 100;
+        std::size_t continued = 0;
+        std::istringstream lines(content);
+        for (std::string line; std::getline(lines, line);) {
+          EXPECT_LE(line.size(), limit) << path << ": " << line;
+          EXPECT_TRUE(line.empty() || line.back() != ' ') << path << ": '" << line << "'";
+          const bool continues = path.ends_with(".f") && line.size() > 5 && line[0] == ' ' &&
+                                 line.substr(0, 5) == "     " && line[5] != ' ';
+          continued = continues ? continued + 1 : 0;
+          EXPECT_LE(continued, 19u) << path << ": " << line;
+        }
+      }
+}
+
+} // namespace
+
+} // namespace frictab

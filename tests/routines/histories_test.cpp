@@ -1,0 +1,237 @@
+// Histories as axes of a table: slip, friction work and peak pressure from the state variables of
+// VFRIC and VFRICTION, increment by increment, in both precisions and unit systems.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "codegen/solver_inputs.h"
+#include "data/derived.h"
+#include "support/calls/vfric.h"
+#include "support/calls/vfriction.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+const std::vector<std::string> strict = {"-Wall",
+                                         "-Wextra",
+                                         "-Werror",
+                                         "-Wno-unused-dummy-argument",
+                                         "-Wno-unused-parameter",
+                                         "-fcheck=all",
+                                         "-g",
+                                         "-ffpe-trap=invalid,zero,overflow"};
+
+// mu over sliding distance, friction work and peak pressure, as a traced law has them.
+Table history_table() {
+  Table table;
+  table.model = "traced histories";
+  for (const auto& [name, high] :
+       {std::pair{"sliding_distance", 40.0}, {"friction_work", 3000.0}, {"peak_sigma_n", 2000.0}}) {
+    TableAxis axis;
+    axis.name = name;
+    axis.unit = find_derived(name)->unit;
+    axis.nodes = {0, 0.3 * high, high};
+    table.axes.push_back(axis);
+  }
+  for (int i = 0; i < 27; ++i)
+    table.value.push_back(0.05 + 0.01 * ((i * 11) % 27));
+  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
+  return table;
+}
+
+// The order of states below.
+TEST(HistoryTable, AsksForPressureWorkPeakAndSlip) {
+  EXPECT_EQ(history_table().inputs(),
+            (std::vector<std::string>{"sigma_n_MPa", "friction_work", "peak_sigma_n",
+                                      "sliding_distance"}));
+}
+
+struct Contact {
+  double pressure, slip; // MPa, mm: of one increment
+};
+const std::vector<Contact> path = {{500, 2}, {800, 3}, {300, 4}, {0, 5}, {900, 6}, {400, 1}};
+
+// One contact point of either routine; units are the solver's.
+template <class Real> struct PairPoint {
+  static constexpr const char *target = "abaqus_vfric", *entry = "vfric_";
+  using Call = calls::VfricCall<Real>;
+  static void resize(Call& c) { c.resize(1, 1); }
+};
+template <class Real> struct GeneralPoint {
+  static constexpr const char *target = "abaqus_vfriction", *entry = "vfriction_";
+  using Call = calls::VfrictionCall<Real>;
+  static void resize(Call& c) { c.resize(1); }
+};
+
+template <class Point, class Number> struct Kind {
+  using Contact = Point;
+  using Real = Number;
+};
+
+template <class Kind> class SlowHistories : public testing::Test {
+protected:
+  using Real = typename Kind::Real;
+  using Point = typename Kind::Contact;
+  using Call = typename Point::Call;
+  static constexpr bool single = sizeof(Real) == 4;
+  // Single: force, state and slip are rounded to 24 bits at each of six increments.
+  static constexpr double bound = single ? 2e-5 : 1e-13;
+
+  void SetUp() override {
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  }
+
+  static void* routine(const std::string& key, const Table& table, const std::string& units) {
+    return Library::address(test::compiled(key + units, *find_exporter(Point::target),
+                                           {table, units, {}}, single ? "single" : "double", strict)
+                                ->handle(),
+                            Point::entry);
+  }
+
+  static Call call(unsigned states = 6) {
+    Call c;
+    c.states = static_cast<int>(states);
+    c.time_increment = Real(0.125);
+    Point::resize(c);
+    c.area[0] = Real(4);
+    return c;
+  }
+
+  static void run(Call& c, void* function) {
+    const test::FloatTraps traps;
+    c.run(function);
+    c.previous[0] = c.tangential[0]; // as the solver hands it back
+  }
+};
+
+using Kinds = testing::Types<Kind<PairPoint<double>, double>, Kind<PairPoint<float>, float>,
+                             Kind<GeneralPoint<double>, double>, Kind<GeneralPoint<float>, float>>;
+struct KindName {
+  template <class K> static std::string GetName(int) {
+    return std::string(K::Contact::target) +
+           (sizeof(typename K::Real) == 4 ? "_single" : "_double");
+  }
+};
+TYPED_TEST_SUITE(SlowHistories, Kinds, KindName);
+
+TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
+  using Number = typename TypeParam::Real;
+  static const Table table = history_table();
+  static const TableFunction function(table);
+  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+    const double stress = units == "mm-t-s" ? 1 : 1e6, length = units == "mm-t-s" ? 1 : 1e-3;
+    void* routine = this->routine("path", table, units);
+    auto c = this->call();
+    double slip = 0, work = 0, peak = 0, before = 0;
+    for (const Contact& contact : path) {
+      c.normal[0] = static_cast<Number>(4 * contact.pressure * stress);
+      c.slip[0] = static_cast<Number>(contact.slip * length);
+      this->run(c, routine);
+      double tau = 0;
+      if (contact.pressure > 0) { // out of contact nothing slides and nothing is remembered
+        slip += contact.slip;
+        peak = std::max(peak, contact.pressure);
+        const double state[] = {contact.pressure, work, peak, slip};
+        tau = function(state);
+        work += 0.5 * (before + tau) * contact.slip;
+      }
+      before = tau;
+      EXPECT_NEAR(c.tangential[0], -4 * tau * stress, 4 * tau * stress * TestFixture::bound);
+      EXPECT_NEAR(c.state[0], slip * length, slip * length * TestFixture::bound);
+      EXPECT_NEAR(c.state[1], work * stress * length, work * stress * length * TestFixture::bound);
+      EXPECT_NEAR(c.state[2], peak * stress, peak * stress * TestFixture::bound);
+      EXPECT_EQ(c.state[3], 0);
+    }
+    EXPECT_EQ(c.state[0], static_cast<Number>(16 * length)) << "and the path was walked once";
+  }
+}
+
+TYPED_TEST(SlowHistories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
+  static const Table table = history_table();
+  static const TableFunction function(table);
+  auto c = this->call(0);
+  for (int increment = 0; increment < 2; ++increment) {
+    c.normal[0] = 4 * 500;
+    c.slip[0] = 2;
+    this->run(c, this->routine("path", table, "mm-t-s"));
+    const double state[] = {500, 0, 500, 2};
+    EXPECT_NEAR(c.tangential[0], -4 * function(state), 4 * function(state) * TestFixture::bound);
+  }
+}
+
+TYPED_TEST(SlowHistories, TurnNaNWithTheForceBeforeThemAndSoDoesTheLaw) {
+  static const Table table = history_table();
+  void* routine = this->routine("path", table, "mm-t-s");
+  auto c = this->call();
+  c.normal[0] = 4 * 500;
+  c.slip[0] = 2;
+  c.previous[0] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
+  this->run(c, routine);
+  EXPECT_LT(c.tangential[0], 0) << "this force does not depend on the one before";
+  EXPECT_TRUE(std::isnan(c.state[1]));
+  this->run(c, routine);
+  EXPECT_TRUE(std::isnan(c.tangential[0]));
+  EXPECT_EQ(c.state[0], 2) << "and nothing is added to what is spoilt";
+}
+
+TYPED_TEST(SlowHistories, ThatAreNaNGiveNaNWhereTheLawAsksForThem) {
+  static const Table table = history_table();
+  for (std::size_t spoilt = 0; spoilt < 6; ++spoilt) {
+    auto c = this->call();
+    c.normal[0] = 4 * 500;
+    c.slip[0] = 2;
+    c.state[spoilt] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
+    this->run(c, this->routine("path", table, "mm-t-s"));
+    EXPECT_EQ(std::isnan(c.tangential[0]), spoilt != 3) << "4 is a count: " << spoilt;
+  }
+}
+
+TYPED_TEST(SlowHistories, OfSmallIncrementsDoNotStandStillInSinglePrecision) {
+  using Number = typename TypeParam::Real;
+  static const Table table = test::constant_table();
+  void* routine = this->routine("constant", table, "mm-t-s");
+  auto with = this->call(6), without = this->call(4);
+  for (auto* c : {&with, &without}) {
+    c->state[0] = 40;
+    c->normal[0] = 4000;
+    c->slip[0] = Number(1e-6);
+    for (int increment = 0; increment < 100000; ++increment)
+      c->run(routine);
+  }
+  const double slipped = 100000 * static_cast<double>(Number(1e-6));
+  // Half a unit in the last place of 40: once in single precision, per increment in double.
+  EXPECT_NEAR(with.state[0], 40 + slipped, sizeof(Number) == 4 ? 2e-6 : 4e-10);
+  if (sizeof(Number) == 4) {
+    EXPECT_EQ(without.state[0], 40) << "what a sum without its remainder does";
+  }
+}
+
+TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
+  static const Table table = history_table();
+  static const TableFunction function(table);
+  const std::vector<double> slip = {5, 20, 30, 12}, work = {100, 2000, 700, 5};
+  const std::vector<double> peak = {900, 1500, 400, 600}, pressure = {700, 1500, 500, 600};
+  const Exporter& exporter = *find_exporter(TestFixture::Point::target);
+  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+    const ExportRequest request{table, units, {}};
+    const BuildVariant variant = exporter.variants(request)[TestFixture::single ? 1 : 0];
+    std::vector<double> tau(4, -1);
+    CompiledTarget(exporter, request, exporter.generate(request), variant)
+        .drive(4,
+               std::vector<const double*>{pressure.data(), work.data(), peak.data(), slip.data()},
+               tau);
+    for (std::size_t i : {0u, 1u, 3u}) {
+      const double state[] = {pressure[i], work[i], peak[i], slip[i]};
+      EXPECT_NEAR(tau[i], function(state), function(state) * TestFixture::bound) << units;
+    }
+    EXPECT_EQ(tau[2], -1) << "a peak below the present pressure is no state";
+  }
+}
+
+} // namespace
+
+} // namespace frictab

@@ -1,0 +1,155 @@
+// What verification says of solvers' own tables: their drift at the held states, and what holding
+// costs on the rows; for every registered law.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codegen/compile.h"
+#include "support/sample_data.h"
+#include "table/direct.h"
+#include "verify/beyond.h"
+#include "verify/verify.h"
+
+namespace frictab {
+namespace {
+
+struct Case {
+  explicit Case(const std::string& law)
+      : model(test::plausible_model(*find_law(law))), data(test::sample_data(model)) {
+    table = build_table(model, state_ranges(model, data, {}), {});
+    direct = direct_form(model, table); // as the run hands it to these targets
+    direct.number_attributes["tolerance_MPa"] = 0.5;
+  }
+
+  ExportRequest request() const {
+    return {direct, "mm-t-s", {{"sigma_f_MPa", "constant:480"}}, {}};
+  }
+
+  DriftRecord verified(const std::string& target) const {
+    const Exporter& exporter = *find_exporter(target);
+    const std::vector<GeneratedSource> sources = {
+        {&exporter, request(), exporter.generate(request())}};
+    return compared(sources);
+  }
+
+  // The table itself is compared once.
+  DriftRecord compared(const std::vector<GeneratedSource>& sources, double allowed = 0.5) const {
+    if (!own) own = verify({model, table, "table", &data, 0.5, 20000}, {}).front();
+    return verify({model, table, "table", &data, allowed, 20000, &*own}, sources).back();
+  }
+
+  Model model;
+  Dataset data;
+  Table table, direct;
+  mutable std::optional<DriftRecord> own = {};
+};
+
+// tau_R over the rows of the data, by the law and by the target's text at the rows' own states.
+std::pair<double, double> cost(const Case& c, const std::string& target) {
+  const Exporter& exporter = *find_exporter(target);
+  std::vector<const double*> columns;
+  for (const std::string& name : c.direct.inputs())
+    columns.push_back(c.data.values(name).data());
+  std::vector<double> tau(c.data.rows());
+  CompiledTarget(exporter, c.request(), exporter.generate(c.request()),
+                 exporter.variants(c.request())[0])
+      .drive(tau.size(), columns, tau);
+  const std::vector<double> law = predict(c.model, c.data);
+  double sum = 0, largest = 0;
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    sum += std::abs(tau[i] - law[i]);
+    largest = std::max(largest, std::abs(tau[i] - law[i]));
+  }
+  return {sum / static_cast<double>(tau.size()), largest};
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+class SlowNativeTableOfEveryLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(SlowNativeTableOfEveryLaw, MeetsTheToleranceAtItsHeldStates) {
+  const Case c(GetParam());
+  for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
+    const DriftRecord record = c.verified(target);
+    EXPECT_TRUE(record.passed) << target << " " << record.worst_case_MPa;
+    EXPECT_LE(record.worst_case_MPa, 0.5) << target;
+    ASSERT_TRUE(record.held);
+    EXPECT_EQ(record.subject, std::string(target) + "/deck");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, SlowNativeTableOfEveryLaw, testing::ValuesIn(law_names()),
+                         test_name);
+
+TEST(SlowNativeCost, IsTheDifferenceFromTheLawAtTheRowsOwnStates) {
+  for (const char* law : {"log_coulomb", "orowan", "wanheim_bay"})
+    for (const char* target : {"abaqus_table", "lsdyna_table", "deform_table"}) {
+      const Case c(law);
+      const DriftRecord record = c.verified(target);
+      const auto [mean, largest] = cost(c, target);
+      EXPECT_GT(record.cost_mean_abs_MPa, 0);
+      EXPECT_NEAR(record.cost_mean_abs_MPa, mean, 1e-9 * mean) << law << " " << target;
+      EXPECT_NEAR(record.cost_max_abs_MPa, largest, 1e-9 * largest) << law << " " << target;
+      EXPECT_GE(record.cost_mean_abs_MPa, record.rows.mean_abs) << law << " " << target;
+    }
+}
+
+TEST(SlowNativeCost, IsTheDriftWhereTheLawNeedsNothingThatIsHeld) {
+  const Case c("coulomb");
+  Case unlimited = c;
+  unlimited.model.conventions.shear_limit = false;
+  unlimited.table = build_table(unlimited.model, state_ranges(unlimited.model, c.data, {}), {});
+  unlimited.direct = direct_form(unlimited.model, unlimited.table);
+  for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
+    const DriftRecord record = unlimited.verified(target);
+    EXPECT_TRUE(record.held->empty()) << target;
+    EXPECT_EQ(record.cost_mean_abs_MPa, record.rows.mean_abs) << target;
+    EXPECT_EQ(record.cost_max_abs_MPa, record.rows.max_abs) << target;
+    EXPECT_LE(record.cost_max_abs_MPa, 1e-6) << target;
+  }
+}
+
+TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldStress) {
+  const Case c("shear");
+  const Exporter& exporter = *find_exporter("deform_table");
+  ExportRequest request = c.request();
+  request.options["deform_friction"] = "shear";
+  const DriftRecord record = c.compared({{&exporter, request, exporter.generate(request)}});
+  EXPECT_LE(record.cost_max_abs_MPa, 1e-6);
+  EXPECT_GT(c.verified("deform_table").cost_max_abs_MPa, 1) << "mu at one flow stress";
+}
+
+TEST(NativeCost, IsWrittenAndReadBackAndTold) {
+  const Case c("orowan");
+  Verification verification{0.5, {c.verified("abaqus_table")}};
+  const Verification read = parse_verification(verification_json(verification), "verify.json");
+  const DriftRecord &a = verification.records[0], &b = read.records[0];
+  EXPECT_EQ(b.held, a.held);
+  EXPECT_EQ(b.cost_mean_abs_MPa, a.cost_mean_abs_MPa);
+  EXPECT_EQ(b.cost_max_abs_MPa, a.cost_max_abs_MPa);
+  EXPECT_THAT(cost_text(b), testing::HasSubstr("abaqus_table holds sigma_f_MPa = 480: mean "));
+}
+
+TEST(NativeCost, FailsWhereLessIsAllowedThanTheGridWasMadeTo) {
+  const Case c("log_coulomb");
+  const Exporter& exporter = *find_exporter("abaqus_table");
+  const DriftRecord record =
+      c.compared({{&exporter, c.request(), exporter.generate(c.request())}}, 1e-4);
+  EXPECT_FALSE(record.passed) << "0.5 MPa asked of the grid, 1e-4 allowed";
+}
+
+} // namespace
+} // namespace frictab

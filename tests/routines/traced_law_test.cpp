@@ -1,0 +1,365 @@
+// A law with traced effects is a law like any other: table, every target, verification, report.
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/calibration.h"
+#include "calibrate/calibration_file.h"
+#include "calibrate/input_columns.h"
+#include "codegen/solver_inputs.h"
+#include "core/error.h"
+#include "support/calls/vfric.h"
+#include "support/generated.h"
+#include "support/rebuilt.h"
+#include "support/run_command.h"
+#include "support/sample_data.h"
+#include "support/traced_law.h"
+#include "table/direct.h"
+#include "table/info.h"
+#include "table/table_file.h"
+#include "verify/verify.h"
+
+namespace frictab {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<std::string> all_effects_here = {"humidity", "work", "tool", "peak"};
+
+struct Case {
+  Model model;
+  Dataset data;
+  Table table;
+  explicit Case(Model of)
+      : model(std::move(of)), data(test::traced_data(model)),
+        table(build_table(model, state_ranges(model, data, {}), {})) {
+    table.number_attributes["tolerance_MPa"] = 0.5;
+  }
+  explicit Case(const std::vector<std::string>& effects) : Case(test::traced_model(effects)) {}
+};
+
+const Case& with_all_effects() {
+  static const Case all(all_effects_here);
+  return all;
+}
+
+TEST(TracedLaw, TableNeedsNoFurtherAxisAndSaysWhatItsInputsAre) {
+  const Table& table = with_all_effects().table;
+  EXPECT_EQ(table.axes.size(), 4u) << "those of log_coulomb";
+  EXPECT_LE(table.nodes(), 16u);
+  EXPECT_EQ(table.range("humidity_pct"), (std::pair{30.0, 60.0}));
+  EXPECT_EQ(table.range("tool"), (std::pair{0.0, 2.0}));
+  EXPECT_EQ(table.range("friction_work")->first, 0.0);
+  EXPECT_GT(table.range("friction_work")->second, 1000.0);
+  EXPECT_EQ(table.text_attributes.at("units_friction_work"), "MPa mm");
+  EXPECT_EQ(table.text_attributes.at("levels_tool"), "0 = A, 1 = B, 2 = C");
+  EXPECT_EQ(table.text_attributes.count("units_psi"), 0u);
+}
+
+TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
+  const Table& table = with_all_effects().table;
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("t.h5"));
+  const Table again = read_table(directory.path("t.h5"));
+  EXPECT_EQ(again.inputs(), table.inputs());
+  EXPECT_EQ(again.value, table.value);
+  EXPECT_EQ(to_text(again.combine), to_text(table.combine));
+  EXPECT_EQ(again.text_attributes, table.text_attributes);
+  EXPECT_EQ(again.number_attributes, table.number_attributes);
+  const std::string info = info_text(read_description(directory.path("t.h5")), "t.h5");
+  EXPECT_THAT(info, HasSubstr("tool          no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
+  EXPECT_THAT(info, HasSubstr("friction_work no axis, verified from 0 to "));
+}
+
+TEST(SlowTracedLaw, OthersRebuildTauFromTheAttributesAlone) {
+  EXPECT_THAT(test::rebuilt_by_python(with_all_effects().table), testing::StartsWith("ok "));
+}
+
+TEST(TracedLaw, ModelFileReadsBackToTheSameBits) {
+  const Case& c = with_all_effects();
+  Calibration calibration;
+  ModelFit fit;
+  fit.model = c.model;
+  fit.std_error.assign(c.model.parameters.size(), 0.001);
+  calibration.fits.push_back(fit);
+  const std::string text = model_json(fit, calibration);
+  const Model again = parse_model(text, "m.json");
+  EXPECT_EQ(again.name(), "log_coulomb_traced");
+  EXPECT_EQ(again.law->base, "log_coulomb");
+  EXPECT_EQ(again.law->levels, c.model.law->levels);
+  EXPECT_EQ(again.law->formula, c.model.law->formula);
+  EXPECT_EQ(parameter_names(*again.law), parameter_names(*c.model.law));
+  EXPECT_EQ(again.law->parameters.back().upper, c.model.law->parameters.back().upper);
+  EXPECT_EQ(predict(again, c.data), predict(c.model, c.data));
+  ModelFit fit_again = fit;
+  fit_again.model = again;
+  EXPECT_EQ(model_json(fit_again, calibration), text);
+  const Calibration all = parse_calibration(calibration_json(calibration), "calibration.json");
+  EXPECT_EQ(predict(all.fits[0].model, c.data), predict(c.model, c.data));
+}
+
+TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      parse_model(text, "m.json");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(R"({"name": "log_coulomb_tracd"})"),
+            "m.json: error: unknown friction law 'log_coulomb_tracd'\n"
+            "  hint: did you mean 'log_coulomb'?");
+  EXPECT_THAT(refusal(R"({"name": "mine", "law": {"base": "log_colomb"}})"),
+              HasSubstr("law 'mine' extends 'log_colomb', which is no friction law\n"
+                        "  hint: did you mean 'log_coulomb'?"));
+}
+
+std::vector<DriftRecord> verified(const Case& c, const Exporter& exporter, const Table& form,
+                                  const std::string& units = "mm-t-s",
+                                  const std::map<std::string, std::string>& inputs = {}) {
+  const ExportRequest request{form, units, inputs};
+  return verify({c.model, c.table, "table", &c.data, 0.5, 2000},
+                {{&exporter, request, exporter.generate(request)}});
+}
+
+TEST(TracedLaw, TableIsProvenLikeAnyOther) {
+  for (const char* effect :
+       {"humidity", "work", "tool", "peak", "curve", "surface", "curve_by_tool"}) {
+    const Case c({effect});
+    const DriftRecord record = verify({c.model, c.table, "table", &c.data, 0.5, 2000}, {})[0];
+    EXPECT_TRUE(record.passed) << effect;
+    EXPECT_EQ(record.not_proven, "") << effect;
+    ASSERT_TRUE(record.proven_MPa) << effect;
+    EXPECT_LT(*record.proven_MPa, 0.01) << effect;
+  }
+}
+
+class SlowTracedLawOf : public testing::TestWithParam<std::string> {
+protected:
+  static void expect_verified(const Case& c);
+};
+
+void SlowTracedLawOf::expect_verified(const Case& c) {
+  const Exporter& exporter = *find_exporter(GetParam());
+  const Table direct = direct_form(c.model, c.table);
+  std::map<std::string, std::string> held;
+  if (!exporter.whole()) held = {{"sigma_f_MPa", "constant:480"}};
+  for (const Table* form : {&c.table, &direct})
+    for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+      if (!exporter.whole() && form == &c.table) continue; // made from the law itself
+      Table with_tolerance = *form;
+      with_tolerance.number_attributes["tolerance_MPa"] = 0.5;
+      for (const DriftRecord& record : verified(c, exporter, with_tolerance, units, held)) {
+        if (!record.ran) GTEST_SKIP() << record.why_not;
+        EXPECT_TRUE(record.passed) << record.subject << ' ' << units << ' ' << record.worst_case_MPa
+                                   << ' ' << record.rows.max_abs;
+        EXPECT_LT(record.n_rows_not_posed, record.n_rows) << record.subject;
+      }
+    }
+}
+
+std::vector<std::string> all_targets() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : all_exporters())
+    names.push_back(exporter.name);
+  return names;
+}
+
+TEST_P(SlowTracedLawOf, TargetIsTheLawOnRowsAndOverTheRange) {
+  expect_verified(with_all_effects());
+}
+
+TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
+  static const Case c({"energy", "dwell", "warmth", "fastest"});
+  expect_verified(c);
+}
+
+TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesOfLoadAndHeat) {
+  static const Case c({"unloading", "since_peak", "heating", "lag", "flash"});
+  expect_verified(c);
+}
+
+TEST_P(SlowTracedLawOf, TargetIsTheLawOfSmoothForms) {
+  if (!find_exporter(GetParam())->whole()) GTEST_SKIP() << "a table of its own, of held states";
+  static const Case c({"curve", "surface", "curve_by_tool"});
+  expect_verified(c);
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, SlowTracedLawOf, testing::ValuesIn(all_targets()),
+                         [](const auto& given) { return given.param; });
+
+// An effect on mu, one on the limit, one added, in every law that knows them.
+std::vector<PlacedEffect> everywhere(const Law& law) {
+  std::vector<PlacedEffect> effects = {test::traced_effect("humidity")};
+  if (has_limit(law, {})) {
+    effects.push_back(test::traced_effect("work"));
+    effects.back().acts_on = "m";
+  }
+  effects.push_back(test::traced_effect("tool_heat"));
+  effects.back().acts_on = "tau";
+  effects.back().tau_scale_MPa = 20;
+  return effects;
+}
+
+class SlowTracedLawFrom : public testing::TestWithParam<std::string> {};
+
+TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
+  const Law& law = *find_law(GetParam());
+  const Model base =
+      law.calibrated == Calibrated::train ? test::network_model(1) : test::plausible_model(law);
+  const Case c(test::traced_model(base, everywhere(law)));
+  ModelFit fit;
+  fit.model = c.model;
+  fit.std_error.assign(c.model.parameters.size(), 0);
+  EXPECT_EQ(predict(parse_model(model_json(fit, {}), "m.json"), c.data), predict(c.model, c.data));
+  for (const char* target : {"c", "abaqus_vfric", "qform_lua"})
+    for (const DriftRecord& record : verified(c, *find_exporter(target), c.table)) {
+      if (!record.ran) GTEST_SKIP() << record.why_not;
+      EXPECT_TRUE(record.passed) << record.subject << ' ' << record.worst_case_MPa << ' '
+                                 << record.rows.max_abs;
+      EXPECT_EQ(record.not_proven, "") << record.subject;
+    }
+}
+
+std::vector<std::string> all_law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(all_law_names()),
+                         [](const auto& given) {
+                           std::string name = given.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
+
+TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
+  const Case& c = with_all_effects();
+  const SourceBundle bundle = find_exporter("c")->generate({c.table, "m-kg-s", {}});
+  const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
+  std::vector<std::string> names, units;
+  for (const auto& argument : recipe.at("arguments")) {
+    names.push_back(argument.at("quantity"));
+    units.push_back(argument.at("unit"));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C",
+                                             "s_mm", "sigma_f_MPa", "friction_work", "humidity_pct",
+                                             "peak_sigma_n", "tool"}));
+  EXPECT_EQ(units[6], "Pa m");
+  EXPECT_EQ(units[8], "Pa");
+  EXPECT_THAT(bundle.at("recipe.json"), HasSubstr("0 = A, 1 = B, 2 = C"));
+}
+
+TEST(TracedLaw, InputsOfARoutineAreChosenByTheJob) {
+  const Case& c = with_all_effects();
+  const ExportRequest request{
+      c.table, "mm-t-s", {{"humidity_pct", "field:1"}, {"tool", "constant:2"}}};
+  const std::string source = find_exporter("abaqus_vfric")->generate(request).at("frictab_vfric.f");
+  EXPECT_THAT(source, HasSubstr("preDefSec(k,1)"));
+  EXPECT_THAT(source, HasSubstr("STATEV(2)"));
+  for (const DriftRecord& record : verified(c, *find_exporter("abaqus_vfric"), c.table, "mm-t-s",
+                                            {{"humidity_pct", "field:1"}, {"tool", "property"}}))
+    EXPECT_TRUE(record.passed || !record.ran) << record.subject;
+}
+
+TEST(TracedLaw, OfATextColumnStandsForItsFirstLevelWhereNothingIsSaid) {
+  EXPECT_EQ(typical_value(with_all_effects().table, "tool"), 0.0);
+}
+
+// VFRIC along one experiment, increment by increment: what it integrates is what predict() takes,
+// to first order in the increment.
+class HistoryOnAPath : public testing::TestWithParam<std::string> {
+protected:
+  static constexpr double slip_mm = 8, speed = 100, humidity = 52;
+  static double pressure(double way) { return 900 + 60 * way - 12 * way * way; }
+  static double temperature(double way) { return 60 + 7 * way + way * way; }
+
+  static Dataset path(int increments) {
+    Dataset data;
+    for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm",
+                             "sigma_f_MPa", "time_s", "humidity_pct"})
+      data.columns.push_back({name, "", {}, {}});
+    for (int i = 0; i <= increments; ++i) {
+      const double way = slip_mm * i / increments;
+      const double row[] = {pressure(way), 3,   speed,       temperature(way),
+                            way,           480, way / speed, humidity};
+      for (std::size_t c = 0; c < data.columns.size(); ++c)
+        data.columns[c].values.push_back(row[c]);
+    }
+    data.first_row = {0, static_cast<std::size_t>(increments) + 1};
+    data.experiments = {"one"};
+    return data;
+  }
+
+  // tau_R at the end of the path.
+  static double routine(const std::string& key, const Case& c, int increments) {
+    const ExportRequest request{
+        c.table,
+        "mm-t-s",
+        {{"psi", "constant:3"}, {"sigma_f_MPa", "constant:480"}, {"humidity_pct", "constant:52"}}};
+    void* vfric = Library::address(
+        test::compiled("traced path " + key, *find_exporter("abaqus_vfric"), request, "double")
+            ->handle(),
+        "vfric_");
+    calls::VfricCall<double> call;
+    call.states = 12;
+    call.temperatures = true;
+    call.properties = {0};
+    call.resize(1, 1);
+    for (int i = 1; i <= increments; ++i) {
+      const double way = slip_mm * i / increments;
+      call.slip[0] = slip_mm / increments;
+      call.time_increment = call.slip[0] / speed;
+      call.normal[0] = pressure(way);
+      call.temperature[0] = call.temperature_main[0] = temperature(way);
+      call.run(vfric);
+      call.previous[0] = call.tangential[0];
+    }
+    return -call.tangential[0];
+  }
+};
+
+TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const Case c({"humidity", GetParam()});
+  const Case without({"humidity"});
+  const double exact = predict(c.model, path(4000)).back();
+  EXPECT_GT(std::abs(exact / predict(without.model, path(4000)).back() - 1), 0.01)
+      << "the effect is at work";
+  std::vector<double> off;
+  for (const int increments : {100, 200, 400})
+    off.push_back(std::abs(routine(GetParam(), c, increments) - exact));
+  EXPECT_LT(off[0], 0.5);
+  EXPECT_NEAR(off[0] / off[1], 2, 0.3);
+  EXPECT_NEAR(off[1] / off[2], 2, 0.4);
+}
+
+// These turn at the peak of the path, which increments meet more or less well.
+class TurningHistory : public HistoryOnAPath {};
+
+TEST_P(TurningHistory, OfVfricComesCloseToThatOfTheLaw) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const Case c({"humidity", GetParam()});
+  const Case without({"humidity"});
+  const double exact = predict(c.model, path(4000)).back();
+  EXPECT_GT(std::abs(exact / predict(without.model, path(4000)).back() - 1), 0.01);
+  EXPECT_NEAR(routine(GetParam(), c, 100), exact, 0.5);
+  EXPECT_NEAR(routine(GetParam(), c, 3200), exact, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, TurningHistory, testing::Values("unloading", "since_peak"),
+                         [](const auto& given) { return given.param; });
+
+INSTANTIATE_TEST_SUITE_P(Effects, HistoryOnAPath,
+                         testing::Values("work", "energy", "dwell", "warmth", "heating", "lag",
+                                         "flash"),
+                         [](const auto& given) { return given.param; });
+
+} // namespace
+} // namespace frictab
