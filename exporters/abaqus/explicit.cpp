@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
@@ -49,14 +48,12 @@ BuildVariant variant(const std::string& name, const std::string& real, int dimen
 
 } // namespace
 
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file,
-                                            const std::string& driver) {
+std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file) {
   std::vector<BuildVariant> all = {variant("double", "real*8", 2, 0x1p-53, file),
                                    variant("single", "real", 1, 0x1p-24, file)};
-  for (BuildVariant& one : all) {
-    add_driver(one, render_template(driver, {}));
-    if (fortran::ends(request)) add_stand_ins(one, Solver::explicit_);
-  }
+  if (fortran::ends(request))
+    for (BuildVariant& one : all)
+      add_stand_ins(one, Solver::explicit_);
   return all;
 }
 
@@ -81,11 +78,16 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
 }
 
-const GivenState explicit_property = {.text = "property @{property}",
-                                      .read = "props(@{property})",
-                                      .exists = "nProps .ge. @{property}",
-                                      .part = "once"};
-const GivenState explicit_constant = {.read = "@{fallback}", .canonical = true, .part = "once"};
+GivenState explicit_property() {
+  return {.text = "property @{property}",
+          .read = "props(@{property})",
+          .exists = "nProps .ge. @{property}",
+          .part = "once"};
+}
+
+GivenState explicit_constant() {
+  return {.read = "@{fallback}", .canonical = true, .part = "once"};
+}
 
 SolverGives force_gives(const ForceNames& names) {
   const std::string& state = names.state_name;
@@ -107,21 +109,18 @@ SolverGives force_gives(const ForceNames& names) {
                       .read = both(names, names.temperature, names.temperature_main),
                       .exists = "nTemp .gt. 0",
                       .part = "point"}},
-          .property = explicit_property,
+          .property = explicit_property(),
           .field = {.text = "mean of both surfaces' predefined field @{field}",
                     .read = both(names, names.field, names.field_main),
                     .exists = names.fields + " .ge. @{field}",
                     .part = "point"},
-          .constant = explicit_constant,
+          .constant = explicit_constant(),
           .history = state + "(@{number})",
           .before_histories = explicit_states};
 }
 
-void drive_explicit(const SolverGives& gives, fortran::Coefficient result, const Built& built,
-                    const ExportRequest& request, std::size_t rows,
-                    std::span<const double* const> columns, std::span<double> tau) {
-  drive_routine({.gives = gives, .result = result, .most_points = 136, .peak_presses = true}, built,
-                request, rows, columns, tau);
+Driver explicit_driver(const SolverGives& gives, fortran::Coefficient result) {
+  return {.gives = gives, .result = result, .most_points = 136, .peak_presses = true};
 }
 
 } // namespace frictab::abaqus

@@ -8,14 +8,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "codegen/coefficient.h"
-#include "codegen/solver_inputs.h"
+#include "codegen/routine_target.h"
 
 namespace frictab::abaqus {
 
 // A routine reads its states in three places: properties and constants once per call ("once"),
 // temperatures and fields at each point k ("point"), the rest in double precision (ftpnt).
-extern const GivenState explicit_property, explicit_constant;
+GivenState explicit_property();
+GivenState explicit_constant();
 
 // What an argument list of the force routines names in its own way.
 struct ForceNames {
@@ -29,8 +29,8 @@ SolverGives force_gives(const ForceNames& names);
 
 // One history and one force per contact point.
 struct ForceRoutine {
-  std::string target; // "abaqus_vfric": also the template's folder
-  std::string entry;  // "vfric"
+  Exporter about;
+  std::string entry; // "vfric"
   SolverGives gives;
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"
@@ -42,8 +42,8 @@ struct ForceRoutine {
   std::string deck_tail;              // the keyword lines behind those of the interaction
 };
 
-// <folder>/frictab_<entry>.f and recipe.json.
-SourceBundle force_bundle(const ForceRoutine& routine, const ExportRequest& request);
+// The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
+Exporter force_exporter(const ForceRoutine& routine);
 
 // What `explain` says about both alike: unknown states, state variables, precision, sides that
 // refuse.
@@ -60,15 +60,11 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
                           const std::vector<SolverInput>& inputs,
                           const std::vector<std::string>& remarks);
 
-// "double" and "single", with stand-ins for the solver's include and its error routine; `driver`
-// is the template of the file that calls it (codegen/driver.h).
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file,
-                                            const std::string& driver);
+// "double" and "single", with stand-ins for the solver's include and its error routine.
+std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file);
 
-// As Exporter::drive, in blocks of contact points as the solver's.
-void drive_explicit(const SolverGives& gives, fortran::Coefficient result, const Built& built,
-                    const ExportRequest& request, std::size_t rows,
-                    std::span<const double* const> columns, std::span<double> tau);
+// Blocks of contact points as the solver's.
+Driver explicit_driver(const SolverGives& gives, fortran::Coefficient result);
 
 // compile and compile_note.
 void add_compile(nlohmann::ordered_json& recipe, const std::string& file);

@@ -12,7 +12,6 @@
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "deck.h"
-#include "io/json.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -128,6 +127,10 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
 }
 
+std::string file_of(const ForceRoutine& routine) {
+  return "frictab_" + routine.entry + ".f";
+}
+
 std::string source(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
   const Table& table = request.table;
@@ -137,18 +140,16 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
                 .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
-  values.text = {{"head", explicit_head(*find_exporter(routine.target), request, inputs,
+  values.text = {{"head", explicit_head(*find_exporter(routine.about.name), request, inputs,
                                         remarks(routine, request, inputs))},
                  {"body", body(routine, inputs, n_x)},
                  {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
-  return render_template("abaqus/" + routine.entry + "/frictab_" + routine.entry + ".f", values);
+  return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
 }
 
-std::string recipe(const ForceRoutine& routine, const ExportRequest& request,
-                   const std::vector<SolverInput>& inputs, const SourceBundle& files,
-                   const std::string& file) {
-  json out = recipe_head(*find_exporter(routine.target), request, routine.entry, files);
+void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& request,
+                const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = routine.arguments_note;
   out["result"] = {{"name", "fTangential(1,k)"},
@@ -160,10 +161,8 @@ std::string recipe(const ForceRoutine& routine, const ExportRequest& request,
         {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs);
-  add_compile(out, file);
+  add_compile(out, file_of(routine));
   out["input_deck"] = friction_lines(routine.user, state_count(inputs), inputs) + routine.deck_tail;
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
 } // namespace
@@ -193,15 +192,29 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       explicit_states, state_by, state_name);
 }
 
-SourceBundle force_bundle(const ForceRoutine& routine, const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, routine.gives);
-  const std::string file = "frictab_" + routine.entry + ".f";
-  SourceBundle files;
-  files[file] = source(routine, request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(routine, request, inputs, files, file);
-  return files;
+Exporter force_exporter(const ForceRoutine& routine) {
+  return routine_exporter(
+      {.about = routine.about,
+       .entry = routine.entry,
+       .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
+       .sources =
+           [routine](const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+             return SourceBundle{{file_of(routine), source(routine, request, inputs)}};
+           },
+       .recipe =
+           [routine](json& out, const ExportRequest& request,
+                     const std::vector<SolverInput>& inputs) {
+             add_recipe(out, routine, request, inputs);
+           },
+       .variants =
+           [routine](const ExportRequest& request) {
+             return explicit_variants(request, file_of(routine));
+           },
+       .driver = "abaqus/" + routine.entry + "/driver.f",
+       .drive =
+           [routine](const ExportRequest&, const std::vector<SolverInput>&) {
+             return explicit_driver(routine.gives, fortran::Coefficient::stress);
+           }});
 }
 
 } // namespace frictab::abaqus

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
@@ -129,11 +128,8 @@ nlohmann::ordered_json state_variables(std::vector<std::pair<std::string, std::s
   return out;
 }
 
-std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file,
-                                   const std::string& driver) {
-  BuildVariant out = variant(file, fortran::ends(request));
-  add_driver(out, driver);
-  return {out};
+BuildVariant standard_variant(const ExportRequest& request, const std::string& file) {
+  return variant(file, fortran::ends(request));
 }
 
 } // namespace frictab::abaqus

@@ -39,8 +39,7 @@ state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meanin
                 const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
-std::vector<BuildVariant> variants(const ExportRequest& request, const std::string& file,
-                                   const std::string& driver);
+BuildVariant standard_variant(const ExportRequest& request, const std::string& file);
 
 // A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
 inline constexpr double any_pressure = 1024;

@@ -236,26 +236,24 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
   return {c99};
 }
 
-Exporter exporter() {
-  Exporter c;
-  c.name = "c";
-  c.order = 10;
-  c.title = "C99 function";
-  c.signature_source = "verified: ours, fixed by frictab's contract";
-  c.notes =
-      "One .c and one .h file, no allocation, no input or output (but for the values of a large "
-      "table, see the option), safe from any thread. "
-      "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
-      "-ffast-math: otherwise the bits that were verified are not the bits that run.";
-  c.options = {values_option()};
-  c.generate = generate;
-  c.variants = variants;
-  c.drive = drive_entry;
-  c.batch = batch_entry;
-  return c;
-}
+const char* const notes =
+    "One .c and one .h file, no allocation, no input or output (but for the values of a large "
+    "table, see the option), safe from any thread. "
+    "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
+    "-ffast-math: otherwise the bits that were verified are not the bits that run.";
 
-const Registered<Exporter> registered{exporter};
+const Registered<Exporter> registered{[] {
+  return Exporter{.name = "c",
+                  .order = 10,
+                  .title = "C99 function",
+                  .signature_source = "verified: ours, fixed by frictab's contract",
+                  .notes = notes,
+                  .options = {values_option()},
+                  .generate = generate,
+                  .variants = variants,
+                  .drive = drive_entry,
+                  .batch = batch_entry};
+}};
 
 } // namespace
 

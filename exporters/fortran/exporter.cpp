@@ -184,26 +184,24 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
   return {build};
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "fortran";
-  out.order = 15;
-  out.title = "Fortran 2008 module";
-  out.signature_source = "verified: ours, the C interface fixed by frictab's contract";
-  out.notes =
-      "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
-      "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
-      "programs of your own, and for solvers whose routine you write yourself; those with a target "
-      "here have their argument list written already. No state, safe from any thread.";
-  out.options = {values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive_entry;
-  out.batch = batch_entry;
-  return out;
-}
+const char* const notes =
+    "One free-form file with the module frictab_law: tau_R for numbers and arrays, and with C "
+    "names frictab_tau_R, its derivatives, many states at once, and which axes are left. For "
+    "programs of your own, and for solvers whose routine you write yourself; those with a target "
+    "here have their argument list written already. No state, safe from any thread.";
 
-const Registered<Exporter> registered{exporter};
+const Registered<Exporter> registered{[] {
+  return Exporter{.name = "fortran",
+                  .order = 15,
+                  .title = "Fortran 2008 module",
+                  .signature_source = "verified: ours, the C interface fixed by frictab's contract",
+                  .notes = notes,
+                  .options = {values_option()},
+                  .generate = generate,
+                  .variants = variants,
+                  .drive = drive_entry,
+                  .batch = batch_entry};
+}};
 
 } // namespace
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -55,31 +56,32 @@ struct Built {
 };
 
 struct Exporter {
-  std::string name;
+  std::string name = {};
   int order = 0;
-  std::string title;
-  std::string
-      signature_source; // where the argument list comes from, "verified: ..." / "recalled: ..."
-  std::string notes;    // traps and limits, for `explain`
+  std::string title = {};
+  // Where the argument list comes from: "verified: ..." / "recalled: ..."
+  std::string signature_source = {};
+  std::string notes = {}; // traps and limits, for `explain`
   std::vector<ExportOption> options = {};
 
   // All files with recipe.json. Throws InputError where the request cannot be met.
-  SourceBundle (*generate)(const ExportRequest&) = nullptr;
-  std::vector<BuildVariant> (*variants)(const ExportRequest&) = nullptr;
+  std::function<SourceBundle(const ExportRequest&)> generate = {};
+  std::function<std::vector<BuildVariant>(const ExportRequest&)> variants = {};
   // Calls the routine as its solver would, for rows of states in canonical units (columns in the
   // order of request.table.inputs()), and gives tau_R in MPa; rows it cannot pose stay as they are.
-  void (*drive)(const Built&, const ExportRequest&, std::size_t rows,
-                std::span<const double* const> columns, std::span<double> tau) = nullptr;
+  std::function<void(const Built&, const ExportRequest&, std::size_t rows,
+                     std::span<const double* const> columns, std::span<double> tau)>
+      drive = {};
   // Where the target is a solver's own table, which has fewer axes than the law: the states of
-  // request.table.inputs() that it holds, at which values (canonical). Null for a whole routine.
-  HeldStates (*held)(const ExportRequest&) = nullptr;
+  // request.table.inputs() that it holds, at which values (canonical). Empty for a whole routine.
+  std::function<HeldStates(const ExportRequest&)> held = {};
   // Its own entry for many states at once, in the units of the request and without any conversion:
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
 
   // A routine that answers every state of the law; not so a table that holds some of them.
-  bool whole() const { return held == nullptr; }
+  bool whole() const { return !held; }
 
   // What the request says for one of `options`, or its default.
   const std::string& option(const ExportRequest& request, const std::string& name) const;

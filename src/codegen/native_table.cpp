@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "data/quantity.h"
 #include "expr/program.h"
+#include "io/atomic_file.h"
 #include "io/number.h"
 
 namespace frictab {
@@ -349,11 +350,41 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
   }
 }
 
-std::vector<BuildVariant> native_variants(const ExportRequest&) {
+namespace {
+
+std::vector<BuildVariant> native_variants() {
   BuildVariant deck;
   deck.name = "deck";
   deck.eps = 5e-9; // nine digits
   return {deck};
+}
+
+SourceBundle bundle(const NativeTarget& target, const ExportRequest& request) {
+  const Exporter& self = *find_exporter(target.about.name);
+  const NativeForm form = target.form(request);
+  const NativeTable table = native_table(request, form);
+  SourceBundle files = {
+      {target.file, target.write(request, table, native_comments(self, request, form, table))}};
+  files["recipe.json"] =
+      native_recipe(self, request, form, table, files, target.entry, target.input_deck);
+  return files;
+}
+
+} // namespace
+
+Exporter native_exporter(const NativeTarget& target) {
+  Exporter out = target.about;
+  out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
+  out.variants = [](const ExportRequest&) { return native_variants(); };
+  out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
+                       std::span<const double* const> columns, std::span<double> tau) {
+    const NativeValues values = target.read(read_file(built.directory / target.file), request);
+    drive_native(target.form(request), values, request, rows, columns, tau);
+  };
+  out.held = [target](const ExportRequest& request) {
+    return native_held(request, target.form(request));
+  };
+  return out;
 }
 
 } // namespace frictab

@@ -3,6 +3,7 @@
 // and read back.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,13 +72,30 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
 
-// Nothing is compiled: the text is read.
-std::vector<BuildVariant> native_variants(const ExportRequest&);
+// A target of this kind: what its text is called, how it is written and read back.
+struct NativeTarget {
+  Exporter about;   // name, order, title, signature_source, notes, options
+  std::string file; // "frictab_friction.k"
+  std::function<NativeForm(const ExportRequest&)> form;
+  std::function<std::string(const ExportRequest&, const NativeTable&,
+                            const std::vector<std::string>& comments)>
+      write;
+  // Throws std::runtime_error where the text is not what was written.
+  std::function<NativeValues(const std::string& text, const ExportRequest&)> read;
+  std::string entry;      // for the recipe: "*FRICTION"
+  std::string input_deck; // lines to be pasted
+  // For `frictab table convert`.
+  std::string plain_name;
+  int plain_order = 0;
+  std::string plain_title;
+};
 
-// For `frictab table convert`: the same text, with what the command holds as constants. Throws
-// InputError where a state is neither held nor a column.
-SourceBundle native_plain(const PlainRequest& request, const Exporter& exporter,
-                          const NativeForm& form);
+// Nothing is compiled: the text is read.
+Exporter native_exporter(const NativeTarget& target);
+
+// The same text, with what the command holds as constants. Refuses (InputError) a state that is
+// neither held nor a column.
+PlainFormat native_plain_format(const NativeTarget& target);
 
 // The nodes at which value number i holds, one per column; NaN where the column is blank.
 std::vector<double> place_of(const NativeValues& values, std::size_t i);

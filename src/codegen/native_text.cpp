@@ -127,13 +127,15 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
   return json_text(out);
 }
 
-SourceBundle native_plain(const PlainRequest& request, const Exporter& exporter,
-                          const NativeForm& form) {
+namespace {
+
+std::string plain_text(const PlainRequest& request, const NativeTarget& target) {
   std::vector<std::string> columns;
   ExportRequest asked{request.table, "mm-t-s", {}};
   for (const auto& [name, value] : request.held)
     asked.inputs[name] = "constant:" + shortest(value);
-  const std::vector<NativeColumn> all = native_columns({request.table, "mm-t-s", {}}, form);
+  const ExportRequest whole{request.table, "mm-t-s", {}};
+  const std::vector<NativeColumn> all = native_columns(whole, target.form(whole));
   for (const NativeColumn& column : all) {
     columns.push_back(column.argument.name);
     const bool given = column.state == "sigma_n_MPa" || column.state == "v_rel_mm_s";
@@ -142,7 +144,16 @@ SourceBundle native_plain(const PlainRequest& request, const Exporter& exporter,
                        "leave out --at " + column.argument.name);
   }
   check_all_known(request.table, request.held, columns);
-  return exporter.generate(asked);
+  return find_exporter(target.about.name)->generate(asked).at(target.file);
+}
+
+} // namespace
+
+PlainFormat native_plain_format(const NativeTarget& target) {
+  return {target.plain_name, target.plain_order, target.plain_title, target.about.signature_source,
+          [target](const PlainRequest& request, std::ostream& out) {
+            out << plain_text(request, target);
+          }};
 }
 
 double read_number(std::string_view text) {

@@ -2,6 +2,7 @@
 // itself; those of FE codes are beside their targets in exporters/.
 #pragma once
 
+#include <functional>
 #include <ostream>
 
 #include "core/registry.h"
@@ -20,7 +21,7 @@ struct PlainFormat {
   std::string title;
   std::string source; // where the format comes from: "ours", "verified: ...", "recalled: ..."
   // Throws InputError where a state is missing or the format cannot hold the table.
-  void (*write)(const PlainRequest&, std::ostream&) = nullptr;
+  std::function<void(const PlainRequest&, std::ostream&)> write = {};
 };
 
 // Throws InputError that names the nearest one where there is none of this name.

@@ -28,7 +28,7 @@ const std::map<std::string, std::string> files = {{"abaqus_table", "frictab_fric
                                                   {"ansys_table", "frictab_friction.mac"},
                                                   {"deform_table", "frictab_frcfac.key"}};
 
-// log_coulomb over pressure, psi, speed and temperature, shear limit; tolerance as in golden files.
+// log_coulomb over pressure, psi, speed and temperature, shear limit; tolerance as in the samples.
 Table four_axes() {
   Table table = test::four_axis_table();
   table.number_attributes["tolerance_MPa"] = 40;

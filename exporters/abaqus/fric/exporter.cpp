@@ -7,11 +7,10 @@
 
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
-#include "codegen/driver.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 #include "source.h"
 
 namespace frictab::abaqus::fric {
@@ -19,6 +18,8 @@ namespace frictab::abaqus::fric {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+const char* const file = "frictab_fric.f";
 
 std::string input_deck(const std::vector<SolverInput>& inputs) {
   std::vector<std::string> values = property_values(inputs);
@@ -55,10 +56,8 @@ json properties(const ExportRequest& request, const std::vector<SolverInput>& in
   return out;
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
+void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Exporter& exporter = *find_exporter("abaqus_fric");
-  json out = recipe_head(exporter, request, "fric", files);
   out["options"] = {{"abaqus_coefficient", exporter.option(request, "abaqus_coefficient")}};
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "FRIC's own 39 arguments; listed is where each state comes from";
@@ -72,28 +71,18 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["compile"] = {"abaqus job=<job> user=frictab_fric.f", fixed_form_check("frictab_fric.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
   out["input_deck"] = input_deck(inputs);
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
-  SourceBundle files;
-  files["frictab_fric.f"] = fric_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{file, fric_source(request, inputs)}};
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return abaqus::variants(request, "frictab_fric.f", render_template("abaqus/fric/driver.f", {}));
+  return {abaqus::standard_variant(request, file)};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_routine({.gives = gives(), .most_points = 136, .pressure = abaqus::any_pressure}, built,
-                request, rows, columns, tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return {.gives = gives(request), .most_points = 136, .pressure = abaqus::any_pressure};
 }
 
 const char* const source_of_signature =
@@ -130,21 +119,21 @@ const char* const notes =
     "states of unconverged iterations count too: prefer clamp or law in Standard. LM is 0 on "
     "return, or 2 where the point was open. PNEWDT is not touched.";
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "abaqus_fric";
-  out.order = 24;
-  out.title = "Abaqus/Standard FRIC, stress with derivatives";
-  out.signature_source = source_of_signature;
-  out.notes = notes;
-  out.options = {abaqus::coefficient_option(), values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
-
-const Registered<Exporter> registered{exporter};
+const Registered<Exporter> registered{[] {
+  return routine_exporter({.about = {.name = "abaqus_fric",
+                                     .order = 24,
+                                     .title = "Abaqus/Standard FRIC, stress with derivatives",
+                                     .signature_source = source_of_signature,
+                                     .notes = notes,
+                                     .options = {abaqus::coefficient_option(), values_option()}},
+                           .entry = "fric",
+                           .gives = gives,
+                           .sources = sources,
+                           .recipe = add_recipe,
+                           .variants = variants,
+                           .driver = "abaqus/fric/driver.f",
+                           .drive = driver});
+}};
 
 } // namespace
 

@@ -6,7 +6,7 @@
 
 namespace frictab::abaqus::fric {
 
-const SolverGives& gives() {
+const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",
                   .text = "PRESS",
@@ -50,16 +50,16 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values;
   // Without DROT, CHRLNGTH and the like being numbers, TAU is NaN: ftqnan is always there.
-  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(), true);
+  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true);
   const std::size_t properties = property_count(inputs);
   values.text["critical"] = std::to_string(properties + 1);
   values.text["n_props"] = std::to_string(properties + 1);
   // A millionth of a millimetre, where the deck and the solver give no length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));
-  values.text["reads"] = fortran::reads(inputs, gives());
+  values.text["reads"] = fortran::reads(inputs, gives(request));
   values.text["slopes"] =
-      fortran::slopes(inputs, gives(), {{"to_solver", values.text.at("to_solver")}});
+      fortran::slopes(inputs, gives(request), {{"to_solver", values.text.at("to_solver")}});
   return render_template("abaqus/fric/frictab_fric.f", values);
 }
 

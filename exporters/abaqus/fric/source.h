@@ -9,7 +9,7 @@
 namespace frictab::abaqus::fric {
 
 // What FRIC's arguments hold.
-const SolverGives& gives();
+const SolverGives& gives(const ExportRequest&);
 
 // Values that are kept for every law, and for one with these inputs; without what protects them.
 inline constexpr std::size_t history = 7;

@@ -7,11 +7,10 @@
 
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
-#include "codegen/driver.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 #include "source.h"
 
 namespace frictab::abaqus::fric_coef {
@@ -19,6 +18,8 @@ namespace frictab::abaqus::fric_coef {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+const char* const file = "frictab_fric_coef.f";
 
 std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const std::vector<std::string> values = property_values(inputs);
@@ -44,10 +45,8 @@ json state_variables(const ExportRequest& request, const std::vector<SolverInput
                                  request, inputs);
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
+void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Exporter& exporter = *find_exporter("abaqus_fric_coef");
-  json out = recipe_head(exporter, request, "fric_coef", files);
   for (const ExportOption& option : exporter.options)
     out["options"][option.name] = exporter.option(request, option.name);
   out["arguments"] = recipe_states(inputs);
@@ -64,38 +63,24 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                     fixed_form_check("frictab_fric_coef.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
   out["input_deck"] = input_deck(request, inputs);
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives(is_2024(request)));
-  SourceBundle files;
-  files["frictab_fric_coef.f"] = coef_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{file, coef_source(request, inputs)}};
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  TemplateValues values;
-  values.flags["new"] = is_2024(request);
-  return abaqus::variants(request, "frictab_fric_coef.f",
-                          render_template("abaqus/fric_coef/driver.f", values));
+  return {abaqus::standard_variant(request, file)};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const SolverGives& given = gives(is_2024(request));
-  const std::vector<SolverInput> inputs = solver_inputs(request, given);
+// State variables are those of one point.
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool kept = takes(inputs, "friction_work") || takes(inputs, "peak_sigma_n") ||
-                    uses(inputs, Source::history); // state variables are those of one point
-  drive_routine({.gives = given,
-                 .result = fortran::Coefficient::coulomb,
-                 .most_points = kept ? std::size_t{1} : std::size_t{136},
-                 .pressure = abaqus::any_pressure},
-                built, request, rows, columns, tau);
+                    uses(inputs, Source::history);
+  return {.gives = gives(request),
+          .result = fortran::Coefficient::coulomb,
+          .most_points = kept ? std::size_t{1} : std::size_t{136},
+          .pressure = abaqus::any_pressure};
 }
 
 const char* const source_of_signature =
@@ -128,26 +113,32 @@ const char* const notes =
     "outside = error STDB_ABQERR ends the analysis, and states of unconverged iterations count "
     "too: prefer clamp or law in Standard.";
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "abaqus_fric_coef";
-  out.order = 26;
-  out.title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives";
-  out.signature_source = source_of_signature;
-  out.notes = notes;
-  out.options = {{"abaqus_release",
-                  {"2024", "2020"},
-                  "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
-                  "about 2020; between them see which one your manual shows"},
-                 abaqus::coefficient_option(),
-                 values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
-
-const Registered<Exporter> registered{exporter};
+const Registered<Exporter> registered{[] {
+  return routine_exporter(
+      {.about = {.name = "abaqus_fric_coef",
+                 .order = 26,
+                 .title = "Abaqus/Standard FRIC_COEF, coefficient with derivatives",
+                 .signature_source = source_of_signature,
+                 .notes = notes,
+                 .options =
+                     {{"abaqus_release",
+                       {"2024", "2020"},
+                       "the argument list of FRIC_COEF: the one of 2024, or that of releases up to "
+                       "about 2020; between them see which one your manual shows"},
+                      abaqus::coefficient_option(),
+                      values_option()}},
+       .entry = "fric_coef",
+       .gives = gives,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "abaqus/fric_coef/driver.f",
+       .driver_flags =
+           [](const ExportRequest& request) {
+             return std::map<std::string, bool>{{"new", is_2024(request)}};
+           },
+       .drive = driver});
+}};
 
 } // namespace
 

@@ -75,9 +75,9 @@ bool is_2024(const ExportRequest& request) {
   return target().option(request, "abaqus_release") == "2024";
 }
 
-const SolverGives& gives(bool release_2024) {
+const SolverGives& gives(const ExportRequest& request) {
   static const SolverGives newer = given(true), older = given(false);
-  return release_2024 ? newer : older;
+  return is_2024(request) ? newer : older;
 }
 
 std::size_t state_count(const std::vector<SolverInput>& inputs) {
@@ -93,10 +93,10 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
                      "\"current\", or the target abaqus_fric");
   TemplateValues values;
   values.flags["uses_unknown"] =
-      abaqus::add_routine(values, target(), request, inputs, gives(newer), false);
-  values.text["reads_once"] = fortran::reads(inputs, gives(newer), "once");
-  values.text["reads"] = fortran::reads(inputs, gives(newer), "", 4);
-  values.text["slopes"] = fortran::slopes(inputs, gives(newer), {}, 4);
+      abaqus::add_routine(values, target(), request, inputs, gives(request), false);
+  values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
+  values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
+  values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
   values.text["release"] = newer ? "2024" : "2020";
   values.text["n_props"] = std::to_string(property_count(inputs));

@@ -12,7 +12,7 @@ namespace frictab::abaqus::fric_coef {
 bool is_2024(const ExportRequest& request);
 
 // What that argument list holds.
-const SolverGives& gives(bool release_2024);
+const SolverGives& gives(const ExportRequest& request);
 
 // Values that are kept for every law, and for one with these inputs; without what protects them.
 // Only with the list of 2024.

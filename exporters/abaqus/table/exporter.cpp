@@ -70,22 +70,16 @@ std::string data_lines(const NativeTable& table, std::size_t fields) {
   return out;
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  const Exporter& self = *find_exporter("abaqus_table");
-  const NativeTable table = native_table(request, form(request));
+std::string write(const ExportRequest&, const NativeTable& table,
+                  const std::vector<std::string>& comments) {
   const std::size_t fields = field_count(table.columns);
   TemplateValues values;
-  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.lists["comments"] = items(comments);
   values.text["taumax"] =
       table.values.limit ? ", TAUMAX=" + native_number(*table.values.limit) : "";
   values.text["dependencies"] = fields > 0 ? fmt::format(", DEPENDENCIES={}", fields) : "";
   values.text["data"] = data_lines(table, fields);
-  SourceBundle files;
-  files[file_name] = render_template("abaqus/table/frictab_friction.inp", values);
-  files["recipe.json"] = native_recipe(
-      self, request, form(request), table, files, "*FRICTION",
-      "*Surface Interaction, name=FRICTAB\n*Include, input=" + std::string(file_name) + "\n");
-  return files;
+  return render_template("abaqus/table/frictab_friction.inp", values);
 }
 
 // "*FRICTION, TAUMAX=350" -> the limit.
@@ -117,52 +111,44 @@ NativeValues read(const std::string& text, const std::vector<NativeColumn>& colu
   return out;
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const NativeValues values =
-      read(read_file(built.directory / file_name), native_columns(request, form(request)));
-  drive_native(form(request), values, request, rows, columns, tau);
+const char* const source_of_signature =
+    "verified: order of the columns, DEPENDENCIES and TAUMAX (keyword guide). recalled, check "
+    "against your release: the slip rate varies fastest, linear between lines, constant beyond "
+    "the ends";
+
+const char* const notes =
+    "Columns for slip rate, pressure, temperature, and field variables where [export.inputs] "
+    "says field:N (up to 4, counted from 1); every other state of the law is held at the job's "
+    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
+    "run say; verify.json has what that costs on the validation rows. A column the law does not "
+    "depend on stays blank. TAUMAX holds the law's shear limit at the held flow stress. The "
+    "grid is made to table.tolerance_MPa with at most 20,000 lines. Beyond the ends Abaqus keeps "
+    "the coefficient there, whatever `outside` says.";
+
+NativeTarget target() {
+  return {.about = {.name = "abaqus_table",
+                    .order = 70,
+                    .title = "Abaqus *FRICTION data lines, no user routine",
+                    .signature_source = source_of_signature,
+                    .notes = notes,
+                    .options = {}},
+          .file = file_name,
+          .form = form,
+          .write = write,
+          .read =
+              [](const std::string& text, const ExportRequest& request) {
+                return read(text, native_columns(request, form(request)));
+              },
+          .entry = "*FRICTION",
+          .input_deck =
+              "*Surface Interaction, name=FRICTAB\n*Include, input=frictab_friction.inp\n",
+          .plain_name = "abaqus",
+          .plain_order = 3,
+          .plain_title = "*FRICTION data lines: mu over slip rate, pressure, temperature"};
 }
 
-HeldStates held(const ExportRequest& request) {
-  return native_held(request, form(request));
-}
-
-Exporter exporter() {
-  Exporter out;
-  out.name = "abaqus_table";
-  out.order = 70;
-  out.title = "Abaqus *FRICTION data lines, no user routine";
-  out.signature_source =
-      "verified: order of the columns, DEPENDENCIES and TAUMAX (keyword guide). recalled, check "
-      "against your release: the slip rate varies fastest, linear between lines, constant beyond "
-      "the ends";
-  out.notes =
-      "Columns for slip rate, pressure, temperature, and field variables where [export.inputs] "
-      "says field:N (up to 4, counted from 1); every other state of the law is held at the job's "
-      "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-      "run say; verify.json has what that costs on the validation rows. A column the law does not "
-      "depend on stays blank. TAUMAX holds the law's shear limit at the held flow stress. The "
-      "grid is made to table.tolerance_MPa with at most 20,000 lines. Beyond the ends Abaqus keeps "
-      "the coefficient there, whatever `outside` says.";
-  out.generate = generate;
-  out.variants = native_variants;
-  out.drive = drive;
-  out.held = held;
-  return out;
-}
-
-void write_plain(const PlainRequest& request, std::ostream& out) {
-  out << native_plain(request, *find_exporter("abaqus_table"), form({request.table, "mm-t-s", {}}))
-             .at(file_name);
-}
-
-const Registered<Exporter> registered{exporter};
-const Registered<PlainFormat> plain{[] {
-  const Exporter self = exporter();
-  return PlainFormat{"abaqus", 3, "*FRICTION data lines: mu over slip rate, pressure, temperature",
-                     self.signature_source, write_plain};
-}};
+const Registered<Exporter> registered{[] { return native_exporter(target()); }};
+const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

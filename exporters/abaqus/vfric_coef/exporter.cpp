@@ -12,8 +12,8 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 
 namespace frictab::abaqus::vfric_coef {
 
@@ -25,7 +25,7 @@ const char* const file = "frictab_vfric_coef.f";
 // pressures of cold forging, so that what a law says there is its limit.
 constexpr double least_pressure = 1e-3;
 
-const SolverGives& gives() {
+const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa", .text = "pressure", .read = "press", .canonical = true},
                  {.state = "v_rel_mm_s", .text = "slipRate", .read = "abs(speed)"},
@@ -35,12 +35,12 @@ const SolverGives& gives() {
                   .read = "tempAvg(k)",
                   .exists = "nTemp .gt. 0",
                   .part = "point"}},
-      .property = abaqus::explicit_property,
+      .property = abaqus::explicit_property(),
       .field = {.text = "mean of both surfaces' field variable @{field} (fieldAvg)",
                 .read = "fieldAvg(k,@{field})",
                 .exists = "nFields .ge. @{field}",
                 .part = "point"},
-      .constant = abaqus::explicit_constant};
+      .constant = abaqus::explicit_constant()};
   return all;
 }
 
@@ -64,7 +64,7 @@ std::vector<std::string> remarks(const ExportRequest& request) {
 
 std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool refuses = fortran::refuses(request.table);
-  const bool unknown = fortran::needs_unknown(inputs, gives());
+  const bool unknown = fortran::needs_unknown(inputs, gives(request));
   const fortran::Core core = fortran::core(
       request, {.unknown = refuses || unknown,
                 .quit = abaqus::quit(abaqus::Solver::explicit_),
@@ -74,9 +74,9 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
                                                 inputs, remarks(request))},
                  {"n_x", std::to_string(core.n_x)},
-                 {"reads_once", fortran::reads(inputs, gives(), "once")},
-                 {"reads_point", fortran::reads(inputs, gives(), "point", 2)},
-                 {"reads", fortran::reads(inputs, gives())},
+                 {"reads_once", fortran::reads(inputs, gives(request), "once")},
+                 {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
+                 {"reads", fortran::reads(inputs, gives(request))},
                  {"stress_convert", stress.same() ? "" : "/" + fortran_number(stress.over)},
                  {"least", fortran_number(least_pressure)},
                  {"core", core.text}};
@@ -84,10 +84,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   return render_template("abaqus/vfric_coef/frictab_vfric_coef.f", values);
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
-  nlohmann::ordered_json out =
-      recipe_head(*find_exporter("abaqus_vfric_coef"), request, "vfric_coef", files);
+void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
+                const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "VFRIC_COEF's own 16 arguments; listed is where each state comes from";
   out["result"] = {
@@ -102,63 +100,58 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["input_deck"] = abaqus::friction_lines("user=coefficient", 0, inputs) +
                       "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
                       "*Contact Property Assignment\n , , FRICTAB\n";
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
-  SourceBundle files;
-  files[file] = source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{file, source(request, inputs)}};
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return abaqus::explicit_variants(request, file, "abaqus/vfric_coef/driver.f");
+  return abaqus::explicit_variants(request, file);
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  abaqus::drive_explicit(gives(), fortran::Coefficient::coulomb, built, request, rows, columns,
-                         tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return abaqus::explicit_driver(gives(request), fortran::Coefficient::coulomb);
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "abaqus_vfric_coef";
-  out.order = 22;
-  out.title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only";
-  out.signature_source =
-      "recalled: no public text of VFRIC_COEF's argument list was found; check against your "
-      "release before the first run. It is taken to be that of FRIC_COEF up to 2020, which is "
-      "verified in public code, with vaba_param.inc. Verified: the keyword line (6.14 keyword "
-      "guide). Recalled: fCoefDeriv(nBlock,3), nTemp = 1 where temperatures exist. XPLB_ABQERR "
-      "(only where outside = error) is called as public routines do";
-  out.notes =
-      "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick "
-      "and slip, the routine says how large the coefficient is. The argument list is RECALLED: "
-      "check against your release; abaqus_vfriction gives the same friction with a verified one. "
-      "fCoef = tau_R/pressure, so that a law with a shear limit gets a coefficient that falls with "
-      "pressure, and a large one at small pressures: force = fCoef*pressure is tau_R all the "
-      "same. Below 1e-3 MPa the coefficient is the one there: the limit of a law that rises with "
-      "pressure, while tau_R of one that does not (shear, m k) goes to 0 with the pressure. "
-      "fCoefDeriv is set to 0. There is no history: sliding distance, friction work and peak "
-      "pressure are properties or fields (VUFIELD). There are no state variables (DEPVAR), so "
-      "states outside the range are not counted. SHEAR TRACTION SLOPE does not go with it. "
-      "Where a side has outside = error, points in contact end the analysis "
-      "through XPLB_ABQERR; points out of contact never do. Works with the single- and the "
-      "double-precision solver; table and arithmetic are double in both.";
-  out.options = {values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
+const char* const source_of_signature =
+    "recalled: no public text of VFRIC_COEF's argument list was found; check against your "
+    "release before the first run. It is taken to be that of FRIC_COEF up to 2020, which is "
+    "verified in public code, with vaba_param.inc. Verified: the keyword line (6.14 keyword "
+    "guide). Recalled: fCoefDeriv(nBlock,3), nTemp = 1 where temperatures exist. XPLB_ABQERR "
+    "(only where outside = error) is called as public routines do";
 
-const Registered<Exporter> registered{exporter};
+const char* const notes =
+    "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick "
+    "and slip, the routine says how large the coefficient is. The argument list is RECALLED: "
+    "check against your release; abaqus_vfriction gives the same friction with a verified one. "
+    "fCoef = tau_R/pressure, so that a law with a shear limit gets a coefficient that falls with "
+    "pressure, and a large one at small pressures: force = fCoef*pressure is tau_R all the "
+    "same. Below 1e-3 MPa the coefficient is the one there: the limit of a law that rises with "
+    "pressure, while tau_R of one that does not (shear, m k) goes to 0 with the pressure. "
+    "fCoefDeriv is set to 0. There is no history: sliding distance, friction work and peak "
+    "pressure are properties or fields (VUFIELD). There are no state variables (DEPVAR), so "
+    "states outside the range are not counted. SHEAR TRACTION SLOPE does not go with it. "
+    "Where a side has outside = error, points in contact end the analysis "
+    "through XPLB_ABQERR; points out of contact never do. Works with the single- and the "
+    "double-precision solver; table and arithmetic are double in both.";
+
+const Registered<Exporter> registered{[] {
+  return routine_exporter(
+      {.about = {.name = "abaqus_vfric_coef",
+                 .order = 22,
+                 .title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only",
+                 .signature_source = source_of_signature,
+                 .notes = notes,
+                 .options = {values_option()}},
+       .entry = "vfric_coef",
+       .gives = gives,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "abaqus/vfric_coef/driver.f",
+       .drive = driver});
+}};
 
 } // namespace
 

@@ -10,81 +10,63 @@ namespace frictab::abaqus::vfriction {
 
 namespace {
 
-const abaqus::ForceRoutine& routine() {
-  static const abaqus::ForceRoutine one = [] {
-    abaqus::ForceRoutine r;
-    r.target = "abaqus_vfriction";
-    r.entry = "vfriction";
-    r.gives = abaqus::force_gives({.pressure = "fNormal/areaCont of the contact point",
-                                   .speed = "|dSlipFric|/rData(3) (0 where rData(3) = 0)",
-                                   .state_name = "STATE",
-                                   .temperature = "tempSlv(k)",
-                                   .temperature_main = "tempMst(min(k,nBlockAnal))",
-                                   .fields = "nFields",
-                                   .field = "fieldSlv(@{field},k)",
-                                   .field_main = "fieldMst(@{field},min(k,nBlockAnal))",
-                                   .main = "nBlockAnal"});
-    r.gives.field.text = "mean of both surfaces' field variable @{field}";
-    r.points = "nBlock";
-    r.time_increment = "rData(3)";
-    r.area = "areaCont(k)";
-    r.states = "nStates";
-    r.columns = "nNodState";
-    r.state = "state(1,1,k)";
-    r.state_name = "STATE";
-    r.state_by = "contact point";
-    r.arguments_note = "VFRICTION's own 39 arguments; listed is where each state comes from";
-    r.user = "user=friction";
-    r.deck_tail = "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-                  "*Contact Property Assignment\n , , FRICTAB\n";
-    return r;
-  }();
-  return one;
+const char* const source_of_signature =
+    "verified: argument list, dimensions and sizes of the arrays in three public routines that "
+    "ran in production (RWTH WZL), names as in the 2017 and v2023 references, keyword lines in "
+    "the 6.14 keyword guide. Recalled, check against your release: nTemp = 1 where temperatures "
+    "exist, negative fStickForce, STATE = 0 at the start. Not known: what the 4 columns of "
+    "STATE mean for edges. XPLB_ABQERR (only where outside = error) is called as public routines "
+    "do";
+
+std::string notes() {
+  return "For GENERAL contact with *FRICTION, USER=FRICTION; contact pairs need abaqus_vfric. "
+         "Pressure is fNormal/areaCont of the contact point, speed |dSlipFric|/rData(3) (0 where "
+         "rData(3) = 0). A contact point is one node or edge of the secondary surface beside one "
+         "main "
+         "surface: a node in a corner is two points, each with a history of its own. Points of "
+         "edges "
+         "carry 4 columns of states: each is advanced alike, the law takes their mean. Surface "
+         "names "
+         "are blank in general contact: different laws need different interactions. Node and edge "
+         "contact come in blocks of their own. " +
+         abaqus::force_notes("STATE", "contact point");
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  return abaqus::force_bundle(routine(), request);
+abaqus::ForceRoutine routine() {
+  abaqus::ForceRoutine r;
+  r.about = {.name = "abaqus_vfriction",
+             .order = 21,
+             .title = "Abaqus/Explicit VFRICTION, general contact",
+             .signature_source = source_of_signature,
+             .notes = notes(),
+             .options = {values_option()}};
+  r.entry = "vfriction";
+  r.gives = abaqus::force_gives({.pressure = "fNormal/areaCont of the contact point",
+                                 .speed = "|dSlipFric|/rData(3) (0 where rData(3) = 0)",
+                                 .state_name = "STATE",
+                                 .temperature = "tempSlv(k)",
+                                 .temperature_main = "tempMst(min(k,nBlockAnal))",
+                                 .fields = "nFields",
+                                 .field = "fieldSlv(@{field},k)",
+                                 .field_main = "fieldMst(@{field},min(k,nBlockAnal))",
+                                 .main = "nBlockAnal"});
+  r.gives.field.text = "mean of both surfaces' field variable @{field}";
+  r.points = "nBlock";
+  r.time_increment = "rData(3)";
+  r.area = "areaCont(k)";
+  r.states = "nStates";
+  r.columns = "nNodState";
+  r.state = "state(1,1,k)";
+  r.state_name = "STATE";
+  r.state_by = "contact point";
+  r.arguments_note = "VFRICTION's own 39 arguments; listed is where each state comes from";
+  r.user = "user=friction";
+  r.deck_tail = "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
+                "*Contact Property Assignment\n , , FRICTAB\n";
+  return r;
 }
 
-std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return abaqus::explicit_variants(request, "frictab_vfriction.f", "abaqus/vfriction/driver.f");
-}
-
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  abaqus::drive_explicit(routine().gives, fortran::Coefficient::stress, built, request, rows,
-                         columns, tau);
-}
-
-Exporter exporter() {
-  Exporter out;
-  out.name = "abaqus_vfriction";
-  out.order = 21;
-  out.title = "Abaqus/Explicit VFRICTION, general contact";
-  out.signature_source =
-      "verified: argument list, dimensions and sizes of the arrays in three public routines that "
-      "ran in production (RWTH WZL), names as in the 2017 and v2023 references, keyword lines in "
-      "the 6.14 keyword guide. Recalled, check against your release: nTemp = 1 where temperatures "
-      "exist, negative fStickForce, STATE = 0 at the start. Not known: what the 4 columns of "
-      "STATE mean for edges. XPLB_ABQERR (only where outside = error) is called as public routines "
-      "do";
-  out.notes =
-      "For GENERAL contact with *FRICTION, USER=FRICTION; contact pairs need abaqus_vfric. "
-      "Pressure is fNormal/areaCont of the contact point, speed |dSlipFric|/rData(3) (0 where "
-      "rData(3) = 0). A contact point is one node or edge of the secondary surface beside one main "
-      "surface: a node in a corner is two points, each with a history of its own. Points of edges "
-      "carry 4 columns of states: each is advanced alike, the law takes their mean. Surface names "
-      "are blank in general contact: different laws need different interactions. Node and edge "
-      "contact come in blocks of their own. " +
-      abaqus::force_notes("STATE", "contact point");
-  out.options = {values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
-
-const Registered<Exporter> registered{exporter};
+const Registered<Exporter> registered{[] { return abaqus::force_exporter(routine()); }};
 
 } // namespace
 

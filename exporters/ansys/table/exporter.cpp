@@ -57,21 +57,14 @@ std::string commands(const NativeTable& table) {
   return out;
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  const Exporter& self = *find_exporter("ansys_table");
-  const NativeTable table = native_table(request, form(request));
+std::string write(const ExportRequest&, const NativeTable& table,
+                  const std::vector<std::string>& comments) {
   TemplateValues values;
-  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.lists["comments"] = items(comments);
   values.flags["limited"] = table.values.limit.has_value();
   values.text["limit"] = table.values.limit ? native_number(*table.values.limit) : "";
   values.text["commands"] = commands(table);
-  SourceBundle files;
-  files[file_name] = render_template("ansys/table/frictab_friction.mac", values);
-  files["recipe.json"] =
-      native_recipe(self, request, form(request), table, files, "TB,FRIC",
-                    "/PREP7\nft_mat = 1   ! material of the contact pair\nft_real = 1  ! its real "
-                    "constant set\n/INPUT,frictab_friction,mac\n");
-  return files;
+  return render_template("ansys/table/frictab_friction.mac", values);
 }
 
 NativeValues read(const std::string& text, const std::vector<NativeColumn>& columns) {
@@ -102,55 +95,47 @@ NativeValues read(const std::string& text, const std::vector<NativeColumn>& colu
   return out;
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const NativeValues values =
-      read(read_file(built.directory / file_name), native_columns(request, form(request)));
-  drive_native(form(request), values, request, rows, columns, tau);
+const char* const source_of_signature =
+    "verified: TB,FRIC,,,,ISO with TBFIELD over TEMP, NPRES, SLDI (total sliding distance, "
+    "absolute), SLRV and UF01 to UF09, ascending, a field that is said stays active (command "
+    "reference). recalled, check against your release: linear between, constant beyond the "
+    "ends; TAUMAX is real constant 9 of the contact elements";
+
+const char* const notes =
+    "Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N where "
+    "[export.inputs] says field:N (1 to 9); every other state of the law is held at the job's "
+    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
+    "run say; verify.json has what that costs on the validation rows. RMODIF sets TAUMAX to the "
+    "law's shear limit at the held flow stress: without it the friction exceeds the limit. Set "
+    "ft_mat and ft_real to your material and real constant set. The grid is made to "
+    "table.tolerance_MPa with at most 20,000 values.";
+
+NativeTarget target() {
+  return {.about = {.name = "ansys_table",
+                    .order = 80,
+                    .title = "ANSYS MAPDL TB,FRIC with TBFIELD, no user routine",
+                    .signature_source = source_of_signature,
+                    .notes = notes,
+                    .options = {}},
+          .file = file_name,
+          .form = form,
+          .write = write,
+          .read =
+              [](const std::string& text, const ExportRequest& request) {
+                return read(text, native_columns(request, form(request)));
+              },
+          .entry = "TB,FRIC",
+          .input_deck =
+              "/PREP7\nft_mat = 1   ! material of the contact pair\nft_real = 1  ! its real "
+              "constant set\n/INPUT,frictab_friction,mac\n",
+          .plain_name = "ansys",
+          .plain_order = 5,
+          .plain_title = "TB,FRIC with TBFIELD: mu over pressure, velocity, sliding distance, "
+                         "temperature"};
 }
 
-HeldStates held(const ExportRequest& request) {
-  return native_held(request, form(request));
-}
-
-Exporter exporter() {
-  Exporter out;
-  out.name = "ansys_table";
-  out.order = 80;
-  out.title = "ANSYS MAPDL TB,FRIC with TBFIELD, no user routine";
-  out.signature_source =
-      "verified: TB,FRIC,,,,ISO with TBFIELD over TEMP, NPRES, SLDI (total sliding distance, "
-      "absolute), SLRV and UF01 to UF09, ascending, a field that is said stays active (command "
-      "reference). recalled, check against your release: linear between, constant beyond the "
-      "ends; TAUMAX is real constant 9 of the contact elements";
-  out.notes =
-      "Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N where "
-      "[export.inputs] says field:N (1 to 9); every other state of the law is held at the job's "
-      "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-      "run say; verify.json has what that costs on the validation rows. RMODIF sets TAUMAX to the "
-      "law's shear limit at the held flow stress: without it the friction exceeds the limit. Set "
-      "ft_mat and ft_real to your material and real constant set. The grid is made to "
-      "table.tolerance_MPa with at most 20,000 values.";
-  out.generate = generate;
-  out.variants = native_variants;
-  out.drive = drive;
-  out.held = held;
-  return out;
-}
-
-void write_plain(const PlainRequest& request, std::ostream& out) {
-  out << native_plain(request, *find_exporter("ansys_table"), form({request.table, "mm-t-s", {}}))
-             .at(file_name);
-}
-
-const Registered<Exporter> registered{exporter};
-const Registered<PlainFormat> plain{[] {
-  const Exporter self = exporter();
-  return PlainFormat{"ansys", 5,
-                     "TB,FRIC with TBFIELD: mu over pressure, velocity, sliding distance, "
-                     "temperature",
-                     self.signature_source, write_plain};
-}};
+const Registered<Exporter> registered{[] { return native_exporter(target()); }};
+const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 
 namespace frictab::calculix::usrmu {
 
@@ -23,7 +22,7 @@ using fortran::Coefficient;
 const char* const file = "frictab_usrmu.f";
 const char* const hook = "frictab_hook.sh";
 
-const SolverGives& gives() {
+const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",
                   .text = "DFNL/SPRINGAREA(1) of the contact point",
@@ -53,15 +52,13 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(request.table, Coefficient::coulomb);
-  values.text["reads"] = fortran::reads(inputs, gives());
+  values.text["reads"] = fortran::reads(inputs, gives(request));
   values.text["core"] =
       fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
   return render_template("calculix/usrmu/frictab_usrmu.f", values);
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
-  json out = recipe_head(*find_exporter("calculix_usrmu"), request, "usrmu", files);
+void add_recipe(json& out, const ExportRequest&, const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] =
       "USRMU's 7 arguments and the time increment that USRMU_TIME is given; listed is "
@@ -86,67 +83,59 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                       "*Contact Pair, interaction=FRICTAB, type=SURFACE TO SURFACE\n"
                       " <secondary>, <main>\n";
   out["input_deck_note"] = "the coefficient has to be above 0; USRMU takes its place";
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
-  SourceBundle files;
-  files[file] = source(request, inputs);
-  files[hook] = embedded_template("calculix/usrmu/frictab_hook.sh");
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{file, source(request, inputs)},
+          {hook, std::string(embedded_template("calculix/usrmu/frictab_hook.sh"))}};
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {file});
-  add_driver(out, render_template("calculix/usrmu/driver.f", {}));
-  return {out};
+  return {fortran::fortran_variant(request, "double", 0x1p-53, {file})};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_routine({.gives = gives(), .result = Coefficient::coulomb}, built, request, rows, columns,
-                tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return {.gives = gives(request), .result = Coefficient::coulomb};
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "calculix_usrmu";
-  out.order = 56;
-  out.title = "CalculiX CrunchiX 2.20, calls put into its source";
-  out.signature_source =
-      "the list is our own: CalculiX has no user routine for friction. verified: what the "
-      "arguments "
-      "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
-      "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
-      "frictionheating.f)";
-  out.notes =
-      "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine "
-      "lines "
-      "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
-      "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
-      "with any number above 0. Increments need the time they take (speed = slip/time). The "
-      "stiffness that CalculiX forms leaves out how mu changes: more iterations, the same result. "
-      "|T| is where the point has slid to, not how far it went, where a slide turns back. The "
-      "temperature is the mean of the spring's first two nodes; exactly 0 stands for none. Surface "
-      "expansion, flow stress and further histories are not at hand there: they are constants, "
-      "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
-      "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "
-      "[table.axes.sigma_n_MPa] outside = \"law\". Beyond a side with outside = error the routine "
-      "writes state and value to the standard output and stops. CalculiX is under the GPL, and so "
-      "is a program linked from both when it is passed on.";
-  out.options = {values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
+const char* const source_of_signature =
+    "the list is our own: CalculiX has no user routine for friction. verified: what the "
+    "arguments "
+    "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
+    "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
+    "frictionheating.f)";
 
-const Registered<Exporter> registered{exporter};
+const char* const notes =
+    "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine "
+    "lines "
+    "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
+    "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
+    "with any number above 0. Increments need the time they take (speed = slip/time). The "
+    "stiffness that CalculiX forms leaves out how mu changes: more iterations, the same result. "
+    "|T| is where the point has slid to, not how far it went, where a slide turns back. The "
+    "temperature is the mean of the spring's first two nodes; exactly 0 stands for none. Surface "
+    "expansion, flow stress and further histories are not at hand there: they are constants, "
+    "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
+    "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "
+    "[table.axes.sigma_n_MPa] outside = \"law\". Beyond a side with outside = error the routine "
+    "writes state and value to the standard output and stops. CalculiX is under the GPL, and so "
+    "is a program linked from both when it is passed on.";
+
+const Registered<Exporter> registered{[] {
+  return routine_exporter({.about = {.name = "calculix_usrmu",
+                                     .order = 56,
+                                     .title = "CalculiX CrunchiX 2.20, calls put into its source",
+                                     .signature_source = source_of_signature,
+                                     .notes = notes,
+                                     .options = {values_option()}},
+                           .entry = "usrmu",
+                           .gives = gives,
+                           .sources = sources,
+                           .recipe = add_recipe,
+                           .variants = variants,
+                           .driver = "calculix/usrmu/driver.f",
+                           .drive = driver});
+}};
 
 } // namespace
 

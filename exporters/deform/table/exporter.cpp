@@ -50,11 +50,10 @@ std::string number_line(std::span<const double> numbers) {
   return line;
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  const Exporter& self = *find_exporter("deform_table");
-  const NativeTable table = native_table(request, form(request));
+std::string write(const ExportRequest& request, const NativeTable& table,
+                  const std::vector<std::string>& comments) {
   TemplateValues values;
-  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.lists["comments"] = items(comments);
   values.text["type"] = is_shear(request) ? "1" : "2";
   const auto& nodes = table.values.nodes;
   for (std::size_t c = 0; c < 3; ++c)
@@ -65,12 +64,7 @@ SourceBundle generate(const ExportRequest& request) {
   const std::span<const double> all = table.values.value;
   for (std::size_t i = 0; i < all.size(); i += nodes[0].size())
     values.lists["rows"].push_back(item(number_line(all.subspan(i, nodes[0].size()))));
-  SourceBundle files;
-  files[file_name] = render_template("deform/table/frictab_frcfac.key", values);
-  files["recipe.json"] = native_recipe(
-      self, request, form(request), table, files, "FRCFAC",
-      "load frictab_frcfac.key in the preprocessor, with your object numbers in its FRCFAC line");
-  return files;
+  return render_template("deform/table/frictab_frcfac.key", values);
 }
 
 std::vector<double> numbers(std::string_view line) {
@@ -103,54 +97,44 @@ NativeValues read(const std::string& text, bool shear) {
   return out;
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_native(form(request), read(read_file(built.directory / file_name), is_shear(request)),
-               request, rows, columns, tau);
+const char* const source_of_signature =
+    "verified: FRCFAC of type 5 over pressure, temperature and surface stretch, the pressure "
+    "varies fastest, FricType 1 = m and 2 = mu (keyword documentation of v14). recalled, check "
+    "against your release: linear between and constant beyond the ends (the manual does not "
+    "say), lines that start with * are comments, numbers are separated by blanks";
+
+const char* const notes =
+    "Pressure, temperature and surface stretch are all this table knows, in 2-D as in 3-D; "
+    "every other state of the law, sliding speed and distance among them, is held at the job's "
+    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
+    "run say; verify.json has what that costs on the validation rows. deform_friction = "
+    "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
+    "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
+    "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
+    "at most 20,000 values.";
+
+NativeTarget target() {
+  return {.about = {.name = "deform_table",
+                    .order = 85,
+                    .title = "DEFORM FRCFAC table of friction, 2-D and 3-D, no user routine",
+                    .signature_source = source_of_signature,
+                    .notes = notes,
+                    .options = options},
+          .file = file_name,
+          .form = form,
+          .write = write,
+          .read = [](const std::string& text,
+                     const ExportRequest& request) { return read(text, is_shear(request)); },
+          .entry = "FRCFAC",
+          .input_deck = "load frictab_frcfac.key in the preprocessor, with your object numbers in "
+                        "its FRCFAC line",
+          .plain_name = "deform",
+          .plain_order = 6,
+          .plain_title = "FRCFAC of type 5: mu over pressure, temperature, stretch"};
 }
 
-HeldStates held(const ExportRequest& request) {
-  return native_held(request, form(request));
-}
-
-Exporter exporter() {
-  Exporter out;
-  out.name = "deform_table";
-  out.order = 85;
-  out.title = "DEFORM FRCFAC table of friction, 2-D and 3-D, no user routine";
-  out.signature_source =
-      "verified: FRCFAC of type 5 over pressure, temperature and surface stretch, the pressure "
-      "varies fastest, FricType 1 = m and 2 = mu (keyword documentation of v14). recalled, check "
-      "against your release: linear between and constant beyond the ends (the manual does not "
-      "say), lines that start with * are comments, numbers are separated by blanks";
-  out.notes =
-      "Pressure, temperature and surface stretch are all this table knows, in 2-D as in 3-D; "
-      "every other state of the law, sliding speed and distance among them, is held at the job's "
-      "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-      "run say; verify.json has what that costs on the validation rows. deform_friction = "
-      "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
-      "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
-      "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
-      "at most 20,000 values.";
-  out.options = options;
-  out.generate = generate;
-  out.variants = native_variants;
-  out.drive = drive;
-  out.held = held;
-  return out;
-}
-
-void write_plain(const PlainRequest& request, std::ostream& out) {
-  out << native_plain(request, *find_exporter("deform_table"), form({request.table, "mm-t-s", {}}))
-             .at(file_name);
-}
-
-const Registered<Exporter> registered{exporter};
-const Registered<PlainFormat> plain{[] {
-  const Exporter self = exporter();
-  return PlainFormat{"deform", 6, "FRCFAC of type 5: mu over pressure, temperature, stretch",
-                     self.signature_source, write_plain};
-}};
+const Registered<Exporter> registered{[] { return native_exporter(target()); }};
+const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 #include "source.h"
 
 namespace frictab::deform::usrbcc {
@@ -55,10 +54,10 @@ json user_variables(const ExportRequest& request, const std::vector<SolverInput>
   return all;
 }
 
-json build_steps(const SourceBundle& files, const std::vector<SolverInput>& inputs) {
+json build_steps(const std::vector<SolverInput>& inputs) {
   json steps = {"copy the folder UserRoutine\\DEF_SIM (or DEF_SIM_DLL) of the 2-D installation",
                 "replace subroutine USRBCC in usr_bcc.f by frictab_usrbcc.f; USRBCC2 stays"};
-  if (files.count(update_file))
+  if (takes_history(inputs))
     steps.push_back(
         fmt::format("add frictab_usrupd.f to usr_upd.f and CALL FTUPD in USRUPD, behind the loop "
                     "that copies USRN1 to USRN2; at least {} user variables per node",
@@ -68,10 +67,8 @@ json build_steps(const SourceBundle& files, const std::vector<SolverInput>& inpu
   return steps;
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
+void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Coefficient kind = coefficient_kind(request);
-  json out = recipe_head(*find_exporter("deform_usrbcc"), request, "usrbcc", files);
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "USRBCC's own 18 arguments and COMMON /UFHCOM/, /UFHCOM2/; listed is "
                           "where each state comes from";
@@ -81,85 +78,80 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["state_variables"] = takes_history(inputs) ? user_variables(request, inputs) : json::array();
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
-  out["build"] = build_steps(files, inputs);
+  out["build"] = build_steps(inputs);
   out["compile"] = {fixed_form_check("frictab_usrbcc.f")};
   out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
   out["input_deck"] = keyword(kind);
   out["input_deck_note"] =
       "-1: user routine 1; the die has to be ELASTIC (meshed), else DEFORM computes neither SLDVEL "
       "nor PRESS";
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = inputs_of(request);
-  SourceBundle files;
-  files[main_file] = usrbcc_source(request, inputs);
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  SourceBundle files = {{main_file, usrbcc_source(request, inputs)}};
   if (takes_history(inputs)) files[update_file] = usrupd_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
   return files;
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  std::vector<std::string> sources = {main_file};
-  if (takes_history(inputs_of(request))) sources.push_back(update_file);
-  BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, sources);
-  add_driver(out, render_template("deform/usrbcc/driver.f", {}));
-  return {out};
+  std::vector<std::string> files = {main_file};
+  if (takes_history(solver_inputs(request, gives(request)))) files.push_back(update_file);
+  return {fortran::fortran_variant(request, "double", 0x1p-53, files)};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_routine({.gives = gives(), .result = coefficient_kind(request)}, built, request, rows,
-                columns, tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return {.gives = gives(request), .result = coefficient_kind(request)};
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "deform_usrbcc";
-  out.order = 52;
-  out.title = "DEFORM-2D USRBCC";
-  out.signature_source =
-      "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies "
-      "only, "
-      "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, "
-      "/USRCTL/ "
-      "and /SSTU/ as declared in public routines for v12. Recalled or inferred, check against your "
-      "release: STRCH is the surface expansion, EFSTS the flow stress, DTMAXC the step's time "
-      "increment; the signs of PRESS and PRESR(2)";
-  out.notes =
-      "deform_friction says what VARIABLE is: \"coulomb\" mu = tau_R/p, \"shear\" m = tau_R/k, "
-      "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to "
-      "be "
-      "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and "
-      "with "
-      "0 in both mu is that of the smallest pressure, m and tau are 0. mu below 0.001 MPa is that "
-      "of "
-      "0.001 MPa. Sliding distance, friction work and peak pressure come from USRNOD(1..3), which "
-      "FTUPD (frictab_usrupd.f, called in USRUPD) accumulates once per converged step, so friction "
-      "sees them one step late; further histories of a traced law (energy, times, means, peaks, "
-      "friction power) follow from USRNOD(4) on; [export.inputs] takes field:N for another "
-      "USRNOD(N), "
-      "constant:VALUE "
-      "for a number in the source. DEFORM's own SI units are mm-t-s: MPa, mm/s, mm, degC. USRBCC "
-      "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "
-      "side "
-      "with outside = error the routine writes state and value to the standard output and stops "
-      "(FTQUIT). There is no USRBCC in DEFORM-3D.";
-  out.options = {{"deform_friction",
-                  {"coulomb", "shear", "constant"},
-                  "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
-                 values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
+const char* const source_of_signature =
+    "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies "
+    "only, "
+    "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, "
+    "/USRCTL/ "
+    "and /SSTU/ as declared in public routines for v12. Recalled or inferred, check against your "
+    "release: STRCH is the surface expansion, EFSTS the flow stress, DTMAXC the step's time "
+    "increment; the signs of PRESS and PRESR(2)";
 
-const Registered<Exporter> registered{exporter};
+const char* const notes =
+    "deform_friction says what VARIABLE is: \"coulomb\" mu = tau_R/p, \"shear\" m = tau_R/k, "
+    "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to "
+    "be "
+    "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and "
+    "with "
+    "0 in both mu is that of the smallest pressure, m and tau are 0. mu below 0.001 MPa is that "
+    "of "
+    "0.001 MPa. Sliding distance, friction work and peak pressure come from USRNOD(1..3), which "
+    "FTUPD (frictab_usrupd.f, called in USRUPD) accumulates once per converged step, so friction "
+    "sees them one step late; further histories of a traced law (energy, times, means, peaks, "
+    "friction power) follow from USRNOD(4) on; [export.inputs] takes field:N for another "
+    "USRNOD(N), "
+    "constant:VALUE "
+    "for a number in the source. DEFORM's own SI units are mm-t-s: MPa, mm/s, mm, degC. USRBCC "
+    "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "
+    "side "
+    "with outside = error the routine writes state and value to the standard output and stops "
+    "(FTQUIT). There is no USRBCC in DEFORM-3D.";
+
+const Registered<Exporter> registered{[] {
+  return routine_exporter(
+      {.about = {.name = "deform_usrbcc",
+                 .order = 52,
+                 .title = "DEFORM-2D USRBCC",
+                 .signature_source = source_of_signature,
+                 .notes = notes,
+                 .options = {{"deform_friction",
+                              {"coulomb", "shear", "constant"},
+                              "the friction type of FRCFAC: mu, m, or tau_R (2-D routine only)"},
+                             values_option()}},
+       .entry = "usrbcc",
+       .gives = gives,
+       .check = check_fields,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "deform/usrbcc/driver.f",
+       .drive = driver});
+}};
 
 } // namespace
 

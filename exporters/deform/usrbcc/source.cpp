@@ -75,7 +75,7 @@ Coefficient coefficient_kind(const ExportRequest& request) {
                               : Coefficient::coulomb;
 }
 
-const SolverGives& gives() {
+const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",
                   .text = "|PRESS| of COMMON /UFHCOM/",
@@ -126,8 +126,7 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return first_three + history_count(inputs);
 }
 
-std::vector<SolverInput> inputs_of(const ExportRequest& request) {
-  std::vector<SolverInput> inputs = solver_inputs(request, gives());
+void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) {
   FaultList faults;
   if (takes_history(inputs))
     for (const SolverInput& input : inputs)
@@ -136,7 +135,6 @@ std::vector<SolverInput> inputs_of(const ExportRequest& request) {
                    fmt::format("USRNOD({}) holds a history that the law needs", input.field),
                    fmt::format("field:{} or higher", state_count(inputs) + 1));
   faults.throw_if_any();
-  return inputs;
 }
 
 std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -174,7 +172,7 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["n_states"] = std::to_string(state_count(inputs));
   add_further(values, request, inputs);
   values.flags["uses_peak"] = takes(inputs, "peak_sigma_n");
-  values.text["reads"] = fortran::reads(inputs, gives());
+  values.text["reads"] = fortran::reads(inputs, gives(request));
   return render_template("deform/usrbcc/frictab_usrbcc.f", values);
 }
 

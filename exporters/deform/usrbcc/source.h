@@ -13,7 +13,7 @@ namespace frictab::deform::usrbcc {
 fortran::Coefficient coefficient_kind(const ExportRequest& request);
 
 // What USRBCC's arguments and COMMON blocks hold.
-const SolverGives& gives();
+const SolverGives& gives(const ExportRequest&);
 
 // Whether the law takes the history of a node.
 bool takes_history(const std::vector<SolverInput>& inputs);
@@ -21,8 +21,8 @@ bool takes_history(const std::vector<SolverInput>& inputs);
 // USRNOD(1..n) that then hold it: slip, work, peak pressure and those of codegen/histories.h.
 std::size_t state_count(const std::vector<SolverInput>& inputs);
 
-// As solver_inputs; throws InputError also where a field's number is one of the histories.
-std::vector<SolverInput> inputs_of(const ExportRequest& request);
+// Throws InputError where a field's number is one of the histories.
+void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs);
 
 std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);

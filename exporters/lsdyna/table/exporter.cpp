@@ -52,22 +52,17 @@ std::string input_deck() {
                      file_name, table_id, table_id);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  const Exporter& self = *find_exporter("lsdyna_table");
-  const NativeTable table = native_table(request, form(request));
+std::string write(const ExportRequest& request, const NativeTable& table,
+                  const std::vector<std::string>& comments) {
   TemplateValues values;
-  values.lists["comments"] = items(native_comments(self, request, form(request), table));
+  values.lists["comments"] = items(comments);
   values.text["id"] = fmt::format("{:>10}", table_id);
   values.text["stress"] = solver_unit("MPa", request.units).name;
   values.text["speed"] = solver_unit("mm/s", request.units).name;
   for (const double speed : table.values.nodes[1])
     values.lists["speeds"].push_back(item(fmt::format("{:>20}", native_number(speed))));
   values.lists["curves"] = curves(table);
-  SourceBundle files;
-  files[file_name] = render_template("lsdyna/table/frictab_friction.k", values);
-  files["recipe.json"] = native_recipe(self, request, form(request), table, files,
-                                       fmt::format("*DEFINE_TABLE {}", table_id), input_deck());
-  return files;
+  return render_template("lsdyna/table/frictab_friction.k", values);
 }
 
 double card(std::string_view line, std::size_t cell) {
@@ -107,52 +102,42 @@ NativeValues read(const std::string& text) {
   return values_of_rows(places, value);
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_native(form(request), read(read_file(built.directory / file_name)), request, rows, columns,
-               tau);
+const char* const source_of_signature =
+    "verified: FS=2 with FD the number of a table over relative velocity and pressure, together "
+    "with the thickness offset option; in such tables a curve over pressure per velocity (fields "
+    "of the keywords). recalled, check against your release: the curves stand directly behind "
+    "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
+
+const char* const notes =
+    "Velocity and pressure are all this table knows; every other state of the law is held at "
+    "the job's constant:VALUE, else in the middle of its range, as the file, recipe.json (held) "
+    "and the run say; verify.json has what that costs on the validation rows. The shear limit "
+    "is part of the table, at the held flow stress. Table and curves are numbered from 90000: "
+    "renumber them where your deck has these. The grid is made to table.tolerance_MPa with at "
+    "most 20,000 points.";
+
+NativeTarget target() {
+  return {
+      .about = {.name = "lsdyna_table",
+                .order = 75,
+                .title =
+                    "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine",
+                .signature_source = source_of_signature,
+                .notes = notes,
+                .options = {}},
+      .file = file_name,
+      .form = form,
+      .write = write,
+      .read = [](const std::string& text, const ExportRequest&) { return read(text); },
+      .entry = fmt::format("*DEFINE_TABLE {}", table_id),
+      .input_deck = input_deck(),
+      .plain_name = "lsdyna",
+      .plain_order = 4,
+      .plain_title = "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed"};
 }
 
-HeldStates held(const ExportRequest& request) {
-  return native_held(request, form(request));
-}
-
-Exporter exporter() {
-  Exporter out;
-  out.name = "lsdyna_table";
-  out.order = 75;
-  out.title = "LS-DYNA *DEFINE_TABLE of friction over velocity and pressure, no user routine";
-  out.signature_source =
-      "verified: FS=2 with FD the number of a table over relative velocity and pressure, together "
-      "with the thickness offset option; in such tables a curve over pressure per velocity (fields "
-      "of the keywords). recalled, check against your release: the curves stand directly behind "
-      "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
-  out.notes =
-      "Velocity and pressure are all this table knows; every other state of the law is held at "
-      "the job's constant:VALUE, else in the middle of its range, as the file, recipe.json (held) "
-      "and the run say; verify.json has what that costs on the validation rows. The shear limit "
-      "is part of the table, at the held flow stress. Table and curves are numbered from 90000: "
-      "renumber them where your deck has these. The grid is made to table.tolerance_MPa with at "
-      "most 20,000 points.";
-  out.generate = generate;
-  out.variants = native_variants;
-  out.drive = drive;
-  out.held = held;
-  return out;
-}
-
-void write_plain(const PlainRequest& request, std::ostream& out) {
-  out << native_plain(request, *find_exporter("lsdyna_table"), form({request.table, "mm-t-s", {}}))
-             .at(file_name);
-}
-
-const Registered<Exporter> registered{exporter};
-const Registered<PlainFormat> plain{[] {
-  const Exporter self = exporter();
-  return PlainFormat{"lsdyna", 4,
-                     "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed",
-                     self.signature_source, write_plain};
-}};
+const Registered<Exporter> registered{[] { return native_exporter(target()); }};
+const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

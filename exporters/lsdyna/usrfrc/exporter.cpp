@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 #include "source.h"
 
 namespace frictab::lsdyna::usrfrc {
@@ -51,15 +50,12 @@ json history(const Table& table, std::string_view units, const std::vector<Solve
     out.push_back(
         one(4, "1",
             table.axes.empty() ? "not used" : "cycles in which the state was outside the range"));
-  for (const HistoryState& state :
-       with_remainders(history_states(inputs, units), gives().before_histories))
+  for (const HistoryState& state : with_remainders(history_states(inputs, units), before_histories))
     out.push_back(one(out.size() + 1, state.unit, state.meaning));
   return out;
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
-  json out = recipe_head(*find_exporter("lsdyna_usrfrc"), request, "usrfrc", files);
+void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "USRFRC's own 58 arguments; listed is where each state comes from";
   out["result"] = {{"name", "fxis, fyis, fzis; fdat(3..5)"},
@@ -78,18 +74,10 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["input_deck_note"] =
       "a forming contact, or one-way or node-to-surface contact (only they have nodal areas), with "
       "FS above 0 (recalled: friction is processed only then)";
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives());
-  SourceBundle files;
-  files["frictab_usrfrc.f"] = usrfrc_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{"frictab_usrfrc.f", usrfrc_source(request, inputs)}};
 }
 
 BuildVariant variant(const ExportRequest& request, const std::string& name, double eps,
@@ -101,7 +89,6 @@ BuildVariant variant(const ExportRequest& request, const std::string& name, doub
                          "      subroutine cstop(text)\n"
                          "      character*(*) text\n"
                          "      end\n";
-  add_driver(out, render_template("lsdyna/usrfrc/driver.f", {}));
   return out;
 }
 
@@ -111,47 +98,50 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
           variant(request, "single", 0x1p-24, {})};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  drive_routine({.gives = gives(), .most_points = 128}, built, request, rows, columns, tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return {.gives = gives(request), .most_points = 128};
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "lsdyna_usrfrc";
-  out.order = 54;
-  out.title = "LS-DYNA USRFRC, SMP";
-  out.signature_source =
-      "verified: argument list, meaning of the arguments and what the routine has to update, in a "
-      "public copy of dyn21.F (revision 86848, January 2014); 8-byte reals and integers of the "
-      "double-precision solver in a public Makefile; CSTOP and COMMON /THROPT/ in the same copy. "
-      "Older manuals list arguments up to isurface only: check against your release. Recalled: the "
-      "cards of *USER_INTERFACE_FRICTION, and that FS has to be above 0; what MPP and mortar "
-      "contacts call";
-  out.notes =
-      "LS-DYNA leaves the friction FORCE to this routine: changing FRIC1..4 would change nothing. "
-      "The force that would hold the node (old force plus stiffness times relative displacement, "
-      "its tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
-      "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
-      "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
-      "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
-      "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where "
-      "nothing is tabulated); two more for each further history of a traced law (energy, times, "
-      "means, peaks, friction power). Surface expansion and flow stress are not known to the "
-      "solver: "
-      "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
-      "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
-      "histories would count every iteration of an implicit one. Works in both precisions; table "
-      "and arithmetic are double in both. Beyond a side with outside = error the routine writes "
-      "state and value to the standard output and ends the analysis through CSTOP.";
-  out.options = {values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
+const char* const source_of_signature =
+    "verified: argument list, meaning of the arguments and what the routine has to update, in a "
+    "public copy of dyn21.F (revision 86848, January 2014); 8-byte reals and integers of the "
+    "double-precision solver in a public Makefile; CSTOP and COMMON /THROPT/ in the same copy. "
+    "Older manuals list arguments up to isurface only: check against your release. Recalled: the "
+    "cards of *USER_INTERFACE_FRICTION, and that FS has to be above 0; what MPP and mortar "
+    "contacts call";
 
-const Registered<Exporter> registered{exporter};
+const char* const notes =
+    "LS-DYNA leaves the friction FORCE to this routine: changing FRIC1..4 would change nothing. "
+    "The force that would hold the node (old force plus stiffness times relative displacement, "
+    "its tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
+    "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
+    "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
+    "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
+    "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where "
+    "nothing is tabulated); two more for each further history of a traced law (energy, times, "
+    "means, peaks, friction power). Surface expansion and flow stress are not known to the "
+    "solver: "
+    "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
+    "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
+    "histories would count every iteration of an implicit one. Works in both precisions; table "
+    "and arithmetic are double in both. Beyond a side with outside = error the routine writes "
+    "state and value to the standard output and ends the analysis through CSTOP.";
+
+const Registered<Exporter> registered{[] {
+  return routine_exporter({.about = {.name = "lsdyna_usrfrc",
+                                     .order = 54,
+                                     .title = "LS-DYNA USRFRC, SMP",
+                                     .signature_source = source_of_signature,
+                                     .notes = notes,
+                                     .options = {values_option()}},
+                           .entry = "usrfrc",
+                           .gives = gives,
+                           .sources = sources,
+                           .recipe = add_recipe,
+                           .variants = variants,
+                           .driver = "lsdyna/usrfrc/driver.f",
+                           .drive = driver});
+}};
 
 } // namespace
 

@@ -8,13 +8,7 @@
 
 namespace frictab::lsdyna::usrfrc {
 
-namespace {
-
-constexpr std::size_t before_histories = 4;
-
-} // namespace
-
-const SolverGives& gives() {
+const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa", .text = "-FNI/AREAS of the node", .read = "press"},
                  {.state = "v_rel_mm_s",
@@ -74,8 +68,8 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
       fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
   values.flags["has_axes"] = !table.axes.empty();
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
-  values.text["reads_once"] = fortran::reads(inputs, gives(), "once");
-  values.text["reads"] = fortran::reads(inputs, gives(), "", 4);
+  values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
+  values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   return render_template("lsdyna/usrfrc/frictab_usrfrc.f", values);
 }
 

@@ -9,7 +9,8 @@
 namespace frictab::lsdyna::usrfrc {
 
 // What USRFRC's arguments hold.
-const SolverGives& gives();
+const SolverGives& gives(const ExportRequest&);
+inline constexpr std::size_t before_histories = 4; // of UFHIST
 
 // Values of UFHIST per node that the routine keeps: 3, 4 where it counts, and two for each of
 // codegen/histories.h.

@@ -4,12 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "codegen/driver.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
+#include "codegen/routine_target.h"
 #include "codegen/values_file.h"
-#include "io/json.h"
 #include "source.h"
 
 namespace frictab::marc::ufric {
@@ -42,10 +41,8 @@ json result(const Choices& chosen) {
           {"unit", "1"}};
 }
 
-std::string recipe(const ExportRequest& request, const std::vector<SolverInput>& inputs,
-                   const SourceBundle& files) {
+void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Choices chosen = choices(request);
-  json out = recipe_head(*find_exporter("marc_ufric"), request, "ufric", files);
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = "UFRIC's own 10 arguments; listed is where each state comes from";
   out["result"] = result(chosen);
@@ -57,23 +54,14 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
                     fixed_form_check("frictab_ufric.f")};
   out["compile_note"] = "the first line is recalled; the last one only checks the source";
   out["input_deck"] = input_deck(chosen);
-  out["table"] = recipe_table(request);
-  return json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
-  check_request(request);
-  const std::vector<SolverInput> inputs = solver_inputs(request, gives(choices(request)));
-  SourceBundle files;
-  files["frictab_ufric.f"] = ufric_source(request, inputs);
-  add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return {{"frictab_ufric.f", ufric_source(request, inputs)}};
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
   BuildVariant out = fortran::fortran_variant(request, "double", 0x1p-53, {"frictab_ufric.f"});
-  add_driver(out, render_template("marc/ufric/driver.f", {}));
   if (!fortran::ends(request)) return {out};
   out.command.push_back("@{dir}/quit.f"); // for the bundle's own ftquit
   out.extra["quit.f"] = "C     Stand-in for the solver's routine.\n"
@@ -83,50 +71,54 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
   return {out};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
-  const Choices chosen = choices(request);
-  drive_routine({.gives = gives(chosen), .result = chosen.coefficient}, built, request, rows,
-                columns, tau);
+Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
+  return {.gives = gives(request), .result = choices(request).coefficient};
 }
 
-Exporter exporter() {
-  Exporter out;
-  out.name = "marc_ufric";
-  out.order = 50;
-  out.title = "Marc and Simufact Forming UFRIC";
-  out.signature_source =
-      "recalled: the argument list, what its arguments hold (MIBODY(4); VREL and X of 1 and 2 "
-      "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
-      "ones; TEMP(1) the temperature; YIEL the flow stress; FRIC mu or m) and the menu's words: no "
-      "public text of Volume D shows them; check against your release. Verified: public user "
-      "routines call QUIT(1234) (only where outside = error)";
-  out.notes =
-      "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
-      "tau_R/(YIEL/sqrt(3)). "
-      "The friction model of the job has to be of the same kind. FN is a stress in stress-based "
-      "models only; with marc_normal = \"force\" a law is refused whose coefficient depends on the "
-      "pressure (every one with a shear limit, if mu is asked for), because UFRIC gives no area to "
-      "divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it would be 0/0. Marc keeps no "
-      "history for this routine, so sliding distance, surface expansion and whatever else is not "
-      "among its arguments are constants: [export.inputs] says constant:VALUE, else the middle of "
-      "the range the table was made for. They lie in COMMON /FTCONS/ and can be read and changed "
-      "at "
-      "one place. Temperatures have to be degC. Beyond a side with outside = error the routine "
-      "writes state and value to the standard output and ends the analysis through QUIT(1234).";
-  out.options = {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
+const char* const source_of_signature =
+    "recalled: the argument list, what its arguments hold (MIBODY(4); VREL and X of 1 and 2 "
+    "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
+    "ones; TEMP(1) the temperature; YIEL the flow stress; FRIC mu or m) and the menu's words: no "
+    "public text of Volume D shows them; check against your release. Verified: public user "
+    "routines call QUIT(1234) (only where outside = error)";
+
+const char* const notes =
+    "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
+    "tau_R/(YIEL/sqrt(3)). "
+    "The friction model of the job has to be of the same kind. FN is a stress in stress-based "
+    "models only; with marc_normal = \"force\" a law is refused whose coefficient depends on the "
+    "pressure (every one with a shear limit, if mu is asked for), because UFRIC gives no area to "
+    "divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it would be 0/0. Marc keeps no "
+    "history for this routine, so sliding distance, surface expansion and whatever else is not "
+    "among its arguments are constants: [export.inputs] says constant:VALUE, else the middle of "
+    "the range the table was made for. They lie in COMMON /FTCONS/ and can be read and changed "
+    "at "
+    "one place. Temperatures have to be degC. Beyond a side with outside = error the routine "
+    "writes state and value to the standard output and ends the analysis through QUIT(1234).";
+
+const Registered<Exporter> registered{[] {
+  return routine_exporter(
+      {.about =
+           {.name = "marc_ufric",
+            .order = 50,
+            .title = "Marc and Simufact Forming UFRIC",
+            .signature_source = source_of_signature,
+            .notes = notes,
+            .options =
+                {{"marc_friction", {"coulomb", "shear"}, "what UFRIC gives back: mu or m"},
                  {"marc_normal",
                   {"stress", "force"},
                   "what FN is: the normal stress (stress-based models) or a force (nodal ones)"},
                  {"marc_dimension", {"2d", "3d"}, "sizes of UFRIC's arrays X and VREL"},
-                 values_option()};
-  out.generate = generate;
-  out.variants = variants;
-  out.drive = drive;
-  return out;
-}
-
-const Registered<Exporter> registered{exporter};
+                 values_option()}},
+       .entry = "ufric",
+       .gives = gives,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "marc/ufric/driver.f",
+       .drive = driver});
+}};
 
 } // namespace
 

@@ -37,9 +37,9 @@ SolverGives given(bool by_force) {
 
 } // namespace
 
-const SolverGives& gives(const Choices& chosen) {
+const SolverGives& gives(const ExportRequest& request) {
   static const SolverGives stress = given(false), force = given(true);
-  return chosen.by_force ? force : stress;
+  return choices(request).by_force ? force : stress;
 }
 
 namespace {
@@ -93,7 +93,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);
-  values.text["reads"] = fortran::reads(inputs, gives(chosen));
+  values.text["reads"] = fortran::reads(inputs, gives(request));
   return render_template("marc/ufric/frictab_ufric.f", values);
 }
 

@@ -18,7 +18,7 @@ struct Choices {
 Choices choices(const ExportRequest& request);
 
 // What UFRIC's arguments hold.
-const SolverGives& gives(const Choices& chosen);
+const SolverGives& gives(const ExportRequest& request);
 
 // Throws InputError where FN is a force and the coefficient depends on the pressure.
 std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);

@@ -1,0 +1,39 @@
+// A target whose solver calls a Fortran routine: what is left to say once its parts are there.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "codegen/driver.h"
+#include "codegen/exporter.h"
+#include "codegen/solver_inputs.h"
+
+namespace frictab {
+
+struct RoutineTarget {
+  Exporter about;    // name, order, title, signature_source, notes, options
+  std::string entry; // "ufric"
+  // What the solver gives; may depend on the job's [export.options].
+  std::function<const SolverGives&(const ExportRequest&)> gives;
+  // Refuses inputs that the routine cannot take (InputError); empty: takes all.
+  std::function<void(const ExportRequest&, const std::vector<SolverInput>&)> check = {};
+  // The sources by name, without values file and recipe.
+  std::function<SourceBundle(const ExportRequest&, const std::vector<SolverInput>&)> sources;
+  // Adds to recipe.json what stands between its head and the table.
+  std::function<void(nlohmann::ordered_json&, const ExportRequest&,
+                     const std::vector<SolverInput>&)>
+      recipe;
+  std::function<std::vector<BuildVariant>(const ExportRequest&)> variants; // without the driver
+  std::string driver; // its template, "marc/ufric/driver.f"; flags as `driver_flags` says
+  std::function<std::map<std::string, bool>(const ExportRequest&)> driver_flags = {};
+  std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
+};
+
+Exporter routine_exporter(const RoutineTarget& target);
+
+// solver_inputs() of the target's table, checked.
+std::vector<SolverInput> inputs_of(const RoutineTarget& target, const ExportRequest& request);
+
+} // namespace frictab
