@@ -49,9 +49,7 @@ int verify_alone(const Options& options, const CommonOptions& common) {
                                   table.quantile(), {options.table, 0, 0});
   std::optional<Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
-  const double allowed = options.max_drift_MPa.value_or(
-      table.number_attributes.count("tolerance_MPa") ? table.number_attributes.at("tolerance_MPa")
-                                                     : 0.5);
+  const double allowed = options.max_drift_MPa.value_or(table.record.tolerance_MPa.value_or(0.5));
   Verification verification{allowed, {}};
   verification.records =
       verify({model, table, options.table, rows ? &*rows : nullptr, allowed}, {});

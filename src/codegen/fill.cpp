@@ -45,16 +45,6 @@ std::string argument_name(const InputArgument& input) {
   return name;
 }
 
-std::optional<std::string> attribute(const Table& table, const std::string& name) {
-  const auto found = table.text_attributes.find(name);
-  return found == table.text_attributes.end() ? std::nullopt : std::optional(found->second);
-}
-
-// "0 = A, 1 = B": of a text column.
-std::optional<std::string> level_text(const Table& table, const std::string& name) {
-  return attribute(table, "levels_" + name);
-}
-
 InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
   InputArgument input;
   const Meaning meaning = meaning_of(name);
@@ -72,7 +62,7 @@ InputArgument argument(const Table& table, const std::string& name, std::string_
     input.meaning = meaning.text;
   }
   if (input.meaning == Meaning{}.text) input.meaning = name + " " + input.meaning;
-  if (const auto levels = level_text(table, name)) input.meaning = name + ": " + *levels;
+  if (const auto& levels = table.record.input(name).levels) input.meaning = name + ": " + *levels;
   input.solver = solver_unit(input.unit, units);
   input.argument = argument_name(input);
   return input;
@@ -124,7 +114,7 @@ std::optional<std::pair<double, double>> known_range(const Table& table, const s
 std::optional<double> typical_value(const Table& table, const std::string& name) {
   const auto range = known_range(table, name);
   if (!range) return std::nullopt;
-  if (level_text(table, name)) return range->first; // the level whose factor is 1
+  if (table.record.input(name).levels) return range->first; // the level whose factor is 1
   bool log = meaning_of(name).log_axis;
   for (const TableAxis& axis : table.axes)
     if (axis.name == name) log = axis.log;
@@ -294,21 +284,19 @@ std::vector<std::string> outside_lines(const Table& table) {
 
 std::string drift_text(const Table& table) {
   if (table.is_direct()) return "none but rounding, it is the law itself; measured in verify.json";
-  const auto worst = table.number_attributes.find("worst_case_MPa");
-  if (worst == table.number_attributes.end())
+  const TableRecord& record = table.record;
+  if (!record.worst_case_MPa)
     return "not measured here; see verify.json of the run that wrote this file";
   std::string text =
-      fmt::format("{:.3g} MPa, the largest found over the whole range", worst->second);
-  if (const auto proven = table.number_attributes.find("proven_drift_MPa");
-      proven != table.number_attributes.end())
-    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(proven->second));
+      fmt::format("{:.3g} MPa, the largest found over the whole range", *record.worst_case_MPa);
+  if (record.proven_drift_MPa)
+    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(*record.proven_drift_MPa));
   return text;
 }
 
 std::string origin_text(const Table& table) {
-  const auto origin = table.text_attributes.find("data_origin");
-  return origin == table.text_attributes.end() || origin->second.empty() ? "not stated"
-                                                                         : origin->second;
+  const std::string origin = table.record.data_origin.value_or("");
+  return origin.empty() ? "not stated" : origin;
 }
 
 std::string number_lines(const std::vector<std::string>& items, std::size_t width,

@@ -241,12 +241,8 @@ NativeAxis axis_of(const ExportRequest& request, const NativeForm& form,
 }
 
 double aim_of(const Table& table) {
-  const auto number = [&](const char* name, double otherwise) {
-    const auto found = table.number_attributes.find(name);
-    return found == table.number_attributes.end() ? otherwise : found->second;
-  };
-  const double tolerance = number("tolerance_MPa", usual_tolerance_MPa);
-  const double own = table.is_direct() ? 0 : number("worst_case_MPa", 0);
+  const double tolerance = table.record.tolerance_MPa.value_or(usual_tolerance_MPa);
+  const double own = table.is_direct() ? 0 : table.record.worst_case_MPa.value_or(0);
   return std::max(share_of_tolerance * (tolerance - own), least_share * tolerance);
 }
 

@@ -81,13 +81,12 @@ json recipe_table(const ExportRequest& request) {
   if (table.is_direct())
     for (const char* of_the_table : {"transform", "interpolation", "worst_case_MPa"})
       out.erase(of_the_table);
-  const auto worst = table.number_attributes.find("worst_case_MPa");
   if (table.is_direct())
     for (json& axis : out["axes"])
       axis.erase("nodes"), axis.erase("transform");
-  if (worst != table.number_attributes.end()) out["worst_case_MPa"] = worst->second;
-  const auto proven = table.number_attributes.find("proven_drift_MPa");
-  if (proven != table.number_attributes.end()) out["proven_drift_MPa"] = proven->second;
+  const TableRecord& record = table.record;
+  if (record.worst_case_MPa) out["worst_case_MPa"] = *record.worst_case_MPa;
+  if (record.proven_drift_MPa) out["proven_drift_MPa"] = *record.proven_drift_MPa;
   return out;
 }
 

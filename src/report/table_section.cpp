@@ -17,11 +17,6 @@ namespace frictab {
 
 namespace {
 
-std::string text_of(const Table& table, const std::string& name) {
-  const auto found = table.text_attributes.find(name);
-  return found == table.text_attributes.end() ? "" : found->second;
-}
-
 std::string summary_of(const Table& table) {
   std::string grid;
   for (const TableAxis& axis : table.axes)
@@ -58,7 +53,7 @@ std::string forms_of(const ReportInput& input, const Table& table) {
 }
 
 TemplateValues axis_row(const Table& table, const TableAxis& axis) {
-  const std::string why = text_of(table, "range_from_" + axis.name);
+  const std::string why = table.record.input(axis.name).range_from.value_or("");
   const bool any = !axis.nodes.empty();
   const double none = std::numeric_limits<double>::quiet_NaN();
   return {{{"name", svg::escape(axis.name)},
@@ -146,7 +141,7 @@ void add_tables(TemplateValues& page, const ReportInput& input) {
   std::vector<TemplateValues>& tables = page.lists["tables"];
   for (const Table& table : input.tables) {
     TemplateValues item;
-    const std::string refinement = text_of(table, "refinement");
+    const std::string refinement = table.record.refinement.value_or("");
     item.text = {{"model", svg::escape(table.model)},
                  {"summary", summary_of(table) + forms_of(input, table)},
                  {"refinement", svg::escape(refinement)}};

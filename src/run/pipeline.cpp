@@ -302,23 +302,23 @@ void Pipeline::tabulate() {
   Progress progress("tabulating", models.size());
   for (const Model& model : models) {
     Table table = sample_table(model);
-    table.text_attributes["tool_version"] = FRICTAB_VERSION;
-    table.text_attributes["data_hash"] = calibration_->data_hash;
-    table.text_attributes["data_origin"] = calibration_->synthetic ? "synthetic" : "measured";
+    table.record.tool_version = FRICTAB_VERSION;
+    table.record.data_hash = calibration_->data_hash;
+    table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";
     // The drift a user can rely on is measured before the file is written.
     const VerifyInput input{model,         table,           "the new table",
                             &*validation_, drift_allowed(), job_.verify.samples};
     const DriftRecord& drift = compared_[table.model] = frictab::verify(input, {}).front();
-    table.number_attributes["worst_case_MPa"] = drift.worst_case_MPa;
+    table.record.worst_case_MPa = drift.worst_case_MPa;
     if (!drift.passed && !job_.table.nodes && !job_.table.max_bytes)
       missed_.push_back(fmt::format(
           "the table of {} drifts by up to {:.3g} MPa, more than the {:g} "
           "MPa allowed: more nodes in [table.axes], or a larger "
           "table.tolerance_MPa",
           table.model, std::max(drift.worst_case_MPa, drift.rows.max_abs), drift_allowed()));
-    if (drift.proven_MPa) table.number_attributes["proven_drift_MPa"] = *drift.proven_MPa;
+    table.record.proven_drift_MPa = drift.proven_MPa;
     for (const auto& [name, value] : drift.worst_state)
-      table.number_attributes["worst_case_at_" + name] = value;
+      table.record.inputs[name].worst_case_at = value;
     const std::string name = "tables/" + table.model + ".h5";
     if (table.stored)
       output_.adopt(name, finish_stream(table, job_.table.hdf5, fs::path(job_.directory) / name));
@@ -359,9 +359,7 @@ namespace {
 // their own. They keep its tolerance.
 Table direct_for_sources(const Model& model, const Table& table) {
   Table direct = direct_form(model, table);
-  if (const auto tolerance = table.number_attributes.find("tolerance_MPa");
-      tolerance != table.number_attributes.end())
-    direct.number_attributes.insert(*tolerance);
+  direct.record.tolerance_MPa = table.record.tolerance_MPa;
   return direct;
 }
 

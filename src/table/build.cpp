@@ -147,8 +147,8 @@ private:
   static constexpr double most_linear_nodes = 20'000;       // where the job leaves the choice
 
   Table finished() {
-    best_.table.number_attributes["tolerance_MPa"] = options_.tolerance_MPa;
-    best_.table.text_attributes["refinement"] = trail_;
+    best_.table.record.tolerance_MPa = options_.tolerance_MPa;
+    best_.table.record.refinement = trail_;
     return std::move(best_.table);
   }
 
@@ -274,10 +274,9 @@ private:
       if (closest.cells.empty() || best_.drift < closest.drift) closest = std::move(best_);
     }
     best_ = std::move(closest);
-    if (options_.nodes)
-      best_.table.number_attributes["asked_nodes"] = static_cast<double>(*options_.nodes);
+    if (options_.nodes) best_.table.record.asked_nodes = static_cast<double>(*options_.nodes);
     if (options_.max_bytes)
-      best_.table.number_attributes["asked_bytes"] = static_cast<double>(*options_.max_bytes);
+      best_.table.record.asked_bytes = static_cast<double>(*options_.max_bytes);
     return finished();
   }
 

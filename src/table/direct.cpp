@@ -22,9 +22,9 @@ Table direct_form(const Model& model, const Table& table) {
   }
   add_extension(direct, model);
   // These are the table's own.
-  direct.number_attributes.erase("worst_case_MPa");
-  direct.number_attributes.erase("tolerance_MPa");
-  direct.text_attributes.erase("refinement");
+  direct.record.worst_case_MPa.reset();
+  direct.record.tolerance_MPa.reset();
+  direct.record.refinement.reset();
   return direct;
 }
 

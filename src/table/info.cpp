@@ -32,20 +32,16 @@ std::string storage_text(const Hdf5Layout& layout) {
   return text;
 }
 
-std::string attribute(const Table& table, const std::string& name) {
-  const auto found = table.text_attributes.find(name);
-  return found == table.text_attributes.end() ? "" : found->second;
-}
-double number(const Table& table, const std::string& name) {
-  const auto found = table.number_attributes.find(name);
-  return found == table.number_attributes.end() ? std::nan("") : found->second;
+// A file may hold NaN where it knows no number.
+std::optional<double> stated(std::optional<double> number) {
+  return number && std::isnan(*number) ? std::nullopt : number;
 }
 
 std::string worst_place(const Table& table) {
   std::string place;
   for (const std::string& name : table.inputs())
-    if (const double at = number(table, "worst_case_at_" + name); !std::isnan(at))
-      place += fmt::format("{}{}={:g}", place.empty() ? "" : " ", name, at);
+    if (const auto at = stated(table.record.input(name).worst_case_at))
+      place += fmt::format("{}{}={:g}", place.empty() ? "" : " ", name, *at);
   return place;
 }
 
@@ -67,8 +63,8 @@ void add_axes(std::string& out, const Table& table) {
   for (const std::string& name : table.inputs())
     if (!find_axis(table, name)) {
       const auto range = table.range(name);
-      const std::string unit = attribute(table, "units_" + name);
-      const std::string levels = attribute(table, "levels_" + name);
+      const InputRecord& input = table.record.input(name);
+      const std::string unit = input.unit.value_or(""), levels = input.levels.value_or("");
       out += fmt::format(
           "  {:<14}no axis{}{}{}\n", name,
           range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "",
@@ -77,21 +73,22 @@ void add_axes(std::string& out, const Table& table) {
 }
 
 void add_drift(std::string& out, const Table& table) {
-  const double tolerance = number(table, "tolerance_MPa"), worst = number(table, "worst_case_MPa");
   const std::string place = worst_place(table);
-  if (!std::isnan(tolerance)) out += fmt::format("Tolerance: {:g} MPa\n", tolerance);
-  if (!std::isnan(worst))
-    out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", worst,
+  if (const auto tolerance = stated(table.record.tolerance_MPa))
+    out += fmt::format("Tolerance: {:g} MPa\n", *tolerance);
+  if (const auto worst = stated(table.record.worst_case_MPa))
+    out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", *worst,
                        place.empty() ? "" : ", at " + place);
-  if (const double proven = number(table, "proven_drift_MPa"); !std::isnan(proven))
-    out += fmt::format("Proven: nowhere above {:.3g} MPa\n", rounded_up(proven));
+  if (const auto proven = stated(table.record.proven_drift_MPa))
+    out += fmt::format("Proven: nowhere above {:.3g} MPa\n", rounded_up(*proven));
 }
 
 } // namespace
 
 std::string info_text(const TableDescription& description, const std::string& file) {
   const Table& table = description.table;
-  const std::string formula = attribute(table, "formula"), origin = attribute(table, "data_origin");
+  const TableRecord& record = table.record;
+  const std::string formula = record.formula.value_or(""), origin = record.data_origin.value_or("");
   std::string out =
       fmt::format("{}: table of {}{}\n", file, table.model, formula.empty() ? "" : ", " + formula);
   add_axes(out, table);
@@ -106,14 +103,15 @@ std::string info_text(const TableDescription& description, const std::string& fi
                      human_bytes(8.0 * static_cast<double>(table.nodes())),
                      human_bytes(static_cast<double>(description.layout.stored_bytes)),
                      storage_text(description.layout));
-  if (!origin.empty()) out += "Data: " + origin + ", hash " + attribute(table, "data_hash") + "\n";
-  if (const std::string tool = attribute(table, "tool_version"); !tool.empty())
+  if (!origin.empty()) out += "Data: " + origin + ", hash " + record.data_hash.value_or("") + "\n";
+  if (const std::string tool = record.tool_version.value_or(""); !tool.empty())
     out += "Made by: frictab " + tool + "\n";
   return out;
 }
 
 std::string info_json(const TableDescription& description, const std::string& file) {
   const Table& table = description.table;
+  const TableAttributes attributes = root_attributes(table);
   auto axes = nlohmann::ordered_json::array();
   for (const TableAxis& axis : table.axes)
     axes.push_back({{"name", axis.name},
@@ -140,8 +138,8 @@ std::string info_json(const TableDescription& description, const std::string& fi
                               {"file_bytes", description.file_bytes},
                               {"chunk", description.layout.chunk},
                               {"filters", description.layout.filters},
-                              {"attributes", table.text_attributes}};
-  for (const auto& [name, value] : table.number_attributes)
+                              {"attributes", attributes.texts}};
+  for (const auto& [name, value] : attributes.numbers)
     j["attributes"][name] = value;
   return json_text(j);
 }

@@ -97,15 +97,13 @@ std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
                                      const std::string& file) {
   std::vector<StateRange> ranges;
   for (const std::string& name : table.inputs()) {
-    const auto low = table.number_attributes.find("range_low_" + name);
-    const auto high = table.number_attributes.find("range_high_" + name);
+    const InputRecord& input = table.record.input(name);
     const auto axis = std::find_if(table.axes.begin(), table.axes.end(),
                                    [&](const TableAxis& a) { return a.name == name; });
     if (axis != table.axes.end())
       ranges.push_back({name, axis->nodes.front(), axis->nodes.back(), "axis"});
-    else if (low != table.number_attributes.end() && high != table.number_attributes.end() &&
-             low->second <= high->second)
-      ranges.push_back({name, low->second, high->second, "attribute"});
+    else if (input.low && input.high && *input.low <= *input.high)
+      ranges.push_back({name, *input.low, *input.high, "attribute"});
     else if (data && data->has(name))
       ranges.push_back(data_range(name, data->values(name)));
     else

@@ -64,14 +64,13 @@ std::string numbered(const std::vector<std::string>& levels) {
 }
 
 // An input that is no canonical state says what it is.
-void describe_further_input(Table& table, const Law& law, const std::string& name) {
+void describe_further_input(InputRecord& input, const Law& law, const std::string& name) {
   const Meaning meaning = meaning_of(name);
   if (meaning.state) return;
-  const auto levels = law.levels.find(name);
-  table.text_attributes["units_" + name] = meaning.unit;
-  table.text_attributes["long_name_" + name] = meaning.text;
-  if (levels != law.levels.end())
-    table.text_attributes["levels_" + name] = numbered(levels->second);
+  input.unit = meaning.unit;
+  input.long_name = meaning.text;
+  if (const auto levels = law.levels.find(name); levels != law.levels.end())
+    input.levels = numbered(levels->second);
 }
 
 } // namespace
@@ -95,16 +94,16 @@ Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
       }))
     add_extension(table, model);
   for (const StateRange& range : ranges) {
-    table.number_attributes["range_low_" + range.name] = range.low;
-    table.number_attributes["range_high_" + range.name] = range.high;
-    table.text_attributes["range_from_" + range.name] = range.why;
-    describe_further_input(table, *model.law, range.name);
+    InputRecord& input = table.record.inputs[range.name];
+    input.low = range.low;
+    input.high = range.high;
+    input.range_from = range.why;
+    describe_further_input(input, *model.law, range.name);
   }
-  table.text_attributes["model"] = model.name();
-  table.number_attributes["quantile"] = model.quantile;
-  table.number_attributes["gain"] = model.gain;
-  table.text_attributes["formula"] = model.law->formula;
-  table.text_attributes["shear_yield"] = model.conventions.shear_yield;
+  table.record.quantile = model.quantile;
+  table.record.gain = model.gain;
+  table.record.formula = model.law->formula;
+  table.record.shear_yield = model.conventions.shear_yield;
   return table;
 }
 

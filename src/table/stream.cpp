@@ -87,8 +87,8 @@ public:
     auto axes = fixed_axes(model, ranges, options).value();
     const bool log_value = model.law->log_value && is_positive(pieces_, ranges, axes);
     table = describe_table(model, ranges, std::move(axes), "linear", log_value);
-    table.number_attributes["tolerance_MPa"] = options.tolerance_MPa;
-    table.text_attributes["refinement"] = "every axis has the number of nodes that the job says";
+    table.record.tolerance_MPa = options.tolerance_MPa;
+    table.record.refinement = "every axis has the number of nodes that the job says";
   }
 
   std::size_t chunks() const { return (table.nodes() + chunk_nodes - 1) / chunk_nodes; }

@@ -41,12 +41,10 @@ std::vector<std::string> Table::inputs() const {
 std::optional<std::pair<double, double>> Table::range(const std::string& name) const {
   for (const TableAxis& axis : axes)
     if (axis.name == name) return {{axis.nodes.front(), axis.nodes.back()}};
-  const auto low = number_attributes.find("range_low_" + name);
-  const auto high = number_attributes.find("range_high_" + name);
-  if (low == number_attributes.end() || high == number_attributes.end() ||
-      !std::isfinite(low->second) || !std::isfinite(high->second))
+  const InputRecord& input = record.input(name);
+  if (!input.low || !input.high || !std::isfinite(*input.low) || !std::isfinite(*input.high))
     return std::nullopt;
-  return {{low->second, high->second}};
+  return {{*input.low, *input.high}};
 }
 
 std::vector<std::size_t> Table::shape() const {

@@ -13,6 +13,7 @@
 
 #include "expr/expr.h"
 #include "io/stored_values.h"
+#include "table/record.h"
 
 namespace frictab {
 
@@ -63,21 +64,14 @@ struct Table {
   std::optional<Expr>
       extension; // the law's own "value" (never its logarithm) of axes and constants
   std::map<std::string, double> constants; // of combine and extension
-  // Root attributes: tool_version, model, data_hash, data_origin, tolerance_MPa, worst_case_MPa,
-  // refinement, training range per axis, ...
-  std::map<std::string, std::string> text_attributes;
-  std::map<std::string, double> number_attributes;
+  TableRecord record;
 
   // States the table needs, canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;
-  // Of an input: its axis', else what the attributes range_low_<name> and range_high_<name> say;
-  // nullopt where neither is there.
+  // Of an input: its axis', else the record's; nullopt where neither is there.
   std::optional<std::pair<double, double>> range(const std::string& name) const;
   // Of the experiments; 0.5 is the law itself.
-  double quantile() const {
-    const auto found = number_attributes.find("quantile");
-    return found == number_attributes.end() ? 0.5 : found->second;
-  }
+  double quantile() const { return record.quantile.value_or(0.5); }
   bool is_direct() const { return interpolation == "none"; }
   std::vector<std::size_t> shape() const; // nodes per axis
   std::size_t nodes() const;              // their product; 0 in the direct form

@@ -84,13 +84,20 @@ void write_attributes(Hdf5Writer& out, const Table& table) {
   }
   out.attribute("value", "constants", join(names, " "));
   out.attribute("/", "schema", std::string("frictab/table/1"));
-  for (const auto& [name, text] : table.text_attributes)
+  const TableAttributes attributes = root_attributes(table);
+  for (const auto& [name, text] : attributes.texts)
     out.attribute("/", name, text);
-  for (const auto& [name, value] : table.number_attributes)
+  for (const auto& [name, value] : attributes.numbers)
     out.attribute("/", name, value);
 }
 
 } // namespace
+
+TableAttributes root_attributes(const Table& table) {
+  TableAttributes attributes = attributes_of(table.record);
+  if (!table.model.empty() && table.model != foreign_model) attributes.texts["model"] = table.model;
+  return attributes;
+}
 
 void write_description(Hdf5Writer& out, const Table& table) {
   write_axes(out, table);
@@ -140,18 +147,7 @@ public:
     read_combine();
     read_extension();
     faults_.throw_if_any();
-    for (const std::string& name : in_.attributes("/")) {
-      if (const auto text = in_.text_attribute("/", name))
-        table_.text_attributes[name] = *text;
-      else if (const auto number = in_.number_attribute("/", name))
-        table_.number_attributes[name] = *number;
-    }
-    table_.text_attributes.erase("schema");
-    if (const auto found = table_.text_attributes.find("model");
-        found != table_.text_attributes.end())
-      table_.model = checked_name(found->second);
-    else
-      table_.model = "foreign"; // as in file names and comments
+    read_record();
     return std::move(table_);
   }
 
@@ -185,6 +181,19 @@ private:
       throw InputError({named_, 0, 0}, "the attribute model is '" + name + "'",
                        "a name of letters, digits, '_', '.' and '-'");
     return name;
+  }
+
+  void read_record() {
+    table_.model = foreign_model;
+    for (const std::string& name : in_.attributes("/")) {
+      const auto text = in_.text_attribute("/", name);
+      if (text && name == "model")
+        table_.model = checked_name(*text);
+      else if (text && name != "schema")
+        take_attribute(table_.record, name, *text);
+      else if (const auto number = in_.number_attribute("/", name))
+        take_attribute(table_.record, name, *number);
+    }
   }
 
   void read_value() {

@@ -8,6 +8,12 @@
 
 namespace frictab {
 
+// The model of a table whose file names none, as in file names and comments.
+inline constexpr const char* foreign_model = "foreign";
+
+// Root attributes of the table's file, but for its schema: the record and the model.
+TableAttributes root_attributes(const Table& table);
+
 // One dimension scale per axis, one dataset `value`; xarray and h5py open it. Values that are
 // stored elsewhere are copied piece by piece.
 void write_table(const Table& table, const std::filesystem::path& file,

@@ -105,8 +105,7 @@ FormComparison form_sizes(const Model& model, const Table& table) {
   out.nodes = table.nodes();
   out.table.bytes = sizeof(double) * baked_numbers(table);
   out.direct.bytes = sizeof(double) * baked_numbers(direct_form(model, table));
-  const auto worst = table.number_attributes.find("worst_case_MPa");
-  if (worst != table.number_attributes.end()) out.table.drift_MPa = worst->second;
+  if (table.record.worst_case_MPa) out.table.drift_MPa = *table.record.worst_case_MPa;
   return out;
 }
 

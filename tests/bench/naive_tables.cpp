@@ -64,7 +64,7 @@ void print_row(const std::filesystem::path& directory, const std::filesystem::pa
       prove_drift(model, table, ranges,
                   worst_case(LawFunction(model, function.inputs()), function, ranges,
                              probe_points(ranges, table.axes, samples)),
-                  table.number_attributes.at("tolerance_MPa"));
+                  table.record.tolerance_MPa.value());
   const Model whole = without_pieces(model);
   const Table same = naive(whole, ranges, table.nodes());
   const Table large = naive(whole, ranges, 100000);

@@ -36,11 +36,11 @@ Table small_table() {
   table.combine = minimum(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"),
                           Expr::symbol("m") * (0.5 * Expr::symbol("sigma_f_MPa")));
   table.constants = {{"m", 0.8}};
-  table.text_attributes["model"] = "small";
-  table.number_attributes = {{"range_low_sigma_n_MPa", 500}, {"range_high_sigma_n_MPa", 2500},
-                             {"range_low_sigma_f_MPa", 200}, {"range_high_sigma_f_MPa", 800},
-                             {"tolerance_MPa", 0.5},         {"worst_case_MPa", 0.25},
-                             {"worst_case_at_psi", 1.5}};
+  table.record.tolerance_MPa = 0.5;
+  table.record.worst_case_MPa = 0.25;
+  table.record.inputs = {{"sigma_n_MPa", {.low = 500, .high = 2500}},
+                         {"sigma_f_MPa", {.low = 200, .high = 800}},
+                         {"psi", {.worst_case_at = 1.5}}};
   return table;
 }
 

@@ -111,7 +111,7 @@ TEST(Budget, OfBytesCountsValuesAndNodes) {
   const Table table = make("levanov", options).table;
   EXPECT_LE(table.bytes(), 2048U);
   EXPECT_GT(table.bytes(), 1024U);
-  EXPECT_EQ(table.number_attributes.at("asked_bytes"), 2048);
+  EXPECT_EQ(table.record.asked_bytes, 2048);
 }
 
 TEST(Budget, TooSmallForAnyTableIsAFault) {

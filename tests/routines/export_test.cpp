@@ -110,7 +110,7 @@ TEST(Export, NamesAndTextsFromOutsideStayInsideComments) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   Table table = test::one_axis_table();
   table.model = "a */ int x; /*\n      stop 'x'";
-  table.text_attributes["data_origin"] = std::string(300, 'w') + "\r\n*/\xff";
+  table.record.data_origin = std::string(300, 'w') + "\r\n*/\xff";
   const ExportRequest request{table, "mm-t-s", {}};
   EXPECT_NO_THROW(test::compiled("hostile", *find_exporter("c"), request, "c99", {"-Werror"}));
   EXPECT_NO_THROW(test::compiled("hostile", *find_exporter("abaqus_vfric"), request, "double"));

@@ -505,8 +505,7 @@ TEST(FurtherHistoriesOfDeform, DoNotForgetAPeakBesideANodeThatWasNeverInContact)
 TEST(FurtherHistoriesOfDeform, KeepAFieldFromTheirPlaces) {
   Table table = further_histories_table();
   table.combine = table.combine * Expr::symbol("humidity_pct");
-  table.number_attributes["range_low_humidity_pct"] = 30;
-  table.number_attributes["range_high_humidity_pct"] = 60;
+  table.record.inputs["humidity_pct"] = {.low = 30, .high = 60};
   EXPECT_THAT(
       [&] {
         find_exporter("deform_usrbcc")->generate({table, "mm-t-s", {{"humidity_pct", "field:12"}}});

@@ -20,7 +20,7 @@ struct Case {
       : model(test::plausible_model(*find_law(law))), data(test::sample_data(model)) {
     table = build_table(model, state_ranges(model, data, {}), {});
     direct = direct_form(model, table); // as the run hands it to these targets
-    direct.number_attributes["tolerance_MPa"] = 0.5;
+    direct.record.tolerance_MPa = 0.5;
   }
 
   ExportRequest request() const {

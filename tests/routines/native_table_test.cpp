@@ -31,7 +31,7 @@ const std::map<std::string, std::string> files = {{"abaqus_table", "frictab_fric
 // log_coulomb over pressure, psi, speed and temperature, shear limit; tolerance as in the samples.
 Table four_axes() {
   Table table = test::four_axis_table();
-  table.number_attributes["tolerance_MPa"] = 40;
+  table.record.tolerance_MPa = 40;
   return table;
 }
 
@@ -103,7 +103,7 @@ TEST(AbaqusTable, TaumaxIsTheShearLimitAtTheHeldFlowStress) {
 
 TEST(AbaqusTable, HasNoTaumaxWhereTheFlowStressIsAField) {
   Table table = four_axes();
-  table.number_attributes["tolerance_MPa"] = 200;
+  table.record.tolerance_MPa = 200;
   const std::string text = text_of("abaqus_table", table, {{"sigma_f_MPa", "field:1"}});
   EXPECT_THAT(text, HasSubstr("*FRICTION, DEPENDENCIES=1\n"));
   EXPECT_THAT(text, testing::Not(HasSubstr("held: sigma_f_MPa")));
@@ -115,7 +115,7 @@ TEST(AbaqusTable, HasNoTaumaxWhereTheFlowStressIsAField) {
 
 TEST(AbaqusTable, TakesFieldsInTheirOrderBehindTheTemperature) {
   Table table = four_axes();
-  table.number_attributes["tolerance_MPa"] = 300;
+  table.record.tolerance_MPa = 300;
   const auto lines = lines_of(
       text_of("abaqus_table", table, {{"psi", "field:2"}, {"sigma_f_MPa", "field:1"}}), "*", ",");
   EXPECT_EQ(lines.back()[4], "960");
@@ -222,7 +222,7 @@ TEST(AnsysTable, FieldsStayActiveAndAscendWithThePressureFastest) {
 
 TEST(AnsysTable, TakesTheSlidingDistanceAndUserFields) {
   Table table = test::branching_table();
-  table.number_attributes["tolerance_MPa"] = 40;
+  table.record.tolerance_MPa = 40;
   const std::string text = text_of("ansys_table", table, {{"sigma_f_MPa", "constant:480"}});
   EXPECT_THAT(text, HasSubstr("TBFIELD,SLDI,40\n"));
   EXPECT_THAT(text_of("ansys_table", four_axes(), {{"psi", "field:7"}, {"v_rel_mm_s", "contact"}}),
@@ -323,7 +323,7 @@ TEST(NativeTables, NaNInAColumnGivesNaN) {
 
 TEST(NativeTables, SayByHowMuchTheyMissATolerance) {
   Table table = test::four_axis_table(); // rough values: 0.5 MPa needs millions of lines
-  table.number_attributes["tolerance_MPa"] = 0.5;
+  table.record.tolerance_MPa = 0.5;
   const SourceBundle bundle = find_exporter("abaqus_table")->generate({table, "mm-t-s", {}});
   const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
   EXPECT_FALSE(recipe["grid"]["met"]);

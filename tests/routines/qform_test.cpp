@@ -134,7 +134,7 @@ TEST(QFormSource, MarksTheWrapperAsRecalled) {
 TEST(QFormSource, KeepsTextsFromOutsideInComments) {
   Table table = test::one_axis_table();
   table.model = "a\nos.exit(1) --[[";
-  table.text_attributes["data_origin"] = "]]\nos.exit(1)";
+  table.record.data_origin = "]]\nos.exit(1)";
   for (const char* program : {"luajit", "lua5.4"})
     if (have_program(program)) {
       EXPECT_EQ(printed(program, source(table), "print('here')\n"), "here\n");

@@ -36,7 +36,7 @@ struct Case {
   explicit Case(Model of)
       : model(std::move(of)), data(test::traced_data(model)),
         table(build_table(model, state_ranges(model, data, {}), {})) {
-    table.number_attributes["tolerance_MPa"] = 0.5;
+    table.record.tolerance_MPa = 0.5;
   }
   explicit Case(const std::vector<std::string>& effects) : Case(test::traced_model(effects)) {}
 };
@@ -54,9 +54,9 @@ TEST(TracedLaw, TableNeedsNoFurtherAxisAndSaysWhatItsInputsAre) {
   EXPECT_EQ(table.range("tool"), (std::pair{0.0, 2.0}));
   EXPECT_EQ(table.range("friction_work")->first, 0.0);
   EXPECT_GT(table.range("friction_work")->second, 1000.0);
-  EXPECT_EQ(table.text_attributes.at("units_friction_work"), "MPa mm");
-  EXPECT_EQ(table.text_attributes.at("levels_tool"), "0 = A, 1 = B, 2 = C");
-  EXPECT_EQ(table.text_attributes.count("units_psi"), 0u);
+  EXPECT_EQ(table.record.input("friction_work").unit, "MPa mm");
+  EXPECT_EQ(table.record.input("tool").levels, "0 = A, 1 = B, 2 = C");
+  EXPECT_FALSE(table.record.input("psi").unit);
 }
 
 TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
@@ -67,8 +67,7 @@ TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
   EXPECT_EQ(again.inputs(), table.inputs());
   EXPECT_EQ(again.value, table.value);
   EXPECT_EQ(to_text(again.combine), to_text(table.combine));
-  EXPECT_EQ(again.text_attributes, table.text_attributes);
-  EXPECT_EQ(again.number_attributes, table.number_attributes);
+  EXPECT_TRUE(again.record == table.record);
   const std::string info = info_text(read_description(directory.path("t.h5")), "t.h5");
   EXPECT_THAT(info, HasSubstr("tool          no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
   EXPECT_THAT(info, HasSubstr("friction_work no axis, verified from 0 to "));
@@ -152,7 +151,7 @@ void SlowTracedLawOf::expect_verified(const Case& c) {
     for (const std::string units : {"mm-t-s", "m-kg-s"}) {
       if (!exporter.whole() && form == &c.table) continue; // made from the law itself
       Table with_tolerance = *form;
-      with_tolerance.number_attributes["tolerance_MPa"] = 0.5;
+      with_tolerance.record.tolerance_MPa = 0.5;
       for (const DriftRecord& record : verified(c, exporter, with_tolerance, units, held)) {
         if (!record.ran) GTEST_SKIP() << record.why_not;
         EXPECT_TRUE(record.passed) << record.subject << ' ' << units << ' ' << record.worst_case_MPa

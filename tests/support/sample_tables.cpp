@@ -66,7 +66,7 @@ Table one_axis_table() {
   table.axes = {axis("psi", false, even(1, 20, 5, false))};
   fill(table, 10, 90);
   table.combine = Expr::symbol("value");
-  table.number_attributes = {{"worst_case_MPa", 0.25}};
+  table.record.worst_case_MPa = 0.25;
   return table;
 }
 
@@ -81,9 +81,9 @@ Table four_axis_table() {
   fill(table, 0.03, 0.3);
   table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
   table.constants = {{"m", 0.8}};
-  table.text_attributes = {{"data_origin", "synthetic (frictab twin)"}};
-  table.number_attributes = {
-      {"worst_case_MPa", 0.31}, {"range_low_sigma_f_MPa", 240}, {"range_high_sigma_f_MPa", 960}};
+  table.record.data_origin = "synthetic (frictab twin)";
+  table.record.worst_case_MPa = 0.31;
+  table.record.inputs["sigma_f_MPa"] = {.low = 240, .high = 960};
   return table;
 }
 
@@ -131,8 +131,7 @@ Table further_histories_table() {
                    x("mean_T_contact", 3e-4) + x("peak_v_rel", 1e-4) + x("peak_T_contact", 2e-4));
   for (const std::string& name : table.inputs()) {
     if (name == "energy" || name == "sigma_n_MPa") continue;
-    table.number_attributes["range_low_" + name] = 100;
-    table.number_attributes["range_high_" + name] = 1000;
+    table.record.inputs[name] = {.low = 100, .high = 1000};
   }
   return table;
 }
@@ -269,8 +268,8 @@ SampleRequest::SampleRequest(const Exporter& exporter, const Table& table, const
     : table_(table), units_(units) {
   if (exporter.name == "calculix_usrmu") inputs_ = {{"sigma_f_MPa", "constant:480"}};
   if (exporter.whole()) return;
-  table_.number_attributes["tolerance_MPa"] = 40;
-  table_.number_attributes["worst_case_MPa"] = 0.25;
+  table_.record.tolerance_MPa = 40;
+  table_.record.worst_case_MPa = 0.25;
   inputs_ = {{"sigma_f_MPa", "constant:480"}};
 }
 

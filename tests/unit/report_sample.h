@@ -88,7 +88,7 @@ inline ReportSample report_sample(std::size_t laws, std::size_t experiments, std
   table.axes = {{"sigma_n_MPa", "MPa", "contact normal stress", true, {500, 1000, 2750}}};
   table.value = {0.1, 0.09, 0.08};
   table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
-  table.text_attributes["refinement"] = "3 nodes: 0.4 MPa";
+  table.record.refinement = "3 nodes: 0.4 MPa";
   s.tables = {table};
   s.verification.max_drift_MPa = 0.5;
   DriftRecord record;

@@ -87,7 +87,7 @@ TEST(Report, EscapesWhateverComesFromTheUser) {
   sample.calibration.fits[0].remarks = {bad};
   sample.tables[0].model = bad;
   sample.tables[0].axes[0].name = bad;
-  sample.tables[0].text_attributes["refinement"] = bad;
+  sample.tables[0].record.refinement = bad;
   sample.verification.records[0].worst_state = {{bad, 1}};
   sample.verification.records.push_back(sample.verification.records[0]);
   sample.verification.records.back().ran = false;

@@ -77,8 +77,7 @@ TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
   EXPECT_EQ(again.value, table.value);
   EXPECT_EQ(to_text(again.combine), to_text(table.combine));
   EXPECT_EQ(again.constants, table.constants);
-  EXPECT_EQ(again.text_attributes, table.text_attributes);
-  EXPECT_EQ(again.number_attributes, table.number_attributes);
+  EXPECT_TRUE(again.record == table.record);
   ASSERT_EQ(again.axes.size(), table.axes.size());
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     EXPECT_EQ(again.axes[a].nodes, table.axes[a].nodes);
@@ -129,8 +128,7 @@ TEST(Table, ShearLimitIsCombinedAfterInterpolationNotTabulatedAcross) {
   const Model model = test::plausible_model(*find_law("orowan"));
   for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"}) {
     TableAxis axis{name, "MPa", name, false, {}};
-    const double low = naive.number_attributes[std::string("range_low_") + name];
-    const double high = naive.number_attributes[std::string("range_high_") + name];
+    const auto [low, high] = naive.range(name).value();
     for (int i = 0; i <= 32; ++i)
       axis.nodes.push_back(low + (high - low) * i / 32);
     naive.axes.push_back(axis);
@@ -280,6 +278,38 @@ TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {
   }
 }
 
+TEST(TableFile, KeepsWhatTheRecordDoesNotKnow) {
+  const test::TemporaryDirectory directory;
+  Table table = table_of("levanov");
+  table.record.worst_case_MPa.reset();
+  table.record.inputs["tool"].levels = "0 = A";
+  table.record.others.texts = {{"operator", "A. Smith"}, {"worst_case_MPa", "not measured"}};
+  table.record.others.numbers = {{"room_C", 21.5}, {"levels_room", 3}};
+  write_table(table, directory.path("t.h5"));
+  const Table again = read_table(directory.path("t.h5"));
+  EXPECT_TRUE(again.record == table.record);
+  write_table(again, directory.path("again.h5"));
+  EXPECT_TRUE(directory.read("again.h5") == directory.read("t.h5"));
+}
+
+TEST(TableFile, HasTheRecordByTheNamesOfItsMembersAndInputs) {
+  TableRecord record;
+  record.quantile = 0.95;
+  record.proven_drift_MPa = 0.4;
+  record.data_origin = "measured";
+  record.inputs["tool"] = {.low = 0, .high = 2, .levels = "0 = A"};
+  record.inputs["psi"] = {.worst_case_at = 1.5, .range_from = "job file"};
+  const TableAttributes attributes = attributes_of(record);
+  EXPECT_EQ(attributes.texts, (std::map<std::string, std::string>{{"data_origin", "measured"},
+                                                                  {"levels_tool", "0 = A"},
+                                                                  {"range_from_psi", "job file"}}));
+  EXPECT_EQ(attributes.numbers, (std::map<std::string, double>{{"proven_drift_MPa", 0.4},
+                                                               {"quantile", 0.95},
+                                                               {"range_high_tool", 2},
+                                                               {"range_low_tool", 0},
+                                                               {"worst_case_at_psi", 1.5}}));
+}
+
 TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
   Table table = table_of("orowan");
   const test::TemporaryDirectory directory;
@@ -317,7 +347,7 @@ TEST(Table, DoesNotDependOnTheNumberOfThreads) {
   const Table two = table_of("wanheim_bay");
   set_threads(0);
   EXPECT_EQ(one.value, two.value);
-  EXPECT_EQ(one.text_attributes, two.text_attributes);
+  EXPECT_TRUE(one.record == two.record);
 }
 
 } // namespace
