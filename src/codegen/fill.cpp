@@ -189,10 +189,6 @@ void check_table(const Table& table) {
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
     faults.add({}, "the table holds values that are not finite");
-  if (!table.is_direct() && table.interpolation != "linear" && table.interpolation != "cubic")
-    faults.add({},
-               fmt::format("no source is generated for '{}' interpolation", table.interpolation),
-               "set table.interpolation = \"linear\" or \"cubic\"");
   const bool extends = std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
     return axis.below == Outside::law || axis.above == Outside::law;
   });
@@ -203,7 +199,7 @@ void check_table(const Table& table) {
 }
 
 bool is_cubic(const Table& table) {
-  return table.interpolation == "cubic" && !table.axes.empty();
+  return table.interpolation == Interpolation::cubic && !table.axes.empty();
 }
 
 std::vector<double> baked_values(const Table& table) {

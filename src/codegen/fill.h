@@ -65,7 +65,7 @@ inline constexpr std::size_t most_baked_numbers = 300000;
 std::size_t baked_numbers(const Table& table);
 
 // Throws InputError where a table cannot be made into code: values that are not finite, sizes that
-// do not fit, more axes than the kernel holds, an interpolation the kernel does not have.
+// do not fit, more axes than the kernel holds, no law's formula where the table goes on by it.
 void check_table(const Table& table);
 
 // How a table gets smaller: the hint of what refuses one.

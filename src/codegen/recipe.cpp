@@ -71,7 +71,7 @@ json recipe_table(const ExportRequest& request) {
   json out = {{"axes", axes},
               {"quantity", table.quantity},
               {"transform", table.log_value ? "log" : "linear"},
-              {"interpolation", table.interpolation},
+              {"interpolation", interpolation_name(table.interpolation)},
               {"combine", to_text(table.combine)},
               {"constants", table.constants},
               {"worst_case_MPa", nullptr},

@@ -92,6 +92,12 @@ template <> struct Kind<Loss> {
   static std::string show(Loss v);
 };
 
+template <> struct Kind<Interpolation> {
+  static constexpr KeyType type = KeyType::text;
+  static Interpolation from(KeyValue& v);
+  static std::string show(Interpolation v);
+};
+
 // A key of a fixed path.
 template <class T>
 KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string absent = "",

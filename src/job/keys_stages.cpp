@@ -26,7 +26,10 @@ std::vector<std::string> losses() {
   return {"L2", "L1", "huber"};
 }
 std::vector<std::string> interpolations() {
-  return {"linear", "cubic"};
+  std::vector<std::string> names;
+  for (const Interpolation interpolation : grid_interpolations)
+    names.emplace_back(interpolation_name(interpolation));
+  return names;
 }
 std::vector<std::string> coordinates() {
   return {"law", "plain"};
@@ -164,7 +167,7 @@ std::vector<KeyRule> table_keys() {
           "largest drift of the table from its law, anywhere in the range; the grid is made to "
           "fit it") |
           above(0),
-      key<std::optional<std::string>>(
+      key<std::optional<Interpolation>>(
           "table.interpolation", [](Job & job) -> auto& { return job.table.interpolation; },
           "between nodes: linear, or cubic (a C2 spline: far fewer nodes where the law is smooth, "
           "more work per query)",
@@ -312,6 +315,14 @@ std::vector<KeyRule> proof_keys() {
 Loss Kind<Loss>::from(KeyValue& v) {
   const std::string& text = std::get<std::string>(v); // as spelled in losses()
   return text == "L2" ? Loss::l2 : text == "L1" ? Loss::l1 : Loss::huber;
+}
+
+Interpolation Kind<Interpolation>::from(KeyValue& v) {
+  return *find_interpolation(std::get<std::string>(v)); // is one of interpolations()
+}
+
+std::string Kind<Interpolation>::show(Interpolation v) {
+  return toml_quoted(interpolation_name(v));
 }
 
 std::string Kind<Loss>::show(Loss v) {

@@ -28,9 +28,7 @@ std::string summary_of(const Table& table) {
     text = fmt::format("{}{}, {}; holds {}, interpolated {}. ",
                        table.axes.size() > 1 ? grid + " = " : "", count_of(table.nodes(), "node"),
                        human_bytes(static_cast<double>(table.bytes())), what,
-                       table.interpolation == "cubic"    ? "cubically"
-                       : table.interpolation == "linear" ? "linearly"
-                                                         : svg::escape(table.interpolation));
+                       table.interpolation == Interpolation::cubic ? "cubically" : "linearly");
   text += "Inputs: ";
   const std::vector<std::string> inputs = table.inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i)

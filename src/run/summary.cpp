@@ -144,13 +144,15 @@ void add_tables(std::string& out, const Pipeline& p) {
     for (const TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out += fmt::format(
-        "  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
-        table.nodes() == 1 ? "" : "s", human_bytes(static_cast<double>(table.bytes())), grid,
-        table.axes.empty() || table.interpolation == "linear" ? "" : ", " + table.interpolation);
+    out += fmt::format("  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
+                       table.nodes() == 1 ? "" : "s",
+                       human_bytes(static_cast<double>(table.bytes())), grid,
+                       table.axes.empty() || table.interpolation == Interpolation::linear
+                           ? ""
+                           : ", " + std::string(interpolation_name(table.interpolation)));
     if (const std::string edge = edge_text(table); !edge.empty())
       out += fmt::format("  {:<14} {}\n", "", edge);
-    if (table.interpolation == "linear" && table.nodes() > many_nodes)
+    if (table.interpolation == Interpolation::linear && table.nodes() > many_nodes)
       out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",
                          "");

@@ -74,7 +74,7 @@ public:
   Cells(const Model& model, const Table& table, const std::vector<StateRange>& ranges)
       : ranges_(ranges), table_(table), function_(table), law_(model, names_of(ranges)),
         monomials_(table.axes.size(),
-                   table.interpolation == "cubic" ? degree_cubic : degree_linear),
+                   table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
         piece_(piece_of(model, table), axis_names(table), monomials_), interpolant_(table),
         rewriting_(monomials_), deviation_(monomials_, interpolant_.taps()),
         combine_(

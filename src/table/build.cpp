@@ -94,7 +94,7 @@ std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& 
 }
 
 Table assemble(const Model& model, const Pieces& pieces, const std::vector<StateRange>& ranges,
-               std::vector<TableAxis> axes, const std::string& interpolation, bool log_value) {
+               std::vector<TableAxis> axes, Interpolation interpolation, bool log_value) {
   std::vector<double> values = sample(pieces, ranges, axes);
   if (log_value)
     for (double& value : values)
@@ -131,8 +131,9 @@ public:
 
   Table build() {
     if (options_.nodes || options_.max_bytes) return closest();
-    interpolation_ = options_.interpolation.value_or(linear_is_small() ? "linear" : "cubic");
-    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == "cubic");
+    interpolation_ = options_.interpolation.value_or(linear_is_small() ? Interpolation::linear
+                                                                       : Interpolation::cubic);
+    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == Interpolation::cubic);
     const double target = first_target(errors);
     for (AxisPlan& plan : plans_)
       errors.place_nodes(plan, target);
@@ -265,8 +266,8 @@ private:
   Table closest() {
     Trial closest;
     const std::vector<AxisPlan> plans = plans_;
-    for (const char* interpolation : {"linear", "cubic"}) {
-      if (options_.interpolation && *options_.interpolation != interpolation) continue;
+    for (const Interpolation interpolation : grid_interpolations) {
+      if (options_.interpolation.value_or(interpolation) != interpolation) continue;
       interpolation_ = interpolation;
       plans_ = plans;
       best_ = {};
@@ -294,7 +295,7 @@ private:
   // As refine(), but the target is the smallest whose cells are within the budget; then single
   // cells are added for as long as they help and fit.
   void fill_budget() {
-    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == "cubic");
+    AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == Interpolation::cubic);
     Counts least;
     for (const AxisPlan& plan : plans_)
       least.push_back(plan.cells);
@@ -376,7 +377,7 @@ private:
   LawFunction law_;
   std::vector<AxisPlan> plans_;
   bool log_value_ = false;
-  std::string interpolation_;
+  Interpolation interpolation_ = Interpolation::linear;
   Probe box_;   // the same for every trial
   Probe peaks_; // worst states of all trials
   Trial best_;

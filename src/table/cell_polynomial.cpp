@@ -32,7 +32,7 @@ double binomial(std::size_t n, std::size_t k) {
 } // namespace
 
 CellPolynomials::CellPolynomials(const Table& table)
-    : taps_(table.interpolation == "cubic" ? 4 : 2) {
+    : taps_(table.interpolation == Interpolation::cubic ? 4 : 2) {
   std::vector<SplineAxis> splines;
   for (const TableAxis& axis : table.axes) {
     Axis out{axis.nodes.size(), {}, {}};

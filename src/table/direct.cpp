@@ -15,7 +15,7 @@ Table direct_form(const Model& model, const Table& table) {
   Table direct = table;
   direct.value.clear();
   direct.log_value = false;
-  direct.interpolation = "none";
+  direct.interpolation = Interpolation::none;
   for (TableAxis& axis : direct.axes) {
     axis.nodes = {axis.nodes.front(), axis.nodes.back()};
     axis.kinks.clear();

@@ -92,9 +92,10 @@ std::string info_text(const TableDescription& description, const std::string& fi
   std::string out =
       fmt::format("{}: table of {}{}\n", file, table.model, formula.empty() ? "" : ", " + formula);
   add_axes(out, table);
-  out += fmt::format(
-      "Value: {}{}, {}{}\n", table.log_value ? "ln " : "", table.quantity, table.interpolation,
-      table.quantile() == 0.5 ? std::string() : fmt::format(", quantile {:g}", table.quantile()));
+  out += fmt::format("Value: {}{}, {}{}\n", table.log_value ? "ln " : "", table.quantity,
+                     interpolation_name(table.interpolation),
+                     table.quantile() == 0.5 ? std::string()
+                                             : fmt::format(", quantile {:g}", table.quantile()));
   out += "tau_R_MPa = " + to_text(table.combine) + "\n";
   for (const auto& [name, value] : table.constants)
     out += fmt::format("  {} = {}\n", name, shortest(value));
@@ -129,7 +130,7 @@ std::string info_json(const TableDescription& description, const std::string& fi
                               {"axes", axes},
                               {"quantity", table.quantity},
                               {"transform", table.log_value ? "log" : "linear"},
-                              {"interpolation", table.interpolation},
+                              {"interpolation", interpolation_name(table.interpolation)},
                               {"combine", to_text(table.combine)},
                               {"constants", table.constants},
                               {"nodes", table.nodes()},

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/hdf5.h"
+#include "table/interpolation.h"
 
 namespace frictab {
 
@@ -24,12 +25,12 @@ struct TableOptions {
   std::vector<std::string> model{"best"}; // best | names | all
   std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
-  std::optional<std::string> interpolation; // linear | cubic; absent: linear where that is small
-  std::string coordinates = "law";          // law: those in which it is straight | plain: none
-  std::optional<std::size_t> nodes;         // the closest table of so many nodes ...
-  std::optional<std::size_t> max_bytes;     // ... or so large, instead of one to a tolerance
-  std::map<std::string, AxisOptions> axes;  // by canonical name
-  double memory_limit_MiB = 256;            // of values; a larger table stays on disk
+  std::optional<Interpolation> interpolation; // absent: linear where that is small, else cubic
+  std::string coordinates = "law";            // law: those in which it is straight | plain: none
+  std::optional<std::size_t> nodes;           // the closest table of so many nodes ...
+  std::optional<std::size_t> max_bytes;       // ... or so large, instead of one to a tolerance
+  std::map<std::string, AxisOptions> axes;    // by canonical name
+  double memory_limit_MiB = 256;              // of values; a larger table stays on disk
   Hdf5Storage hdf5;
   Place place;
 };

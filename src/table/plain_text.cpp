@@ -82,8 +82,9 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
 // Axes, then all values row-major: a line per run of the last axis.
 void write_txt(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
-  out << "# " << table.model << ": " << table.quantity << " on a grid, " << table.interpolation
-      << "; tau_R_MPa = " << to_text(table.combine) << '\n';
+  out << "# " << table.model << ": " << table.quantity << " on a grid, "
+      << interpolation_name(table.interpolation) << "; tau_R_MPa = " << to_text(table.combine)
+      << '\n';
   for (const auto& [name, value] : table.constants)
     out << "# constant " << name << ' ' << shortest(value) << '\n';
   for (const TableAxis& axis : table.axes) {

@@ -76,8 +76,7 @@ void describe_further_input(InputRecord& input, const Law& law, const std::strin
 } // namespace
 
 Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
-                     std::vector<TableAxis> axes, const std::string& interpolation,
-                     bool log_value) {
+                     std::vector<TableAxis> axes, Interpolation interpolation, bool log_value) {
   Table table;
   table.model = model.name();
   table.quantity = model.law->quantity;

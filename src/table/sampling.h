@@ -21,6 +21,6 @@ void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
 
 // A table without its values.
 Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
-                     std::vector<TableAxis> axes, const std::string& interpolation, bool log_value);
+                     std::vector<TableAxis> axes, Interpolation interpolation, bool log_value);
 
 } // namespace frictab

@@ -86,7 +86,7 @@ public:
       : ranges_(ranges), pieces_(model, ranges), place_(options.place) {
     auto axes = fixed_axes(model, ranges, options).value();
     const bool log_value = model.law->log_value && is_positive(pieces_, ranges, axes);
-    table = describe_table(model, ranges, std::move(axes), "linear", log_value);
+    table = describe_table(model, ranges, std::move(axes), Interpolation::linear, log_value);
     table.record.tolerance_MPa = options.tolerance_MPa;
     table.record.refinement = "every axis has the number of nodes that the job says";
   }
@@ -172,7 +172,7 @@ bool is_streamed(const Model& model, const std::vector<StateRange>& ranges,
   if (!axes || axes->empty()) return false;
   const double bytes = 8.0 * static_cast<double>(count_nodes(*axes));
   if (bytes <= options.memory_limit_MiB * (1 << 20)) return false;
-  if (options.interpolation.value_or("linear") == "cubic")
+  if (options.interpolation == Interpolation::cubic)
     throw InputError(options.place,
                      fmt::format("a cubic table of {} nodes ({}) is larger than "
                                  "table.memory_limit_MiB = {}: the coefficients of a spline "

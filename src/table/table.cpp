@@ -154,7 +154,7 @@ double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside
 }
 
 void TableFunction::Data::add_axes(const Table& table) {
-  is_cubic = table.interpolation == "cubic";
+  is_cubic = table.interpolation == Interpolation::cubic;
   for (const TableAxis& axis : table.axes) {
     const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
     axes.push_back({static_cast<std::size_t>(input), axis.log});

@@ -13,6 +13,7 @@
 
 #include "expr/expr.h"
 #include "io/stored_values.h"
+#include "table/interpolation.h"
 #include "table/record.h"
 
 namespace frictab {
@@ -58,8 +59,7 @@ struct Table {
   std::shared_ptr<const StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
-  std::string interpolation =
-      "linear"; // linear | cubic: the spline of table/spline.h | none: direct
+  Interpolation interpolation = Interpolation::linear;
   Expr combine; // tau_R_MPa of "value", state names and constants
   std::optional<Expr>
       extension; // the law's own "value" (never its logarithm) of axes and constants
@@ -72,7 +72,7 @@ struct Table {
   std::optional<std::pair<double, double>> range(const std::string& name) const;
   // Of the experiments; 0.5 is the law itself.
   double quantile() const { return record.quantile.value_or(0.5); }
-  bool is_direct() const { return interpolation == "none"; }
+  bool is_direct() const { return interpolation == Interpolation::none; }
   std::vector<std::size_t> shape() const; // nodes per axis
   std::size_t nodes() const;              // their product; 0 in the direct form
   std::size_t bytes() const;              // values, nodes and constants as doubles

@@ -61,7 +61,7 @@ void write_axes(Hdf5Writer& out, const Table& table) {
     out.attribute(axis.name, "units", axis.unit);
     out.attribute(axis.name, "long_name", axis.long_name);
     out.attribute(axis.name, "transform", std::string(axis.log ? "log" : "linear"));
-    if (table.interpolation == "cubic" && !axis.kinks.empty())
+    if (table.interpolation == Interpolation::cubic && !axis.kinks.empty())
       out.attribute(axis.name, "kinks", numbers_text(axis.kinks));
     write_outside(out, axis);
   }
@@ -73,8 +73,9 @@ void write_attributes(Hdf5Writer& out, const Table& table) {
   out.attribute("value", "quantity", table.quantity);
   out.attribute("value", "units", std::string(table.quantity == "mu" ? "1" : "MPa"));
   out.attribute("value", "transform", std::string(table.log_value ? "log" : "linear"));
-  out.attribute("value", "interpolation", table.interpolation);
-  if (table.interpolation == "cubic") out.attribute("value", "spline", std::string(spline_name));
+  out.attribute("value", "interpolation", std::string(interpolation_name(table.interpolation)));
+  if (table.interpolation == Interpolation::cubic)
+    out.attribute("value", "spline", std::string(spline_name));
   out.attribute("value", "combine", to_text(table.combine));
   if (table.extension) write_extension(out, to_text(*table.extension));
   std::vector<std::string> names;
@@ -205,13 +206,14 @@ private:
     }
     table_.quantity = text("value", "quantity", {"mu", "tau_R"});
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
-    table_.interpolation = text("value", "interpolation", {"linear", "cubic"});
-    if (table_.interpolation == "cubic") text("value", "spline", {spline_name});
+    table_.interpolation = find_interpolation(text("value", "interpolation", {"linear", "cubic"}))
+                               .value_or(Interpolation::linear);
+    if (table_.interpolation == Interpolation::cubic) text("value", "spline", {spline_name});
   }
 
   void read_numbers(Table& table, std::size_t in_memory) {
     std::size_t bad = 0;
-    if (table.interpolation == "linear" && !table.axes.empty() &&
+    if (table.interpolation == Interpolation::linear && !table.axes.empty() &&
         table.nodes() > in_memory / sizeof(double)) {
       table.stored = stored(table.nodes());
       bad = table.stored->first_not_finite();
@@ -297,7 +299,7 @@ private:
 
   // Only a cubic spline is concerned: a linear table bends at every node.
   void read_kinks(TableAxis& axis) {
-    if (table_.interpolation != "cubic") return;
+    if (table_.interpolation != Interpolation::cubic) return;
     std::istringstream words(in_.text_attribute(axis.name, "kinks").value_or(""));
     for (std::string word; words >> word;) {
       double kink = std::nan("");

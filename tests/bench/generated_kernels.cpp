@@ -74,7 +74,7 @@ std::string loops(std::size_t axes, int taps, const char* nodes) {
 }
 
 std::string additions(const Table& table) {
-  const bool cubic = table.interpolation == "cubic";
+  const bool cubic = table.interpolation == Interpolation::cubic;
   const std::string kernels = std::string(FRICTAB_SOURCE_DIR) + "/src/table/";
   std::string text = read_file(kernels + "frictab_cubic.h") +
                      read_file(kernels + "frictab_gradient.h") +
@@ -98,7 +98,7 @@ std::string additions(const Table& table) {
 Table random_table(const std::vector<std::size_t>& counts, bool even, bool cubic) {
   Table table;
   table.quantity = "tau_R";
-  table.interpolation = cubic ? "cubic" : "linear";
+  table.interpolation = cubic ? Interpolation::cubic : Interpolation::linear;
   table.combine = Expr::symbol("value");
   std::size_t nodes = 1;
   for (const std::size_t count : counts) {

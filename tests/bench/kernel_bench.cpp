@@ -162,7 +162,7 @@ void add_kinked() {
   const Model model = test::kinked_model();
   TableOptions options;
   options.tolerance_MPa = 0.01;
-  options.interpolation = "linear";
+  options.interpolation = Interpolation::linear;
   const auto ranges = test::kinked_ranges();
   const Table table = build_table(model, ranges, options);
   constexpr std::size_t n = 5;

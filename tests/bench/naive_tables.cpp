@@ -43,7 +43,7 @@ double drift_of(const Model& model, const Table& table, const std::vector<StateR
 Table naive(const Model& model, const std::vector<StateRange>& ranges, std::size_t nodes) {
   TableOptions options;
   options.coordinates = "plain";
-  options.interpolation = "linear";
+  options.interpolation = Interpolation::linear;
   const auto per_axis = static_cast<std::size_t>(std::ceil(
       std::pow(static_cast<double>(nodes), 1.0 / static_cast<double>(ranges.size())) - 1e-9));
   for (const StateRange& range : ranges) {

@@ -18,7 +18,7 @@ struct Case {
 };
 
 Case with_table(const Model& model, const std::vector<StateRange>& ranges,
-                const std::string& interpolation, double tolerance = 0.5) {
+                Interpolation interpolation, double tolerance = 0.5) {
   TableOptions options;
   options.interpolation = interpolation;
   options.tolerance_MPa = tolerance;
@@ -29,7 +29,7 @@ Case with_table(const Model& model, const std::vector<StateRange>& ranges,
   return out;
 }
 
-Case of_law(const std::string& name, const std::string& interpolation, double tolerance = 0.5) {
+Case of_law(const std::string& name, Interpolation interpolation, double tolerance = 0.5) {
   const Model model = test::plausible_model(*find_law(name));
   return with_table(model, state_ranges(model, test::sample_data(model), {}), interpolation,
                     tolerance);
@@ -52,12 +52,13 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
-  for (const char* interpolation : {"linear", "cubic"}) {
+  for (const Interpolation interpolation : grid_interpolations) {
     const Case one = of_law(GetParam(), interpolation);
     const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, one.worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
     EXPECT_GE(*proven.bound.MPa, one.worst.drift_MPa);
-    EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8) << interpolation;
+    EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8)
+        << interpolation_name(interpolation);
   }
 }
 
@@ -65,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(law_names(
 
 // Away from its law by a known amount: what is added to a node must come out again.
 TEST(Bound, IsAboveATableThatIsWrong) {
-  for (const char* interpolation : {"linear", "cubic"}) {
+  for (const Interpolation interpolation : grid_interpolations) {
     Case one = of_law("wanheim_bay", interpolation, 0.1);
     one.table.value[one.table.value.size() / 2] += 0.05; // of ln tau
     const TableFunction function(one.table);
@@ -81,14 +82,15 @@ TEST(Bound, IsAboveATableThatIsWrong) {
 
 TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
   for (const char* law : {"levanov", "wanheim_bay"})
-    for (const char* interpolation : {"linear", "cubic"}) {
+    for (const Interpolation interpolation : grid_interpolations) {
       const Case one = of_law(law, interpolation);
       BoundOptions options;
       options.goal_MPa = 1.004 * one.worst.drift_MPa;
       options.most_boxes = 4'000'000;
       const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);
       ASSERT_TRUE(bound.MPa);
-      EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa) << law << " " << interpolation;
+      EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa)
+          << law << " " << interpolation_name(interpolation);
     }
 }
 
@@ -97,7 +99,7 @@ TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
   const std::vector<StateRange> ranges = {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
-  const Case one = with_table(model, ranges, "cubic", 1);
+  const Case one = with_table(model, ranges, Interpolation::cubic, 1);
   const ProvenDrift proven = prove_drift(model, one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
   EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
@@ -112,7 +114,7 @@ TEST(Bound, IsShownRoundedUpNeverDown) {
 }
 
 TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
-  const Case one = of_law("wanheim_bay", "cubic");
+  const Case one = of_law("wanheim_bay", Interpolation::cubic);
   BoundOptions options;
   options.goal_MPa = 1.05 * one.worst.drift_MPa;
   const DriftBound all = bound_drift(one.model, one.table, one.ranges, options);
@@ -125,7 +127,7 @@ TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
-  Case one = of_law("levanov", "linear");
+  Case one = of_law("levanov", Interpolation::linear);
   one.table.combine = one.table.combine * Expr(1.0000001);
   const DriftBound bound = bound_drift(one.model, one.table, one.ranges, {0.5});
   EXPECT_FALSE(bound.MPa);
@@ -133,7 +135,7 @@ TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
 }
 
 TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
-  const Case one = of_law("levanov", "linear");
+  const Case one = of_law("levanov", Interpolation::linear);
   BoundOptions options{.goal_MPa = 0.5};
   options.most_cells = 10;
   const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);

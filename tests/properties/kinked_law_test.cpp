@@ -13,7 +13,7 @@ TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
   const auto ranges = test::kinked_ranges();
   TableOptions options;
   options.tolerance_MPa = 0.01;
-  options.interpolation = "linear";
+  options.interpolation = Interpolation::linear;
   const Table table = build_table(model, ranges, options);
   EXPECT_LE(table.nodes(), 300U);
   const TableFunction function(table);

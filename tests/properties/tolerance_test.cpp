@@ -49,7 +49,7 @@ class SlowToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
   for (const char* coordinates : {"law", "plain"})
-    for (const char* interpolation : {"linear", "cubic"})
+    for (const Interpolation interpolation : grid_interpolations)
       for (const double tolerance : {0.5, 0.1}) {
         TableOptions options;
         options.coordinates = coordinates;
@@ -60,7 +60,7 @@ TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
         ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
         EXPECT_LE(proven.worst.drift_MPa, tolerance);
         EXPECT_LE(*proven.bound.MPa, 1.025 * tolerance)
-            << coordinates << " " << interpolation << " " << tolerance;
+            << coordinates << " " << interpolation_name(interpolation) << " " << tolerance;
       }
 }
 
@@ -92,7 +92,7 @@ TEST(Budget, IsKeptAndMoreNodesAreCloser) {
 
 TEST(Budget, OfNodesIsUsedAsWellAsATableToThatToleranceUsesThem) {
   // A table made to a tolerance has some nodes; asked for as many, the tool must come as close.
-  for (const char* interpolation : {"linear", "cubic"}) {
+  for (const Interpolation interpolation : grid_interpolations) {
     TableOptions options;
     options.interpolation = interpolation;
     const Made to_tolerance = make("wanheim_bay", options);
@@ -101,7 +101,7 @@ TEST(Budget, OfNodesIsUsedAsWellAsATableToThatToleranceUsesThem) {
     EXPECT_LE(to_budget.table.nodes(), *options.nodes);
     EXPECT_LE(drift_of(to_budget, 0.5).worst.drift_MPa,
               1.05 * drift_of(to_tolerance, 0.5).worst.drift_MPa)
-        << interpolation;
+        << interpolation_name(interpolation);
   }
 }
 

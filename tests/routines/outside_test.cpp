@@ -87,7 +87,7 @@ TEST(SlowOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
     for (const Outside above : kinds) {
       SCOPED_TRACE(std::string(outside_name(below)) + ", " + outside_name(above));
       Table direct = temperature_table(below, above);
-      direct.interpolation = "none";
+      direct.interpolation = Interpolation::none;
       direct.value.clear();
       std::vector<double> wanted;
       for (std::size_t i = 0; i < T.size(); ++i)

@@ -140,7 +140,7 @@ Table spline_table() {
   Table table;
   table.model = "spline";
   table.log_value = true;
-  table.interpolation = "cubic";
+  table.interpolation = Interpolation::cubic;
   table.axes = {axis("v_rel_mm_s", true, even(5, 500, 7, true)),
                 axis("sigma_n_MPa", true, {500, 700, 1300, 2000, 2750}),
                 axis("T_contact_C", false, {20, 90, 200}), axis("psi", false, {1, 20})};
@@ -155,7 +155,7 @@ Table spline_axis_table() {
   Table table;
   table.model = "spline_axis";
   table.quantity = "tau_R";
-  table.interpolation = "cubic";
+  table.interpolation = Interpolation::cubic;
   table.axes = {axis("psi", false, {1, 2, 4, 7, 12, 20})};
   fill(table, 20, 40);
   table.combine = Expr::symbol("value");
@@ -197,7 +197,7 @@ Table sides_table() {
 Table direct_table() {
   Table table = sides_table();
   table.model = "direct";
-  table.interpolation = "none";
+  table.interpolation = Interpolation::none;
   table.value.clear();
   for (TableAxis& a : table.axes)
     a.nodes = {a.nodes.front(), a.nodes.back()};
@@ -209,7 +209,7 @@ Table direct_network() {
   const Model model = test::network_model(3, 4);
   Table table;
   table.model = "network";
-  table.interpolation = "none";
+  table.interpolation = Interpolation::none;
   table.axes = {axis("sigma_n_MPa", false, {500, 2750}), axis("psi", true, {1, 20}),
                 axis("v_rel_mm_s", true, {5, 500}), axis("T_contact_C", false, {20, 200}),
                 axis("s_mm", false, {0, 40})};

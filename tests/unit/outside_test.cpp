@@ -79,7 +79,7 @@ TEST(TableFile, TakesAFormulaThatIsLongerThanAnHdf5Attribute) {
   const Model model = test::network_model(50, 12);
   Table table = test::direct_network();
   add_extension(table, model);
-  table.interpolation = "linear";
+  table.interpolation = Interpolation::linear;
   table.value.assign(32, 0.1);
   ASSERT_GT(to_text(*table.extension).size(), 2U * 65536U);
   const test::TemporaryDirectory directory;

@@ -36,7 +36,7 @@ std::vector<double> nodes_of(std::size_t count, bool even) {
 }
 
 // The field on a grid; tau_R is the interpolated value itself.
-Table table_of(const Field& field, std::vector<TableAxis> axes, const std::string& interpolation) {
+Table table_of(const Field& field, std::vector<TableAxis> axes, Interpolation interpolation) {
   Table table;
   table.quantity = "tau_R";
   table.interpolation = interpolation;
@@ -58,7 +58,7 @@ Table table_of(const Field& field, std::vector<TableAxis> axes, const std::strin
 }
 
 Table table_of(const Field& field, const std::vector<std::size_t>& counts, bool even,
-               const std::string& interpolation) {
+               Interpolation interpolation) {
   std::vector<TableAxis> axes;
   for (const std::size_t count : counts)
     axes.push_back(axis_of(axes.size(), nodes_of(count, even)));
@@ -115,21 +115,24 @@ double reciprocal(const std::vector<double>& x) {
 TEST(CubicSpline, ReproducesCubicPolynomialsOfTheCoordinateToRounding) {
   const Field field = polynomial({3, 3, 3});
   for (const bool even : {true, false})
-    EXPECT_LT(worst_error(field, table_of(field, {9, 5, 4}, even, "cubic")), 1e-11) << even;
+    EXPECT_LT(worst_error(field, table_of(field, {9, 5, 4}, even, Interpolation::cubic)), 1e-11)
+        << even;
 }
 
 TEST(CubicSpline, IsQuadraticOnThreeNodesAndLinearOnTwo) {
   const Field field = polynomial({1, 2, 3, 2, 1});
-  EXPECT_LT(worst_error(field, table_of(field, {2, 3, 4, 3, 2}, false, "cubic")), 1e-11);
+  EXPECT_LT(worst_error(field, table_of(field, {2, 3, 4, 3, 2}, false, Interpolation::cubic)),
+            1e-11);
   const Field last_cubic = polynomial({2, 1, 3});
-  EXPECT_LT(worst_error(last_cubic, table_of(last_cubic, {3, 2, 6}, false, "cubic")), 1e-11);
+  EXPECT_LT(worst_error(last_cubic, table_of(last_cubic, {3, 2, 6}, false, Interpolation::cubic)),
+            1e-11);
 }
 
 TEST(CubicSpline, MeetsTheNodes) {
   Random random(3);
   const Field rough = [&](const std::vector<double>&) { return random.uniform(-1, 1); };
   for (const std::size_t count : {2, 3, 4, 5, 6, 7, 30}) {
-    const Table table = table_of(rough, {count, 5}, false, "cubic");
+    const Table table = table_of(rough, {count, 5}, false, Interpolation::cubic);
     const TableFunction function(table);
     std::size_t i = 0;
     for (const double x : table.axes[0].nodes)
@@ -142,11 +145,11 @@ TEST(CubicSpline, MeetsTheNodes) {
 
 TEST(LinearInterpolation, ReproducesMultilinearFunctionsToRounding) {
   const Field field = polynomial({1, 1, 1, 1});
-  EXPECT_LT(worst_error(field, table_of(field, {5, 2, 3, 4}, false, "linear")), 1e-12);
+  EXPECT_LT(worst_error(field, table_of(field, {5, 2, 3, 4}, false, Interpolation::linear)), 1e-12);
 }
 
 // By halving the spacing.
-double order(const std::string& interpolation, std::size_t dims, bool even) {
+double order(Interpolation interpolation, std::size_t dims, bool even) {
   const std::size_t cells = dims < 3 ? 64 : 32;
   const auto error = [&](std::size_t count) {
     const std::vector<std::size_t> counts(dims, count + 1);
@@ -158,17 +161,17 @@ double order(const std::string& interpolation, std::size_t dims, bool even) {
 TEST(CubicSpline, ConvergesWithTheFourthPowerOfTheSpacingInOneToThreeAxes) {
   for (const std::size_t dims : {1, 2, 3})
     for (const bool even : {true, false})
-      EXPECT_GT(order("cubic", dims, even), 3.8) << dims << " axes, even " << even;
+      EXPECT_GT(order(Interpolation::cubic, dims, even), 3.8) << dims << " axes, even " << even;
 }
 
 TEST(LinearInterpolation, ConvergesWithTheSquareOfTheSpacingInOneToThreeAxes) {
   for (const std::size_t dims : {1, 2, 3})
     for (const bool even : {true, false})
-      EXPECT_GT(order("linear", dims, even), 1.9) << dims << " axes, even " << even;
+      EXPECT_GT(order(Interpolation::linear, dims, even), 1.9) << dims << " axes, even " << even;
 }
 
 TEST(CubicSpline, HasTwoContinuousDerivatives) {
-  const Table table = table_of(smooth, {8}, false, "cubic");
+  const Table table = table_of(smooth, {8}, false, Interpolation::cubic);
   const TableFunction function(table);
   const auto slope = [&](double x) {
     double derivative = 0;
@@ -195,19 +198,19 @@ TEST(CubicSpline, HasTwoContinuousDerivatives) {
 TEST(CubicSpline, BendsAtDeclaredKinksOnly) {
   const Field bent = [](const std::vector<double>& x) { return std::max(x[0], 1.3) * x[1]; };
   std::vector<TableAxis> axes = {axis_of(0, {1, 1.15, 1.3, 1.5, 1.7, 2}), axis_of(1, {1, 2})};
-  EXPECT_GT(worst_error(bent, table_of(bent, axes, "cubic")), 1e-2);
+  EXPECT_GT(worst_error(bent, table_of(bent, axes, Interpolation::cubic)), 1e-2);
   axes[0].kinks = {1.3};
-  EXPECT_LT(worst_error(bent, table_of(bent, axes, "cubic")), 1e-13);
+  EXPECT_LT(worst_error(bent, table_of(bent, axes, Interpolation::cubic)), 1e-13);
   // A piece of one cell at either end.
   axes[0] = axis_of(0, {1, 1.3, 1.5, 1.7, 2});
   axes[0].kinks = {1.3};
-  EXPECT_LT(worst_error(bent, table_of(bent, axes, "cubic")), 1e-13);
+  EXPECT_LT(worst_error(bent, table_of(bent, axes, Interpolation::cubic)), 1e-13);
   const Field late = [](const std::vector<double>& x) { return std::max(x[0], 1.7) * x[1]; };
   axes[0].kinks = {1.7};
-  EXPECT_LT(worst_error(late, table_of(late, axes, "cubic")), 1e-13);
+  EXPECT_LT(worst_error(late, table_of(late, axes, Interpolation::cubic)), 1e-13);
 }
 
-class Gradient : public testing::TestWithParam<std::string> {};
+class Gradient : public testing::TestWithParam<Interpolation> {};
 
 TEST_P(Gradient, IsTheCentralDifferenceOfTheValueWhichIsTheSameBits) {
   for (std::size_t dims = 1; dims <= 5; ++dims) {
@@ -267,14 +270,14 @@ TEST_P(Gradient, OutsideTheValueIsTheNearestEdges) {
   EXPECT_TRUE(std::isnan(function(std::vector<double>{1.4, 1.5, std::nan("")})));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, Gradient, testing::Values("linear", "cubic"),
-                         [](const auto& given) { return given.param; });
+INSTANTIATE_TEST_SUITE_P(Kernels, Gradient, testing::ValuesIn(grid_interpolations),
+                         [](const auto& given) { return interpolation_name(given.param); });
 
 TEST(CubicSpline, OvershootsButTauDoesNotLeaveZeroToK) {
   const Field cliff = [](const std::vector<double>& x) {
     return x[0] + 0.5 * x[1] < 2.2 ? 0. : 9.;
   };
-  Table table = table_of(cliff, {12, 12}, true, "cubic");
+  Table table = table_of(cliff, {12, 12}, true, Interpolation::cubic);
   const auto extremes = [&] {
     const TableFunction function(table);
     Random random(2);
@@ -295,14 +298,14 @@ TEST(CubicSpline, OvershootsButTauDoesNotLeaveZeroToK) {
 }
 
 TEST(CubicSpline, OfAFileIsTheSameBitsKinksIncluded) {
-  Table table = table_of(smooth, {6, 4}, false, "cubic");
+  Table table = table_of(smooth, {6, 4}, false, Interpolation::cubic);
   table.axes[0].unit = "MPa";
   table.axes[1].unit = "1";
   table.axes[0].kinks = {table.axes[0].nodes[2]};
   const test::TemporaryDirectory directory;
   write_table(table, directory.path("t.h5"));
   const Table again = read_table(directory.path("t.h5"));
-  EXPECT_EQ(again.interpolation, "cubic");
+  EXPECT_EQ(again.interpolation, Interpolation::cubic);
   EXPECT_EQ(again.value, table.value);
   EXPECT_EQ(again.axes[0].kinks, table.axes[0].kinks);
   const TableFunction a(table), b(again);

@@ -27,7 +27,7 @@ TableOptions large_grid() {
       {"sigma_n_MPa", 40}, {"psi", 30}, {"v_rel_mm_s", 40}, {"T_contact_C", 80}};
   for (const auto& [name, count] : nodes)
     options.axes[name].nodes = count;
-  options.interpolation = "linear";
+  options.interpolation = Interpolation::linear;
   options.memory_limit_MiB = 16;
   options.place = {"job.toml", 4, 1};
   return options;
@@ -168,7 +168,7 @@ TEST_F(StreamedTableFile, IsPackedInChunksWithChecksumsWhereAsked) {
 
 TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
   Case c;
-  c.options.interpolation = "cubic";
+  c.options.interpolation = Interpolation::cubic;
   try {
     is_streamed(c.model, c.ranges, c.options);
     FAIL();

@@ -16,7 +16,7 @@ TEST(SlowTable, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
   for (const bool cubic : {false, true}) {
     TableOptions options;
     options.tolerance_MPa = 1;
-    options.interpolation = cubic ? "cubic" : "linear";
+    options.interpolation = cubic ? Interpolation::cubic : Interpolation::linear;
     const Table table = build_table(model, ranges, options);
     const TableFunction function(table);
     EXPECT_LE(worst_case(LawFunction(model, function.inputs()), function, ranges,

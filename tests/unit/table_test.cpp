@@ -48,23 +48,21 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 class TableOfEveryLaw : public testing::TestWithParam<std::string> {};
 
-TableOptions options_of(const std::string& interpolation, double tolerance = 0.5) {
+TableOptions options_of(Interpolation interpolation, double tolerance = 0.5) {
   TableOptions options;
   options.interpolation = interpolation;
   options.tolerance_MPa = tolerance;
   return options;
 }
-const char* const interpolations[] = {"linear", "cubic"};
-
 class SlowTableOfEveryLaw : public TableOfEveryLaw {};
 
 TEST_P(TableOfEveryLaw, MeetsTheAskedToleranceOverTheWholeRange) {
-  for (const char* interpolation : interpolations)
+  for (const Interpolation interpolation : grid_interpolations)
     for (const double tolerance : {1.0, 0.05}) {
       const Table table = table_of(GetParam(), options_of(interpolation, tolerance));
       EXPECT_EQ(table.interpolation, interpolation);
       EXPECT_LE(worst_of(GetParam(), table), tolerance)
-          << interpolation << ", " << table.nodes() << " nodes";
+          << interpolation_name(interpolation) << ", " << table.nodes() << " nodes";
     }
 }
 
@@ -94,7 +92,7 @@ TEST_P(SlowTableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
   if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, scipy, xarray"}).exit_code !=
       0)
     GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -scipy, -xarray are not installed";
-  for (const char* interpolation : interpolations)
+  for (const Interpolation interpolation : grid_interpolations)
     expect_rebuilt(table_of(GetParam(), options_of(interpolation)));
 }
 
@@ -320,7 +318,7 @@ TEST(TableFile, CombineWithAnUnknownConstantIsRefused) {
 
 TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
   const test::TemporaryDirectory directory;
-  Table table = table_of("levanov", options_of("cubic"));
+  Table table = table_of("levanov", options_of(Interpolation::cubic));
   table.axes[0].kinks = {table.axes[0].nodes[1]};
   write_table(table, directory.path("t.h5"));
   const std::string bytes = directory.read("t.h5");

@@ -1,0 +1,21 @@
+// How a table goes from its nodes to a state between them.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace frictab {
+
+enum class Interpolation {
+  linear, // in the axes' coordinates (table/frictab_kernel.h)
+  cubic,  // the spline of table/spline.h
+  none    // no nodes: the direct form; in no job and no file
+};
+// Those with nodes, as jobs and files have them.
+inline constexpr Interpolation grid_interpolations[] = {Interpolation::linear,
+                                                        Interpolation::cubic};
+
+const char* interpolation_name(Interpolation interpolation); // "linear", "cubic", "none"
+std::optional<Interpolation> find_interpolation(std::string_view name);
+
+} // namespace frictab
