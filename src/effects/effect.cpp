@@ -2,6 +2,7 @@
 #include "effects/effect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "data/derived.h"
@@ -9,6 +10,22 @@
 #include "effects/natural_spline.h"
 
 namespace frictab {
+
+namespace {
+
+constexpr std::array<const char*, 4> acts_on_names = {"mu", "m", "tau", "mu+m"}; // as ActsOn
+
+} // namespace
+
+const char* acts_on_name(ActsOn place) {
+  return acts_on_names[static_cast<std::size_t>(place)];
+}
+
+std::optional<ActsOn> find_acts_on(std::string_view name) {
+  const auto at = std::find(acts_on_names.begin(), acts_on_names.end(), name);
+  if (at == acts_on_names.end()) return std::nullopt;
+  return static_cast<ActsOn>(at - acts_on_names.begin());
+}
 
 double Spread::span() const {
   if (high > low) return high - low;

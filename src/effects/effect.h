@@ -2,6 +2,7 @@
 // parameters give 1.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,14 +46,22 @@ struct EffectInput {
   std::vector<double> knots = {}; // of smooth forms: where their curves are given, ascending
 };
 
+// Where an effect acts.
+enum class ActsOn {
+  mu,   // the tabulated piece, before any limit
+  m,    // the limit
+  tau,  // added, in units of tau_scale_MPa
+  mu_m, // both mu and m, where a law has a limit of its own
+};
+const char* acts_on_name(ActsOn place); // "mu", "m", "tau", "mu+m", as jobs and files have it
+std::optional<ActsOn> find_acts_on(std::string_view name);
+
 // One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
 // after interpolation: a table needs no axis for it, and its drift does not grow.
 struct PlacedEffect {
   const EffectForm* form = nullptr;
   std::vector<EffectInput> inputs; // as many as the form takes: x, x2, x3
-  // mu: the tabulated piece, before any limit | m: the limit | mu+m: both, where a law has a limit
-  // of its own | tau: added, in units of tau_scale
-  std::string acts_on = "mu";
+  ActsOn acts_on = ActsOn::mu;
   std::vector<double> parameters; // as parameters_of lists them
   double tau_scale_MPa = 1;
   // What is added fades below this contact pressure: without pressure there is no friction. 0: not.

@@ -62,16 +62,16 @@ Factors collect(std::span<const PlacedEffect> effects) {
   Factors all;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Expr factor = factor_of(effects[i], prefix_of(i));
-    const std::string& place = effects[i].acts_on;
-    if (place == "mu" || place == "mu+m") {
+    const ActsOn place = effects[i].acts_on;
+    if (place == ActsOn::mu || place == ActsOn::mu_m) {
       all.mu = all.on_mu ? all.mu * factor : factor;
       all.on_mu = true;
     }
-    if (place == "m" || place == "mu+m") {
+    if (place == ActsOn::m || place == ActsOn::mu_m) {
       all.m = all.on_m ? all.m * factor : factor;
       all.on_m = true;
     }
-    if (place == "tau") {
+    if (place == ActsOn::tau) {
       const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * fading(effects[i]);
       all.tau = all.on_tau ? all.tau + shift : shift;
       all.on_tau = true;
@@ -181,7 +181,7 @@ Program factor_program(const PlacedEffect& effect) {
 
 std::string formula_text(const PlacedEffect& effect) {
   const std::string& factor = effect.form->formula;
-  if (effect.acts_on != "tau") return factor;
+  if (effect.acts_on != ActsOn::tau) return factor;
   const bool is_sum = factor.starts_with("1 + ");
   std::string text = fmt::format("tau_R + {:.4g} MPa ", effect.tau_scale_MPa);
   if (effect.pressure_MPa > 0)
@@ -193,7 +193,7 @@ std::string effect_text(const PlacedEffect& effect) {
   std::string text = formula_text(effect);
   if (effect.form->text) {
     text = effect.form->text(effect);
-    if (effect.acts_on == "tau") text = formula_text(effect) + ", " + text;
+    if (effect.acts_on == ActsOn::tau) text = formula_text(effect) + ", " + text;
   } else {
     const auto symbols = input_symbols(*effect.form);
     const auto parameters = parameters_of(effect);
@@ -203,8 +203,9 @@ std::string effect_text(const PlacedEffect& effect) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
       text += fmt::format("; {} = {:.4g}", parameters[i].name, effect.parameters[i]);
   }
-  if (effect.acts_on == "tau") return text;
-  return text + "; acts on " + (effect.acts_on == "mu+m" ? "mu and m" : effect.acts_on);
+  if (effect.acts_on == ActsOn::tau) return text;
+  return text + "; acts on " +
+         (effect.acts_on == ActsOn::mu_m ? "mu and m" : acts_on_name(effect.acts_on));
 }
 
 std::string columns_text(const PlacedEffect& effect) {

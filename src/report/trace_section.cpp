@@ -75,9 +75,9 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
       }
   const double margin = 0.6 * (high - low);
   const PlacedEffect& placed = effect.placed;
-  const std::string what = placed.acts_on == "tau"
+  const std::string what = placed.acts_on == ActsOn::tau
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
-                               : "factor " + place_text(placed.acts_on);
+                               : std::string("factor ") + place_text(placed.acts_on);
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);

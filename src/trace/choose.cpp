@@ -185,7 +185,7 @@ PlacedEffect plain_effect(const Search& search, const Cause& cause) {
                       search.tau_scale_MPa);
 }
 
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on) {
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, ActsOn acts_on) {
   const Candidates& candidates = search.candidates;
   std::size_t text = 0;
   for (const std::size_t c : cause.columns)
@@ -317,7 +317,7 @@ private:
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
   std::vector<Start> starts = FormStarts(search, winner, index).run();
-  std::map<std::string, std::size_t> tried;
+  std::map<ActsOn, std::size_t> tried;
   std::erase_if(starts,
                 [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
   std::vector<Rival> rivals(starts.size());

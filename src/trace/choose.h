@@ -23,6 +23,6 @@ inline constexpr double smooth_margin = 3;
 PlacedEffect plain_effect(const Search& search, const Cause& cause);
 
 // The effect with which a cause is compared: a spline, a surface, one factor per level, ...
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, const std::string& acts_on);
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, ActsOn acts_on);
 
 } // namespace frictab

@@ -73,7 +73,7 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
   const std::size_t own = campaign.law.parameters.size();
   BlockColumns columns = campaign.candidates.by_symbol;
   columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
-  const auto change = [&](const char* place) {
+  const auto change = [&](ActsOn place) {
     PlacedEffect everywhere;
     everywhere.form = find_effect("linear");
     everywhere.inputs = {{"everywhere", {}, 0, 1}};
@@ -97,12 +97,12 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
     return VectorXd((up - on.predict(at)) / (2 * step));
   };
   Sensitivities all;
-  all[on_mu] = change("mu");
+  all[on_mu] = change(ActsOn::mu);
   if (has_limit(campaign.law, campaign.conventions)) {
-    all[1] = change("m");
+    all[1] = change(ActsOn::m);
     if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
   }
-  if (has_own_limit(campaign.law, campaign.conventions)) all[on_both] = change("mu+m");
+  if (has_own_limit(campaign.law, campaign.conventions)) all[on_both] = change(ActsOn::mu_m);
   all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
   return all;
 }

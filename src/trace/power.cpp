@@ -46,7 +46,8 @@ void add_between(Trace& trace, const Search& search) {
     if (!constant_in_experiments(shape.cause, search.candidates)) continue;
     const VectorXd x = shape.columns.col(0).array() - shape.columns.col(0).mean();
     const double left = (x - q * (q.transpose() * x)).squaredNorm() / x.squaredNorm();
-    Detectable entry{search.candidates.columns[shape.cause.columns[0]].name, "", "mu", 0, 0, false};
+    Detectable entry{
+        search.candidates.columns[shape.cause.columns[0]].name, "", ActsOn::mu, 0, 0, false};
     if (left > least_column_left && std::isfinite(trace.smallest_seen)) {
       entry.identifiable = true;
       entry.share = 0.5 * std::log1p(trace.smallest_seen) / std::sqrt(left);
@@ -64,7 +65,7 @@ void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
   for (std::size_t s = 0; s < search.causes.size(); ++s) {
     if (search.causes[s].several() || search.shapes[s].empty()) continue;
     const CandidateColumn& column = search.candidates.columns[search.causes[s].columns[0]];
-    Detectable entry{column.name, column.derived ? column.name : "", "mu", 0, 0, false};
+    Detectable entry{column.name, column.derived ? column.name : "", ActsOn::mu, 0, 0, false};
     for (std::size_t d = 0; d < screened.directions.size(); ++d) {
       const Direction& direction = screened.directions[d];
       if (direction.cause != s || direction.place != 0) continue;

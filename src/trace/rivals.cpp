@@ -45,7 +45,7 @@ VectorXd by_experiment(const VectorXd& whitened, const Whitener& whitener,
 
 bool on_limit(const std::vector<PlacedEffect>& effects) {
   return std::any_of(effects.begin(), effects.end(),
-                     [](const PlacedEffect& e) { return e.acts_on == "m"; });
+                     [](const PlacedEffect& e) { return e.acts_on == ActsOn::m; });
 }
 
 // Where an effect's parameters stand among those of the law.
@@ -94,7 +94,7 @@ double freedom_of(const Rival& rival, const Whitener& whitener) {
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
          std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
-           return effect.acts_on == "tau" ||
+           return effect.acts_on == ActsOn::tau ||
                   factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
          });
 }

@@ -15,7 +15,7 @@ namespace frictab {
 
 // Where an effect may act (PlacedEffect::acts_on). On mu and the limit alike only where a law has a
 // limit of its own: what lubricates worse does so before and behind saturation.
-inline constexpr std::array<const char*, 4> places = {"mu", "m", "tau", "mu+m"};
+inline constexpr std::array<ActsOn, 4> places = {ActsOn::mu, ActsOn::m, ActsOn::tau, ActsOn::mu_m};
 inline constexpr std::size_t on_mu = 0, on_both = 3;
 
 // What tau_R changes, per block, where an effect's factor changes by 1, in each place.

@@ -46,7 +46,7 @@ double gap_of(const std::string& column, const Candidates& candidates) {
 } // namespace
 
 PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
-                          const std::string& acts_on, double tau_scale_MPa) {
+                          ActsOn acts_on, double tau_scale_MPa) {
   PlacedEffect effect;
   effect.form = &form;
   effect.acts_on = acts_on;
@@ -120,8 +120,8 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
     const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
-    shapes.push_back(
-        {start_effect(form, cause, candidates, "mu", 1), is.cwiseProduct(times).cast<float>()});
+    shapes.push_back({start_effect(form, cause, candidates, ActsOn::mu, 1),
+                      is.cwiseProduct(times).cast<float>()});
   }
   return shapes;
 }
@@ -209,7 +209,7 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
   for (const EffectForm& form : all_effects()) {
     if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
     if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
-    PlacedEffect effect = start_effect(form, cause, candidates, "mu", 1);
+    PlacedEffect effect = start_effect(form, cause, candidates, ActsOn::mu, 1);
     std::vector<std::vector<double>> grid;
     if (form.grid) {
       std::vector<Spread> spreads;

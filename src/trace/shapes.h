@@ -29,7 +29,7 @@ Eigen::MatrixXd roughness_of(const PlacedEffect& effect);
 
 // An effect of that form with the form's own start values; category: all levels.
 PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
-                          const std::string& acts_on, double tau_scale_MPa);
+                          ActsOn acts_on, double tau_scale_MPa);
 // Whether the form has a meaning for the cause: logarithms need positive values, ...
 bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates);
 // Bounds of a fit inside what the data can tell: places inside the range, widths like it, and not

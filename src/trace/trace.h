@@ -26,7 +26,7 @@ struct Alternative {
   std::vector<std::string> columns;
   std::string derived; // empty: a recorded column
   std::string form;
-  std::string acts_on;
+  ActsOn acts_on = ActsOn::mu;
   bool in_set = false; // cannot be told apart from the effect by these data
   std::string why_not;
 };
@@ -82,7 +82,7 @@ struct OrderStructure {
 struct Detectable {
   std::string column;
   std::string derived; // empty: recorded
-  std::string acts_on;
+  ActsOn acts_on = ActsOn::mu;
   double size_MPa = 0;      // root mean square over the training rows, found with 80 % probability
   double share = 0;         // relative to tau_R
   bool identifiable = true; // false: recalibration absorbs it, or the column does not vary

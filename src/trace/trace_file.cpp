@@ -54,7 +54,7 @@ Json alternatives_json(const TracedEffect& effect) {
                     {"columns", a.columns},
                     {"derived", derived_json(a.derived)},
                     {"form", a.form},
-                    {"acts_on", a.acts_on},
+                    {"acts_on", acts_on_name(a.acts_on)},
                     {"cannot_be_told_apart", a.in_set},
                     {"why_not", a.why_not}});
   return list;
@@ -73,7 +73,7 @@ Json placed_json(const PlacedEffect& p) {
   }
   Json j = {{"inputs", inputs}, {"values", p.parameters}};
   if (p.stiffness > 0) j["stiffness"] = p.stiffness;
-  if (p.acts_on == "tau") {
+  if (p.acts_on == ActsOn::tau) {
     j["unit_MPa"] = p.tau_scale_MPa;
     j["fades_below_MPa"] = p.pressure_MPa;
   }
@@ -125,7 +125,7 @@ Json effect_json(const TracedEffect& e) {
           {"derived", derived_json(e.derived)},
           {"form", e.placed.form->name},
           {"formula", formula_text(e.placed)},
-          {"acts_on", e.placed.acts_on},
+          {"acts_on", acts_on_name(e.placed.acts_on)},
           {"parameters", parameters_json(e)},
           {"family", family_name(e.between)},
           {"p_value", e.p_value},
@@ -151,6 +151,11 @@ EffectInput parse_input(const Json& j) {
   return input;
 }
 
+ActsOn parse_acts_on(const std::string& name) {
+  if (const auto place = find_acts_on(name)) return *place;
+  throw InputError({"trace.json", 0, 0}, "an effect acts on '" + name + "'", "trace again");
+}
+
 PlacedEffect parse_placed(const Json& j, const Json& effect) {
   PlacedEffect p;
   p.form = find_effect(effect.at("form").get<std::string>());
@@ -161,7 +166,7 @@ PlacedEffect parse_placed(const Json& j, const Json& effect) {
   if (j.contains("stiffness")) p.stiffness = j.at("stiffness");
   if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
   if (j.contains("fades_below_MPa")) p.pressure_MPa = j.at("fades_below_MPa");
-  p.acts_on = effect.at("acts_on");
+  p.acts_on = parse_acts_on(effect.at("acts_on"));
   return p;
 }
 
@@ -189,8 +194,9 @@ TracedEffect parse_effect_json(const Json& j) {
   e.design = parse_design(j.at("discriminating_design"));
   for (const Json& a : j.at("alternatives"))
     e.alternatives.push_back({a.at("name"), a.at("columns").get<std::vector<std::string>>(),
-                              parse_derived(a.at("derived")), a.at("form"), a.at("acts_on"),
-                              a.at("cannot_be_told_apart"), a.at("why_not")});
+                              parse_derived(a.at("derived")), a.at("form"),
+                              parse_acts_on(a.at("acts_on")), a.at("cannot_be_told_apart"),
+                              a.at("why_not")});
   const Json& c = j.at("curve");
   e.curve = {numbers(c.at("x")),       numbers(c.at("factor")),  numbers(c.at("low_95")),
              numbers(c.at("high_95")), numbers(c.at("point_x")), numbers(c.at("point_factor"))};
@@ -262,7 +268,7 @@ Json detectable_json(const std::vector<Detectable>& all) {
   for (const Detectable& d : all)
     list.push_back({{"column", d.column},
                     {"derived", derived_json(d.derived)},
-                    {"acts_on", d.acts_on},
+                    {"acts_on", acts_on_name(d.acts_on)},
                     {"identifiable", d.identifiable},
                     {"size_MPa", d.identifiable ? Json(d.size_MPa) : Json()},
                     {"share", d.identifiable ? Json(d.share) : Json()}});
@@ -376,8 +382,9 @@ Trace parse_one(const Json& j) {
   t.remaining = {j.at("remaining").at("structure"), number(j.at("remaining").at("p_value")),
                  j.at("remaining").at("note")};
   for (const Json& d : j.at("detectable"))
-    t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")), d.at("acts_on"),
-                            number(d.at("size_MPa")), number(d.at("share")), d.at("identifiable")});
+    t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")),
+                            parse_acts_on(d.at("acts_on")), number(d.at("size_MPa")),
+                            number(d.at("share")), d.at("identifiable")});
   t.n_columns = j.at("tried").at("columns");
   t.n_candidates = j.at("tried").at("directions");
   t.n_flips = j.at("tried").at("sign_flips");

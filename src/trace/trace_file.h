@@ -27,7 +27,7 @@ std::string design_sentence(const Design& design);
 std::vector<std::vector<std::string>> design_rows(const Design& design);
 
 // "on mu", "on the limit", "added to tau_R".
-std::string place_text(const std::string& acts_on);
+const char* place_text(ActsOn place);
 
 // "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
 std::string cause_text(const TracedEffect& effect);

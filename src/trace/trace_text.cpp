@@ -115,9 +115,18 @@ std::string unseen_line(const Trace& t) {
 
 } // namespace
 
-std::string place_text(const std::string& acts_on) {
-  if (acts_on == "mu+m") return "on mu and the limit";
-  return acts_on == "mu" ? "on mu" : acts_on == "m" ? "on the limit" : "added to tau_R";
+const char* place_text(ActsOn place) {
+  switch (place) {
+  case ActsOn::mu:
+    return "on mu";
+  case ActsOn::m:
+    return "on the limit";
+  case ActsOn::mu_m:
+    return "on mu and the limit";
+  case ActsOn::tau:
+    break;
+  }
+  return "added to tau_R";
 }
 
 std::string cause_text(const TracedEffect& effect) {

@@ -20,13 +20,12 @@ namespace frictab {
 
 // An effect as asked for: "form=saturation,column=s_mm,strength=0.15,on=mu".
 struct EffectSpec {
-  std::string form;      // of the effect registry
-  std::string column;    // recorded column, derived quantity, or "latent"
-  std::string column2;   // for forms of two columns
-  std::string column3;   // and of three
-  std::string on = "mu"; // mu: before saturation | m: the limit | tau: added, in units of the
-                         // mean noise-free tau
-  std::string latent = "random";   // random | groups | batch | drift | order
+  std::string form;              // of the effect registry
+  std::string column;            // recorded column, derived quantity, or "latent"
+  std::string column2;           // for forms of two columns
+  std::string column3;           // and of three
+  ActsOn on = ActsOn::mu;        // mu, m or tau; what is added, in units of the mean noise-free tau
+  std::string latent = "random"; // random | groups | batch | drift | order
   std::optional<double> strength;  // training MAE of the recalibrated law without the effect over
                                    // the noise floor, minus 1
   std::optional<double> amplitude; // or the form's amplitude itself

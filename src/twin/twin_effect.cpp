@@ -72,9 +72,9 @@ std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
 void apply(const PlantedEffect& effect, const std::vector<double>& factor, double tau_scale,
            TauPieces& pieces) {
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    if (effect.spec.on == "mu") pieces.tau0[i] *= factor[i];
-    if (effect.spec.on == "m") pieces.limit[i] *= factor[i];
-    if (effect.spec.on == "tau") pieces.shift[i] += tau_scale * (factor[i] - 1.0);
+    if (effect.spec.on == ActsOn::mu) pieces.tau0[i] *= factor[i];
+    if (effect.spec.on == ActsOn::m) pieces.limit[i] *= factor[i];
+    if (effect.spec.on == ActsOn::tau) pieces.shift[i] += tau_scale * (factor[i] - 1.0);
   }
 }
 
@@ -129,7 +129,8 @@ public:
     parameters[0] = amplitude;
     const auto factor = factors(effect_, rows_, parameters, levels_);
     const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
-    if (effect_.spec.on != "tau" && std::any_of(factor.begin(), factor.end(), below(least_factor)))
+    if (effect_.spec.on != ActsOn::tau &&
+        std::any_of(factor.begin(), factor.end(), below(least_factor)))
       return {};
     NoiseFree truth{draft_.base, {}};
     apply(effect_, factor, scale_, truth.pieces);
@@ -209,7 +210,7 @@ double solved_amplitude(const EffectSpec& spec, double noise_scale, const Streng
   }
   throw InputError({"--effect"},
                    fmt::format("form '{}' of '{}' on {} cannot reach strength {}", spec.form,
-                               spec.column, spec.on, shortest(target)),
+                               spec.column, acts_on_name(spec.on), shortest(target)),
                    fmt::format("the strongest that keeps friction positive is {:.3g}; other shape "
                                "parameters or another sign may reach more",
                                largest));

@@ -71,7 +71,7 @@ void read_item(const KeyValue& item, const EffectForm* form, EffectSpec& spec, F
     read_sign(item, spec, faults);
   else if (item.key == "on") {
     check_choice(item, {"mu", "m", "tau"}, faults);
-    spec.on = item.value;
+    spec.on = find_acts_on(item.value).value_or(spec.on);
   } else if (item.key == "latent") {
     check_choice(item, {"random", "groups", "batch", "drift", "order"}, faults);
     spec.latent = item.value;

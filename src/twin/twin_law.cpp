@@ -20,10 +20,10 @@ const EffectForm& planted_form() {
   return form;
 }
 
-PlacedEffect planted_on(const std::string& place) {
+PlacedEffect planted_on(ActsOn place) {
   PlacedEffect effect;
   effect.form = &planted_form();
-  effect.inputs = {{"planted_" + place, {}, -1e300, 1e300}};
+  effect.inputs = {{std::string("planted_") + acts_on_name(place), {}, -1e300, 1e300}};
   effect.acts_on = place;
   return effect;
 }
@@ -33,7 +33,8 @@ Program program_of(const Law& law, const Conventions& conventions) {
   std::vector<double> start;
   for (const Parameter& parameter : law.parameters)
     start.push_back(parameter.start);
-  const std::vector<PlacedEffect> effects = {planted_on("mu"), planted_on("m"), planted_on("tau")};
+  const std::vector<PlacedEffect> effects = {planted_on(ActsOn::mu), planted_on(ActsOn::m),
+                                             planted_on(ActsOn::tau)};
   const Law extended = extended_law(law, conventions, start, effects, law.name);
   std::map<std::string, Expr> neutral; // the limit that the law did not have is k
   for (std::size_t p = start.size(); p < extended.parameters.size(); ++p)

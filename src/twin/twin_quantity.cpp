@@ -68,7 +68,7 @@ std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect
 
 void check_column(const EffectSpec& spec, const std::string& name, const TwinDraft& draft,
                   FaultList& faults) {
-  if (spec.on == "m" && draft.law && !draft.law->has_limit())
+  if (spec.on == ActsOn::m && draft.law && !draft.law->has_limit())
     faults.add({"--effect"}, "law '" + draft.law->law().name + "' has no limit to act on",
                "it is a limit itself: use on=mu");
   const auto known = known_columns(draft);

@@ -66,7 +66,7 @@ Json effect_json(const PlantedEffect& effect) {
             {"columns", columns},
             {"derived", derived ? Json(spec.column) : Json(nullptr)},
             {"latent", spec.column == "latent" ? Json(spec.latent) : Json(nullptr)},
-            {"acts_on", spec.on},
+            {"acts_on", acts_on_name(spec.on)},
             {"parameters", parameters},
             {"strength", effect.strength}};
   if (spec.strength) json["strength_asked"] = *spec.strength;
@@ -119,8 +119,9 @@ std::string effects_line(const Twin& twin) {
     const EffectSpec& spec = effect.spec;
     const std::string source =
         spec.column == "latent" ? "latent (" + spec.latent + ")" : join(columns_of(spec), " and ");
-    text += fmt::format("effect      {} of {} on {}, amplitude {:.4g}, strength {:.3g}\n",
-                        spec.form, source, spec.on, effect.parameters[0], effect.strength);
+    text +=
+        fmt::format("effect      {} of {} on {}, amplitude {:.4g}, strength {:.3g}\n", spec.form,
+                    source, acts_on_name(spec.on), effect.parameters[0], effect.strength);
   }
   return text;
 }

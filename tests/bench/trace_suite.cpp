@@ -352,7 +352,7 @@ private:
     score_.sets += static_cast<double>(set.size());
     score_.found +=
         fmt::format("{}{} of {} on {}", score_.found.empty() ? "" : "; ", effect.placed.form->name,
-                    join(names, " x "), effect.placed.acts_on);
+                    join(names, " x "), acts_on_name(effect.placed.acts_on));
   }
 
   static double mae(const TwinPart& part) {

@@ -196,10 +196,10 @@ std::vector<PlacedEffect> everywhere(const Law& law) {
   std::vector<PlacedEffect> effects = {test::traced_effect("humidity")};
   if (has_limit(law, {})) {
     effects.push_back(test::traced_effect("work"));
-    effects.back().acts_on = "m";
+    effects.back().acts_on = ActsOn::m;
   }
   effects.push_back(test::traced_effect("tool_heat"));
-  effects.back().acts_on = "tau";
+  effects.back().acts_on = ActsOn::tau;
   effects.back().tau_scale_MPa = 20;
   return effects;
 }

@@ -14,7 +14,7 @@ namespace {
 const std::vector<std::string> states = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
                                          "T_contact_C", "s_mm", "sigma_f_MPa"};
 
-PlacedEffect effect(const char* form, const char* acts_on, double amplitude) {
+PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
   PlacedEffect effect;
   effect.form = find_effect(form);
   effect.acts_on = acts_on;
@@ -66,19 +66,19 @@ double tau(const Law& law, double sigma, double column, double second = 0.25) {
 TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
   for (const Law& law : all_laws())
     for (const EffectForm& form : all_effects())
-      for (const char* place : {"mu", "m", "mu+m", "tau"}) {
+      for (const ActsOn place : {ActsOn::mu, ActsOn::m, ActsOn::mu_m, ActsOn::tau}) {
         const PlacedEffect neutral[] = {effect(form.name.c_str(), place, 0)};
         const Law extended = extended_law(law, {}, starts_of(law), neutral, "extended");
         for (const double sigma : {0.0, 300.0, 900.0, 2700.0})
           for (const double column : {0.0, 1.0, 37.3, 90.0})
             EXPECT_EQ(tau(extended, sigma, column), tau(law, sigma, column))
-                << law.name << ' ' << form.name << ' ' << place;
+                << law.name << ' ' << form.name << ' ' << acts_on_name(place);
       }
 }
 
 TEST(ExtendedLaw, AnEffectWithoutAllItsParametersIsRefused) {
   for (const char* form : {"hinge", "category"}) {
-    PlacedEffect short_one = effect(form, "mu", 0.1);
+    PlacedEffect short_one = effect(form, ActsOn::mu, 0.1);
     short_one.parameters.pop_back();
     EXPECT_THROW(factor_of(short_one, "e_"), std::logic_error) << form;
   }
@@ -86,7 +86,7 @@ TEST(ExtendedLaw, AnEffectWithoutAllItsParametersIsRefused) {
 
 TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
   const Law& coulomb = *find_law("coulomb");
-  const PlacedEffect half[] = {effect("linear", "mu", 0.5)};
+  const PlacedEffect half[] = {effect("linear", ActsOn::mu, 0.5)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
   // (x - 45)/20 = 0.5 at 55
   EXPECT_NEAR(tau(extended, 1000, 55) / tau(coulomb, 1000, 55), 1.25, 1e-12);
@@ -95,7 +95,7 @@ TEST(ExtendedLaw, AnEffectOnMuActsBelowTheLimitOnly) {
 
 TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
   const Law& orowan = *find_law("orowan");
-  const PlacedEffect half[] = {effect("linear", "m", 0.5)};
+  const PlacedEffect half[] = {effect("linear", ActsOn::m, 0.5)};
   const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
   EXPECT_EQ(tau(extended, 100, 55), tau(orowan, 100, 55));
   EXPECT_NEAR(tau(extended, 5000, 55) / tau(orowan, 5000, 55), 1.25, 1e-12);
@@ -103,7 +103,7 @@ TEST(ExtendedLaw, AnEffectOnTheLimitActsAtTheLimitOnly) {
 
 TEST(ExtendedLaw, AnEffectOnMuAndTheLimitActsOnTheLawAsAWhole) {
   const Law& orowan = *find_law("orowan");
-  const PlacedEffect half[] = {effect("linear", "mu+m", 0.5)};
+  const PlacedEffect half[] = {effect("linear", ActsOn::mu_m, 0.5)};
   const Law extended = extended_law(orowan, {}, starts_of(orowan), half, "extended");
   EXPECT_EQ(extended.parameters.size(), orowan.parameters.size() + 1);
   for (const double sigma : {100.0, 5000.0})
@@ -112,7 +112,7 @@ TEST(ExtendedLaw, AnEffectOnMuAndTheLimitActsOnTheLawAsAWhole) {
 
 TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
   const Law& coulomb = *find_law("coulomb");
-  const PlacedEffect half[] = {effect("linear", "tau", 0.5)};
+  const PlacedEffect half[] = {effect("linear", ActsOn::tau, 0.5)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), half, "extended");
   EXPECT_NEAR(tau(extended, 1000, 55) - tau(coulomb, 1000, 55), 25, 1e-10);
 }
@@ -120,7 +120,7 @@ TEST(ExtendedLaw, AnAddedEffectIsInUnitsOfItsScale) {
 TEST(ExtendedLaw, AnAddedEffectFadesWithThePressure) {
   for (const char* name : {"coulomb", "shear"}) { // that takes the pressure, that does not
     const Law& law = *find_law(name);
-    PlacedEffect half[] = {effect("linear", "tau", 0.5)};
+    PlacedEffect half[] = {effect("linear", ActsOn::tau, 0.5)};
     half[0].pressure_MPa = 200;
     const Law extended = extended_law(law, {}, starts_of(law), half, "extended");
     const auto added = [&](double sigma) { return tau(extended, sigma, 55) - tau(law, sigma, 55); };
@@ -136,7 +136,7 @@ TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
   const Law& coulomb = *find_law("coulomb");
   for (const EffectForm& form : all_effects()) {
     if (form.categorical) continue;
-    const PlacedEffect some[] = {effect(form.name.c_str(), "mu", 0.3)};
+    const PlacedEffect some[] = {effect(form.name.c_str(), ActsOn::mu, 0.3)};
     const Law extended = extended_law(coulomb, {}, starts_of(coulomb), some, "extended");
     EXPECT_EQ(tau(extended, 500, 60), tau(extended, 500, 1e4)) << form.name;
     EXPECT_EQ(tau(extended, 500, 30), tau(extended, 500, -1e4)) << form.name;
@@ -145,7 +145,7 @@ TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
 
 TEST(ExtendedLaw, GivesEachLevelItsFactor) {
   const Law& coulomb = *find_law("coulomb");
-  const PlacedEffect tools[] = {effect("category", "mu", 0.1)};
+  const PlacedEffect tools[] = {effect("category", ActsOn::mu, 0.1)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), tools, "extended");
   const double base = tau(coulomb, 500, 0);
   EXPECT_EQ(tau(extended, 500, 0), base);
@@ -155,7 +155,8 @@ TEST(ExtendedLaw, GivesEachLevelItsFactor) {
 
 TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
   const Law& coulomb = *find_law("coulomb");
-  const PlacedEffect two[] = {effect("saturation", "mu", 0.1), effect("hinge", "m", 0.2)};
+  const PlacedEffect two[] = {effect("saturation", ActsOn::mu, 0.1),
+                              effect("hinge", ActsOn::m, 0.2)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), two, "extended");
   EXPECT_EQ(parameter_names(extended),
             (std::vector<std::string>{"mu", "e1_a", "e1_x0", "e2_a", "e2_x0", "m_limit"}));
@@ -165,8 +166,9 @@ TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
 
 TEST(ExtendedLaw, ParametersHaveTheUnitsOfTheColumnsTheyAreValuesOf) {
   const Law& coulomb = *find_law("coulomb");
-  PlacedEffect sliding = effect("saturation", "mu", 0.1), work = effect("step", "mu", 0.1);
-  PlacedEffect pair = effect("recovery", "mu", 0.1), humid = effect("hinge", "m", 0.2);
+  PlacedEffect sliding = effect("saturation", ActsOn::mu, 0.1),
+               work = effect("step", ActsOn::mu, 0.1);
+  PlacedEffect pair = effect("recovery", ActsOn::mu, 0.1), humid = effect("hinge", ActsOn::m, 0.2);
   sliding.inputs[0].column = "s_mm";
   work.inputs[0].column = "friction_work";
   pair.inputs[0].column = "v_rel_mm_s";

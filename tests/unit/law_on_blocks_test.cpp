@@ -22,7 +22,7 @@ VectorXd between(double first, double last) {
 Law falling_along_the_way() {
   PlacedEffect effect;
   effect.form = find_effect("linear");
-  effect.acts_on = "mu";
+  effect.acts_on = ActsOn::mu;
   effect.inputs = {{"s_mm", {}, 0, 5}};
   effect.parameters = {0, 0, 5};
   const double mu[] = {0.1};

@@ -231,7 +231,7 @@ TEST(SmoothForms, SayWhatTheyAre) {
   PlacedEffect effect = spline({0, 5, 20}, {0, 0.1, -0.05});
   EXPECT_EQ(effect_text(effect), "natural cubic spline of s_mm through (0, 1), (5, 1.1), (20, "
                                  "0.95); acts on mu");
-  effect.acts_on = "tau";
+  effect.acts_on = ActsOn::tau;
   EXPECT_EQ(formula_text(effect), "tau_R + 1 MPa (spline(x))");
 }
 

@@ -28,7 +28,7 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   added.form = find_effect("hinge");
   added.inputs = {{"T_tool_C", {}, 20, 120}};
   added.parameters = {0.5, 70, 50};
-  added.acts_on = "tau";
+  added.acts_on = ActsOn::tau;
   added.tau_scale_MPa = 37.5;
   added.pressure_MPa = 12;
   Trace trace;
@@ -56,6 +56,23 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   EXPECT_EQ(again.front().effects[1].placed.tau_scale_MPa, 37.5);
   EXPECT_EQ(again.front().effects[1].placed.pressure_MPa, 12);
   EXPECT_EQ(trace_json(again, true), text);
+}
+
+TEST(TraceFile, AnEffectThatActsNowhereIsRefused) {
+  PlacedEffect lost;
+  lost.form = find_effect("hinge");
+  lost.inputs = {{"T_tool_C", {}, 20, 120}};
+  lost.parameters = {0.5, 70, 50};
+  Trace trace;
+  trace.model = "coulomb";
+  trace.effects = {traced(lost)};
+  std::string text = trace_json({trace}, true);
+  const std::string place = "\"acts_on\": \"mu\"";
+  const std::size_t at = text.find(place);
+  ASSERT_NE(at, text.npos);
+  text.replace(at, place.size(), "\"acts_on\": \"nu\"");
+  EXPECT_THAT([&] { parse_traces(text, "trace.json"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("acts on 'nu'")));
 }
 
 TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {

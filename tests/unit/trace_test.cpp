@@ -154,7 +154,7 @@ TEST(Trace, RepeatedTestsSayWhatTheRigRepeats) {
 struct Planted {
   const char* effect;
   const char* column;
-  const char* acts_on;
+  ActsOn acts_on;
 };
 
 class SlowTracePlanted : public testing::TestWithParam<Planted> {};
@@ -186,12 +186,13 @@ std::string name_of(const testing::TestParamInfo<Planted>& test) {
 // Twice as large as an 81-test campaign needs them.
 INSTANTIATE_TEST_SUITE_P(
     Effects, SlowTracePlanted,
-    testing::Values(Planted{"form=saturation,column=s_mm,strength=0.6", "s_mm", "mu"},
-                    Planted{"form=power,column=humidity_pct,strength=0.6", "humidity_pct", "mu"},
-                    Planted{"form=category,column=tool,strength=0.6", "tool", "mu"},
-                    Planted{"form=hinge,column=psi,strength=0.6", "psi", "mu"},
-                    Planted{"form=linear,column=peak_sigma_n,strength=0.6", "peak_sigma_n", "mu"},
-                    Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", "mu"}),
+    testing::Values(
+        Planted{"form=saturation,column=s_mm,strength=0.6", "s_mm", ActsOn::mu},
+        Planted{"form=power,column=humidity_pct,strength=0.6", "humidity_pct", ActsOn::mu},
+        Planted{"form=category,column=tool,strength=0.6", "tool", ActsOn::mu},
+        Planted{"form=hinge,column=psi,strength=0.6", "psi", ActsOn::mu},
+        Planted{"form=linear,column=peak_sigma_n,strength=0.6", "peak_sigma_n", ActsOn::mu},
+        Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", ActsOn::mu}),
     name_of);
 
 TEST(Trace, DriftAlongADeclaredOrderIsReportedNotShipped) {
@@ -316,7 +317,7 @@ TEST(Trace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
   const Trace t = traced(data, "orowan");
   EXPECT_THAT(causes(t), testing::ElementsAre("humidity_pct")) << trace_text(t);
   ASSERT_FALSE(t.effects.empty());
-  EXPECT_EQ(t.effects.front().placed.acts_on, "mu+m");
+  EXPECT_EQ(t.effects.front().placed.acts_on, ActsOn::mu_m);
   EXPECT_LT(t.after.validation.mae_MPa, 0.7 * t.before.validation.mae_MPa);
 }
 
@@ -386,7 +387,7 @@ void expect_same(const Trace& one, const Trace& other, const char* what) {
   const auto named = [](const Trace& t) {
     std::vector<std::string> forms;
     for (const TracedEffect& e : t.effects)
-      forms.push_back(e.placed.form->name + " on " + e.placed.acts_on);
+      forms.push_back(e.placed.form->name + " on " + acts_on_name(e.placed.acts_on));
     return forms;
   };
   EXPECT_EQ(named(one), named(other)) << what;
