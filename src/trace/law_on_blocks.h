@@ -46,8 +46,8 @@ struct BlockFit {
 // is added to the cost (of smooth effects; empty: none). `weight`: per block, behind the whitening
 // (empty: 1). Done where a step gains less than `enough` of the cost. No block whose stress is
 // positive at the start loses it.
-// (Not calibrate's solver, with which parameters agree to five digits: how the folds of a search fit
-// their noise follows the last ones, and with it the nested log score, by up to 3 %.)
+// (Not calibrate's solver, with which parameters agree to five digits: how the folds of a search
+// fit their noise follows the last ones, and with it the nested log score, by up to 3 %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
                     const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},

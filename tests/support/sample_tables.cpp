@@ -243,9 +243,9 @@ Table example_table() {
         table.value.push_back((120 - 12 * p - 4 * v + 3 * t) / 1000.0);
   table.combine = shear_limit(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"));
   table.constants = {{"m", 0.8}};
-  table.text_attributes = {{"data_origin", "made up, to be read"}};
-  table.number_attributes = {
-      {"worst_case_MPa", 0.4}, {"range_low_sigma_f_MPa", 240}, {"range_high_sigma_f_MPa", 960}};
+  table.record.data_origin = "made up, to be read";
+  table.record.worst_case_MPa = 0.4;
+  table.record.inputs["sigma_f_MPa"] = {.low = 240, .high = 960};
   return table;
 }
 
