@@ -23,6 +23,9 @@ Table direct_form(const Model& model, const Table& table) {
   add_extension(direct, model);
   // These are the table's own.
   direct.record.worst_case_MPa.reset();
+  direct.record.proven_drift_MPa.reset();
+  for (auto& [name, input] : direct.record.inputs)
+    input.worst_case_at.reset();
   direct.record.tolerance_MPa.reset();
   direct.record.refinement.reset();
   return direct;

@@ -8,18 +8,19 @@ namespace frictab {
 
 namespace {
 
-constexpr std::array<const char*, 3> names = {"linear", "cubic", "none"}; // as Interpolation
+constexpr std::array<const char*, 3> interpolation_names = {"linear", "cubic",
+                                                            "none"}; // as Interpolation
 
 } // namespace
 
 const char* interpolation_name(Interpolation interpolation) {
-  return names[static_cast<std::size_t>(interpolation)];
+  return interpolation_names[static_cast<std::size_t>(interpolation)];
 }
 
 std::optional<Interpolation> find_interpolation(std::string_view name) {
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) return std::nullopt;
-  return static_cast<Interpolation>(at - names.begin());
+  const auto at = std::find(interpolation_names.begin(), interpolation_names.end(), name);
+  if (at == interpolation_names.end()) return std::nullopt;
+  return static_cast<Interpolation>(at - interpolation_names.begin());
 }
 
 } // namespace frictab

@@ -14,29 +14,29 @@ template <class T> struct Names {
   std::map<std::string, T> TableAttributes::*all;
 };
 
-const Names<std::string> texts = {{{"tool_version", &TableRecord::tool_version},
-                                   {"data_hash", &TableRecord::data_hash},
-                                   {"data_origin", &TableRecord::data_origin},
-                                   {"formula", &TableRecord::formula},
-                                   {"shear_yield", &TableRecord::shear_yield},
-                                   {"refinement", &TableRecord::refinement}},
-                                  {{"range_from_", &InputRecord::range_from},
-                                   {"units_", &InputRecord::unit},
-                                   {"long_name_", &InputRecord::long_name},
-                                   {"levels_", &InputRecord::levels}},
-                                  &TableAttributes::texts};
+const Names<std::string> text_names = {{{"tool_version", &TableRecord::tool_version},
+                                        {"data_hash", &TableRecord::data_hash},
+                                        {"data_origin", &TableRecord::data_origin},
+                                        {"formula", &TableRecord::formula},
+                                        {"shear_yield", &TableRecord::shear_yield},
+                                        {"refinement", &TableRecord::refinement}},
+                                       {{"range_from_", &InputRecord::range_from},
+                                        {"units_", &InputRecord::unit},
+                                        {"long_name_", &InputRecord::long_name},
+                                        {"levels_", &InputRecord::levels}},
+                                       &TableAttributes::texts};
 
-const Names<double> numbers = {{{"quantile", &TableRecord::quantile},
-                                {"gain", &TableRecord::gain},
-                                {"tolerance_MPa", &TableRecord::tolerance_MPa},
-                                {"worst_case_MPa", &TableRecord::worst_case_MPa},
-                                {"proven_drift_MPa", &TableRecord::proven_drift_MPa},
-                                {"asked_nodes", &TableRecord::asked_nodes},
-                                {"asked_bytes", &TableRecord::asked_bytes}},
-                               {{"range_low_", &InputRecord::low},
-                                {"range_high_", &InputRecord::high},
-                                {"worst_case_at_", &InputRecord::worst_case_at}},
-                               &TableAttributes::numbers};
+const Names<double> number_names = {{{"quantile", &TableRecord::quantile},
+                                     {"gain", &TableRecord::gain},
+                                     {"tolerance_MPa", &TableRecord::tolerance_MPa},
+                                     {"worst_case_MPa", &TableRecord::worst_case_MPa},
+                                     {"proven_drift_MPa", &TableRecord::proven_drift_MPa},
+                                     {"asked_nodes", &TableRecord::asked_nodes},
+                                     {"asked_bytes", &TableRecord::asked_bytes}},
+                                    {{"range_low_", &InputRecord::low},
+                                     {"range_high_", &InputRecord::high},
+                                     {"worst_case_at_", &InputRecord::worst_case_at}},
+                                    &TableAttributes::numbers};
 
 template <class T>
 void add(TableAttributes& attributes, const TableRecord& record, const Names<T>& names) {
@@ -73,17 +73,17 @@ const InputRecord& TableRecord::input(const std::string& name) const {
 
 TableAttributes attributes_of(const TableRecord& record) {
   TableAttributes attributes = record.others;
-  add(attributes, record, texts);
-  add(attributes, record, numbers);
+  add(attributes, record, text_names);
+  add(attributes, record, number_names);
   return attributes;
 }
 
 void take_attribute(TableRecord& record, const std::string& name, const std::string& text) {
-  take(record, name, text, texts);
+  take(record, name, text, text_names);
 }
 
 void take_attribute(TableRecord& record, const std::string& name, double number) {
-  take(record, name, number, numbers);
+  take(record, name, number, number_names);
 }
 
 } // namespace frictab
