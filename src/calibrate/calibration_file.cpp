@@ -206,10 +206,6 @@ Json fit_json(const ModelFit& fit) {
   return j;
 }
 
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
   fit.model.law = parse_law(j, file);
@@ -226,7 +222,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
           fmt::format("law '{}' lacks its parameter '{}'", fit.model.law->name, info.name),
           "calibrate again with this version");
     fit.model.parameters.push_back(list[p].at("value").get<double>());
-    fit.std_error.push_back(number(list[p].at("std_error")));
+    fit.std_error.push_back(number_or_nan(list[p].at("std_error")));
   }
   return fit;
 }

@@ -11,17 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// NaN and infinities are null in JSON.
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
 Json interval_json(const Interval& interval) {
   return Json::array({interval.low, interval.high});
 }
 
 Interval parse_interval(const Json& j) {
-  return {number(j.at(0)), number(j.at(1))};
+  return {number_or_nan(j.at(0)), number_or_nan(j.at(1))};
 }
 
 Json difference_json(const Difference& d) {
@@ -31,8 +26,8 @@ Json difference_json(const Difference& d) {
 }
 
 Difference parse_difference(const Json& j) {
-  return {number(j.at("difference_MPa")), parse_interval(j.at("difference_95")),
-          number(j.at("p_value"))};
+  return {number_or_nan(j.at("difference_MPa")), parse_interval(j.at("difference_95")),
+          number_or_nan(j.at("p_value"))};
 }
 
 Json floor_json(const NoiseFloor& f) {
@@ -52,8 +47,8 @@ Json floor_json(const NoiseFloor& f) {
 NoiseFloor parse_floor(const Json& j) {
   return {j.at("method"),
           j.at("part"),
-          number(j.at("mae_MPa")),
-          number(j.at("rmse_MPa")),
+          number_or_nan(j.at("mae_MPa")),
+          number_or_nan(j.at("rmse_MPa")),
           parse_interval(j.at("mae_95")),
           parse_interval(j.at("rmse_95")),
           j.at("n_rows"),
@@ -76,17 +71,21 @@ Json conditional_fit_json(const ConditionalFit& fit) {
 
 ConditionalFit parse_conditional_fit(const Json& j) {
   return {j.at("name"),
-          number(j.at("usual_gain_of_first_part")),
-          number(j.at("usual_gain_of_rest")),
-          number(j.at("gain_between_experiments_sd")),
-          number(j.at("gain_error_sd")),
-          number(j.at("trust")),
+          number_or_nan(j.at("usual_gain_of_first_part")),
+          number_or_nan(j.at("usual_gain_of_rest")),
+          number_or_nan(j.at("gain_between_experiments_sd")),
+          number_or_nan(j.at("gain_error_sd")),
+          number_or_nan(j.at("trust")),
           parse_metrics(j.at("unconditional")),
           parse_metrics(j.at("conditional")),
           parse_difference(j.at("gain"))};
 }
 
 } // namespace
+
+double number_or_nan(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
 
 Json metrics_json(const Metrics& m) {
   return {{"mae_MPa", m.mae_MPa},
@@ -100,9 +99,9 @@ Json metrics_json(const Metrics& m) {
 }
 
 Metrics parse_metrics(const Json& j) {
-  return {number(j.at("mae_MPa")),
-          number(j.at("rmse_MPa")),
-          number(j.at("bias_MPa")),
+  return {number_or_nan(j.at("mae_MPa")),
+          number_or_nan(j.at("rmse_MPa")),
+          number_or_nan(j.at("bias_MPa")),
           parse_interval(j.at("mae_95")),
           parse_interval(j.at("rmse_95")),
           parse_interval(j.at("bias_95")),
@@ -136,7 +135,7 @@ Comparisons parse_comparisons(const Json& j) {
   c.resamples = j.at("resamples");
   for (const Json& law : j.at("best_of_all")) {
     c.laws.push_back(law.at("name"));
-    c.best_p_values.push_back(number(law.at("p_value")));
+    c.best_p_values.push_back(number_or_nan(law.at("p_value")));
   }
   for (const Json& pair : j.at("pairs"))
     c.pairs.push_back({pair.at("law"), pair.at("other"), parse_difference(pair.at("mae")),
@@ -179,7 +178,7 @@ Json conditional_json(const Conditional& c) {
 Conditional parse_conditional(const Json& j) {
   Conditional c;
   if (j.is_null()) return c;
-  c.condition_on_mm = number(j.at("condition_on_mm"));
+  c.condition_on_mm = number_or_nan(j.at("condition_on_mm"));
   c.usual_rows = j.at("usual_rows");
   c.n_experiments = j.at("n_experiments");
   c.n_without_start = j.at("n_without_start");

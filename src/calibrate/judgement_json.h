@@ -7,6 +7,9 @@
 
 namespace frictab {
 
+// NaN and infinities are null in JSON.
+double number_or_nan(const nlohmann::ordered_json& value);
+
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
 Metrics parse_metrics(const nlohmann::ordered_json& j);
 

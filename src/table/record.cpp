@@ -39,28 +39,28 @@ const Names<double> number_names = {{{"quantile", &TableRecord::quantile},
                                     &TableAttributes::numbers};
 
 template <class T>
-void add(TableAttributes& attributes, const TableRecord& record, const Names<T>& names) {
-  std::map<std::string, T>& all = attributes.*names.all;
-  for (const auto& [name, member] : names.of_table)
+void add(TableAttributes& attributes, const TableRecord& record, const Names<T>& named) {
+  std::map<std::string, T>& all = attributes.*named.all;
+  for (const auto& [name, member] : named.of_table)
     if (record.*member) all[name] = *(record.*member);
   for (const auto& [input, known] : record.inputs)
-    for (const auto& [name, member] : names.of_input)
+    for (const auto& [name, member] : named.of_input)
       if (known.*member) all[name + input] = *(known.*member);
 }
 
 template <class T>
-void take(TableRecord& record, const std::string& name, const T& value, const Names<T>& names) {
-  for (const auto& [known, member] : names.of_table)
+void take(TableRecord& record, const std::string& name, const T& value, const Names<T>& named) {
+  for (const auto& [known, member] : named.of_table)
     if (name == known) {
       record.*member = value;
       return;
     }
-  for (const auto& [known, member] : names.of_input)
+  for (const auto& [known, member] : named.of_input)
     if (name.starts_with(known)) {
       record.inputs[name.substr(known.size())].*member = value;
       return;
     }
-  (record.others.*names.all)[name] = value;
+  (record.others.*named.all)[name] = value;
 }
 
 } // namespace

@@ -16,10 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
 // (JSON has no infinity: null.)
 double limit(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
@@ -109,8 +105,8 @@ Design parse_design(const Json& j) {
            {},
            j.at("all_else_as_in"),
            j.at("settles").get<std::vector<std::string>>(),
-           number(j.at("probability")),
-           number(j.at("tests_for_80_percent"))};
+           number_or_nan(j.at("probability")),
+           number_or_nan(j.at("tests_for_80_percent"))};
   for (const Json& test : j.at("tests")) {
     std::vector<std::string> values;
     for (const std::string& column : d.columns)
@@ -173,7 +169,7 @@ PlacedEffect parse_placed(const Json& j, const Json& effect) {
 std::vector<double> numbers(const Json& j) {
   std::vector<double> values;
   for (const Json& value : j)
-    values.push_back(number(value));
+    values.push_back(number_or_nan(value));
   return values;
 }
 
@@ -183,13 +179,14 @@ TracedEffect parse_effect_json(const Json& j) {
   e.columns = j.at("columns").get<std::vector<std::string>>();
   e.derived = parse_derived(j.at("derived"));
   for (const Json& p : j.at("parameters"))
-    e.parameters.push_back({p.at("name"), number(p.at("value")), number(p.at("std_error")),
-                            p.at("unit"), p.value("no_error_because", "")});
+    e.parameters.push_back({p.at("name"), number_or_nan(p.at("value")),
+                            number_or_nan(p.at("std_error")), p.at("unit"),
+                            p.value("no_error_because", "")});
   e.between = j.at("family") == family_name(true);
-  e.p_value = number(j.at("p_value"));
-  e.statistic = number(j.at("statistic"));
-  e.threshold = number(j.at("threshold"));
-  e.gain_MPa = number(j.at("gain_MPa"));
+  e.p_value = number_or_nan(j.at("p_value"));
+  e.statistic = number_or_nan(j.at("statistic"));
+  e.threshold = number_or_nan(j.at("threshold"));
+  e.gain_MPa = number_or_nan(j.at("gain_MPa"));
   e.order_confounded = j.at("order_confounded");
   e.design = parse_design(j.at("discriminating_design"));
   for (const Json& a : j.at("alternatives"))
@@ -223,8 +220,8 @@ std::vector<Lead> parse_leads(const Json& j) {
   for (const Json& lead : j)
     leads.push_back({lead.at("name"), lead.at("columns").get<std::vector<std::string>>(),
                      parse_derived(lead.at("derived")), lead.at("form"),
-                     lead.at("family") == family_name(true), number(lead.at("p_value")),
-                     number(lead.at("share")), lead.at("why_not_added"),
+                     lead.at("family") == family_name(true), number_or_nan(lead.at("p_value")),
+                     number_or_nan(lead.at("share")), lead.at("why_not_added"),
                      parse_design(lead.at("design"))});
   return leads;
 }
@@ -239,10 +236,10 @@ Json worlds_json(const WorldsApart& w) {
 
 WorldsApart parse_worlds(const Json& j) {
   return {j.at("apart"),
-          number(j.at("shift_MPa")),
-          {number(j.at("interval_95").at(0)), number(j.at("interval_95").at(1))},
-          number(j.at("share")),
-          number(j.at("p_value"))};
+          number_or_nan(j.at("shift_MPa")),
+          {number_or_nan(j.at("interval_95").at(0)), number_or_nan(j.at("interval_95").at(1))},
+          number_or_nan(j.at("share")),
+          number_or_nan(j.at("p_value"))};
 }
 
 Json nested_json(const NestedCheck& n) {
@@ -338,8 +335,12 @@ Json one_json(const Trace& t) {
 }
 
 OrderStructure parse_order(const Json& j) {
-  return {j.at("structure"),        j.at("column"),        number(j.at("p_value")),
-          number(j.at("size_MPa")), number(j.at("share")), j.at("law_holds_it_at")};
+  return {j.at("structure"),
+          j.at("column"),
+          number_or_nan(j.at("p_value")),
+          number_or_nan(j.at("size_MPa")),
+          number_or_nan(j.at("share")),
+          j.at("law_holds_it_at")};
 }
 
 Trace parse_one(const Json& j) {
@@ -355,36 +356,37 @@ Trace parse_one(const Json& j) {
   t.before = parse_errors(j.at("before"));
   const Json& nested = j.at("nested_cross_validation");
   t.nested = {nested.at("folds"),
-              number(nested.at("gain")),
-              number(nested.at("std_error")),
-              number(nested.at("log_score")),
-              number(nested.at("log_score_std_error")),
+              number_or_nan(nested.at("gain")),
+              number_or_nan(nested.at("std_error")),
+              number_or_nan(nested.at("log_score")),
+              number_or_nan(nested.at("log_score_std_error")),
               nested.at("effects_offered")};
   t.worlds = parse_worlds(j.at("validation_against_training"));
   t.leads = parse_leads(j.at("leads"));
   t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
   t.after = parse_errors(j.at("after"));
   const Json& gain = j.at("improvement");
-  t.improvement = {number(gain.at("validation_mae_MPa")),
-                   {number(gain.at("interval_95").at(0)), number(gain.at("interval_95").at(1))},
-                   number(gain.at("p_value"))};
-  t.noise_floor.mae_MPa = number(j.at("noise_floor").at("mae_MPa"));
-  t.noise_floor.rmse_MPa = number(j.at("noise_floor").at("rmse_MPa"));
+  t.improvement = {
+      number_or_nan(gain.at("validation_mae_MPa")),
+      {number_or_nan(gain.at("interval_95").at(0)), number_or_nan(gain.at("interval_95").at(1))},
+      number_or_nan(gain.at("p_value"))};
+  t.noise_floor.mae_MPa = number_or_nan(j.at("noise_floor").at("mae_MPa"));
+  t.noise_floor.rmse_MPa = number_or_nan(j.at("noise_floor").at("rmse_MPa"));
   t.noise_floor.method = j.at("noise_floor").at("method");
   const Json& scatter = j.at("scatter_between_experiments");
-  t.scatter_between = number(scatter.at("share"));
-  t.scatter_interval = {number(scatter.at("interval_95").at(0)),
-                        number(scatter.at("interval_95").at(1))};
-  t.scatter_at_least = number(scatter.at("at_least"));
+  t.scatter_between = number_or_nan(scatter.at("share"));
+  t.scatter_interval = {number_or_nan(scatter.at("interval_95").at(0)),
+                        number_or_nan(scatter.at("interval_95").at(1))};
+  t.scatter_at_least = number_or_nan(scatter.at("at_least"));
   if (!scatter.at("repeatability").is_null()) t.repeatability = scatter.at("repeatability");
   t.repeatability_from = scatter.at("repeatability_from");
   t.order = parse_order(j.at("order_of_tests"));
-  t.remaining = {j.at("remaining").at("structure"), number(j.at("remaining").at("p_value")),
+  t.remaining = {j.at("remaining").at("structure"), number_or_nan(j.at("remaining").at("p_value")),
                  j.at("remaining").at("note")};
   for (const Json& d : j.at("detectable"))
     t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")),
-                            parse_acts_on(d.at("acts_on")), number(d.at("size_MPa")),
-                            number(d.at("share")), d.at("identifiable")});
+                            parse_acts_on(d.at("acts_on")), number_or_nan(d.at("size_MPa")),
+                            number_or_nan(d.at("share")), d.at("identifiable")});
   t.n_columns = j.at("tried").at("columns");
   t.n_candidates = j.at("tried").at("directions");
   t.n_flips = j.at("tried").at("sign_flips");
