@@ -30,7 +30,7 @@ make -s -j"$(nproc)" CFLAGS="$c_flags" FFLAGS="-w -O1 -fallow-argument-mismatch 
   tail "$work/make.log"
   exit 1
 }
-gfortran -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off -c "$routine/frictab_usrmu.f" \
+gfortran -O2 -frecursive -std=legacy -ffixed-line-length-72 -ffp-contract=off -c "$routine/frictab_usrmu.f" \
   -o "$work/usrmu_$name.o"
 gfortran -fopenmp ccx_2.20.o "$work/usrmu_$name.o" ccx_2.20.a \
   -lspooles -lpthread -larpack -llapack -lblas -lm -o "$work/ccx_$name"

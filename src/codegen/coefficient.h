@@ -33,9 +33,10 @@ bool same_at_every_pressure(const Table& table, Coefficient kind);
 // CST(n), by the number of the state, so that they can be read in the source at one place, and set
 // without editing it. Never written by the routine. The declaration, and the BLOCK DATA that fills
 // it. Throws InputError where a state is known neither to the solver nor to the table.
-// How reads() has them: GivenState of SolverGives::constant.
-inline const GivenState settable_constant = {.read = "cst(@{index})", .canonical = true};
 std::string constants_common(std::size_t n_x);
 std::string constants_data(const std::vector<SolverInput>& inputs);
+
+// How a routine reads them: SolverGives::constant.
+inline const GivenState settable_constant = {.read = "cst(@{index})", .canonical = true};
 
 } // namespace frictab::fortran

@@ -53,6 +53,8 @@ public:
       slip = columns[c][row];
     }
     if (!history_posed(inputs_, columns, row)) return false;
+    if (driver_.zero_is_no_temperature && canonical("T_contact_C", columns, row) == 0.0)
+      return false;
     const auto peak = canonical("peak_sigma_n", columns, row);
     return !peak || !(*peak < pressure);
   }

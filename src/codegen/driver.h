@@ -1,5 +1,5 @@
 // Calls a Fortran routine as its solver would. The call itself is a file in the language of the
-// solver's manual: templates/<target>/driver.f, a subroutine
+// solver's manual: templates/<vendor>/<target>/driver.f, a subroutine
 //
 //   ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
 //     integer*4 n, ns, np, nf, nh
@@ -13,7 +13,7 @@
 #pragma once
 
 #include <span>
-#include <vector>
+#include <string>
 
 #include "codegen/coefficient.h"
 #include "codegen/solver_inputs.h"
@@ -24,10 +24,13 @@ struct Driver {
   const SolverGives& gives;
   fortran::Coefficient result = fortran::Coefficient::stress; // what the routine says
   std::size_t most_points = 1;                                // in a call of ftdriv
-  // MPa: at the points of laws that ask for no pressure; a power of two, which changes no bits.
+  // MPa: at the points of laws that ask for no pressure; a power of two, which changes no bits in
+  // mm-t-s.
   double pressure = 1;
   // Where such a law takes the peak pressure, that is the pressure instead.
   bool peak_presses = false;
+  // A temperature of exactly 0 says that there is none: no such row can be posed.
+  bool zero_is_no_temperature = false;
 };
 
 // As Exporter::drive. Rows that contradict themselves as the state of a contact point (two sliding

@@ -40,7 +40,7 @@ struct BuildVariant {
   std::string name;                 // "c99", "double", "single"
   std::vector<std::string> command; // argv; "@{out}" is the library to write, "@{dir}" the bundle;
                                     // empty: nothing is compiled
-  SourceBundle extra;               // stand-ins for files of the solver (includes)
+  SourceBundle extra;               // its driver, stand-ins for files of the solver
   double eps = 0; // unit roundoff of its real type: the drift that precision alone explains
   std::string interpreter = {}; // the program that runs what is not compiled; empty: none is needed
 

@@ -42,7 +42,7 @@ std::optional<std::pair<double, double>> range_of(const Table& table, const std:
   return quantity && quantity->paper_range ? quantity->paper_range : std::nullopt;
 }
 
-// `shear`: the coefficient is m, which needs a flow stress even where the law does not.
+// Where the coefficient is m: it needs a flow stress even where the law does not.
 bool asks_flow_stress(const ExportRequest& request, const NativeForm& form) {
   const auto inputs = request.table.inputs();
   return form.factor == NativeFactor::shear_yield &&

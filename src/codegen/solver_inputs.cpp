@@ -130,7 +130,8 @@ private:
   const SolverGives& gives_;
   FaultList& faults_;
   const GivenState* given_ = nullptr;
-  std::string own_; // the word for its natural source; empty: it has none
+  std::string
+      own_; // the word for the solver's, or the routine's own, value; empty: neither has one
 };
 
 // What stands in where the deck or the solver gives nothing.

@@ -118,6 +118,21 @@ TEST_F(Calculix, TakesTheConstantTemperatureWhereTheDeckHasNone) {
   EXPECT_CLOSE(cold.run(routine()), mu(1000, 50, *typical_value(table(), "T_contact_C")));
 }
 
+TEST_F(Calculix, IsNotAskedForATemperatureOf0WhichStandsForNone) {
+  Table warm = table();
+  warm.axes[3].nodes.front() = 0;
+  const ExportRequest asked = request(warm);
+  const test::States states(warm, 2, 5, 0, {{"psi", 2.5}, {"sigma_f_MPa", 480}});
+  std::vector<const double*> columns = states.columns();
+  const std::vector<double> temperature = {0, 50};
+  columns[3] = temperature.data();
+  std::vector<double> tau(2, -1);
+  CompiledTarget(target(), asked, target().generate(asked), target().variants(asked)[0])
+      .drive(2, columns, tau);
+  EXPECT_EQ(tau[0], -1);
+  EXPECT_GT(tau[1], 0);
+}
+
 TEST_F(Calculix, LeavesTheCoefficientOfFRICTIONWithoutContact) {
   for (const double pressure : {0.0, -5.0}) {
     Spring open;

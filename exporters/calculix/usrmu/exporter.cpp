@@ -95,7 +95,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .result = Coefficient::coulomb};
+  return {.gives = gives(request), .result = Coefficient::coulomb, .zero_is_no_temperature = true};
 }
 
 const char* const source_of_signature =
@@ -113,7 +113,8 @@ const char* const notes =
     "with any number above 0. Increments need the time they take (speed = slip/time). The "
     "stiffness that CalculiX forms leaves out how mu changes: more iterations, the same result. "
     "|T| is where the point has slid to, not how far it went, where a slide turns back. The "
-    "temperature is the mean of the spring's first two nodes; exactly 0 stands for none. Surface "
+    "temperature is the mean of the spring's first two nodes; exactly 0 stands for none: then the "
+    "middle of the range is taken. Surface "
     "expansion, flow stress and further histories are not at hand there: they are constants, "
     "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
     "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "

@@ -10,9 +10,11 @@ C     Powers of two: dividing by them changes no bits. Any motion is
 C     more than the critical slip.
       parameter (dtime = 2.0D0**(-30), slipcr = 2.0D0**(-50))
       character*80 cin, csl, cms
-      dimension t(2), ddg(2,2), ddp(2), ds(2), ddt(2,2), dg(2), lam(2)
+      dimension t(2), ddg(2,2), ddp(2), ds(2), ddt(2,2), dg(2), tlm(2)
       dimension tot(2), time(2), co(3), rco(3), drot(2,2), temp(2)
       dimension st(15+2*nh), pre(2,nf), props(np+1), along(2)
+      save npoint
+      data npoint /0/
       cin = 'FRICTAB'
       csl = 'SEC'
       cms = 'MAIN'
@@ -26,14 +28,15 @@ C     more than the critical slip.
       time = 0
       co = 0
       rco = 0
-      lam = 0
+      tlm = 0
       tot = 0
       drot = 0
       drot(1,1) = 1
       drot(2,2) = 1
       do k = 1, n
 C       Every other point slips in two directions.
-        nfdir = 1 + mod(k, 2)
+        npoint = npoint + 1
+        nfdir = 1 + mod(npoint, 2)
         along = 0
         along(1) = 1
         if (nfdir .eq. 2) along(1) = 0.6D0
@@ -61,7 +64,7 @@ C       direction
         lm = 0
         pnewdt = 1
         call fric(lm, t, ddg, ddp, ds, sed, sfd, ddt, pnewdt, st, dg,
-     &    lam, v(1,k), 0.0D0, 0.0D0, tot, 1, 1, time, dtime, 0, cin,
+     &    tlm, v(1,k), 0.0D0, 0.0D0, tot, 1, 1, time, dtime, 0, cin,
      &    csl, cms, 1, 7, 0, co, rco, drot, temp, pre, nfdir, nfdir+1,
      &    npred, nst, 1.0D0, props, nprops)
         tau(k) = t(1)

@@ -1,6 +1,6 @@
-C     Calls VFRIC as Abaqus/Explicit does, with a block of contact points
-C     (see ftdriv in src/codegen/driver.h). States: 1 pressure, 2 speed,
-C     3 slip, 4 work, 5 peak pressure, 6 temperature.
+C     Calls VFRIC as Abaqus/Explicit does, with a block of contact
+C     points (see ftdriv in src/codegen/driver.h). States: 1 pressure,
+C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
       subroutine ftdriv(n, ns, v, np, prop, nf, field, nh, hist, tau)
       include 'vaba_param.inc'
       integer*4 n, ns, np, nf, nh

@@ -8,12 +8,15 @@ C     distance, 4 temperature.
 C     A power of two: dividing by it changes no bits.
       real*8 step, al(3), xn(3), t(3)
       parameter (step = 2.0D0**(-30))
-      integer i, j, k
+      integer i, j, k, point
+      save point
+      data point /0/
       call usrmu_time(step)
       do k = 1, n
 C       Along one axis; what moves along the normal is no slip.
-        i = 1 + mod(k, 3)
-        j = 1 + mod(k + 1, 3)
+        point = point + 1
+        i = 1 + mod(point, 3)
+        j = 1 + mod(point + 1, 3)
         al = 0.0D0
         xn = 0.0D0
         t = 0.0D0
