@@ -140,7 +140,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
 void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
   TrainedNetwork trained = train_network(*fit.model.law, data, fit.model.conventions, options.seed);
   const NetworkRecord& record = trained.record;
-  fit.model.law = made(std::move(trained.law));
+  fit.model.law = unregistered_law(std::move(trained.law));
   fit.model.parameters = {trained.mu0};
   fit.std_error = {std::numeric_limits<double>::quiet_NaN()};
   fit.std_error_method =
@@ -162,7 +162,7 @@ void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& o
 ModelFit fit_law(const Law& law, const Conventions& conventions, const CalibrationInput& input) {
   const auto begin = std::chrono::steady_clock::now();
   ModelFit fit;
-  fit.model.law = registered(law);
+  fit.model.law = registered_law(law);
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:
@@ -243,7 +243,8 @@ Calibration calibrate(const CalibrationInput& input) {
 }
 
 std::vector<double> predict(const Model& model, const Dataset& data) {
-  return predict_with_columns(model, inputs(*model.law, model.conventions), data).tau_MPa;
+  const AssembledLaw law(model);
+  return predict_with_columns(law, law.inputs, data).tau_MPa;
 }
 
 bool is_synthetic(const Dataset& data) {

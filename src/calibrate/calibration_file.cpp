@@ -156,13 +156,13 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
                         parse_expr(j.at("combine").get<std::string>(), file)};
   law.build = [formula](const Conventions&) { return formula; };
   law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
-  return made(std::move(law));
+  return unregistered_law(std::move(law));
 }
 
 std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
   const std::string name = fit.at("name");
   const Law* known = find_law(name);
-  if (known && !fit.contains("law")) return registered(*known);
+  if (known && !fit.contains("law")) return registered_law(*known);
   if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
     throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
                      suggest(name, law_names()));

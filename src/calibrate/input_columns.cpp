@@ -182,13 +182,13 @@ std::vector<const double*> chosen(const InputColumns& columns,
 
 } // namespace
 
-Predicted predict_with_columns(const Model& model, std::vector<std::string> names,
+Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string> names,
                                const Dataset& data) {
-  const auto needed = inputs(*model.law, model.conventions);
-  const Program program(tau_formula(model), needed, parameter_names(*model.law));
+  const Model& model = law.model;
+  const Program program(law.tau_R, law.inputs, law.parameters);
   Predicted out{InputColumns(*model.law, std::move(names), data), std::vector<double>(data.rows())};
   const auto evaluate = [&](std::vector<double>& tau) {
-    program.evaluate(data.rows(), chosen(out.columns, needed), model.parameters, tau.data());
+    program.evaluate(data.rows(), chosen(out.columns, law.inputs), model.parameters, tau.data());
   };
   evaluate(out.tau_MPa);
   if (!out.columns.need_tau()) return out;
@@ -203,11 +203,11 @@ Predicted predict_with_columns(const Model& model, std::vector<std::string> name
   return out;
 }
 
-InputColumns input_columns(const Model& model, std::vector<std::string> names,
+InputColumns input_columns(const AssembledLaw& law, std::vector<std::string> names,
                            const Dataset& data) {
-  InputColumns columns(*model.law, names, data);
+  InputColumns columns(*law.model.law, names, data);
   if (!columns.need_tau()) return columns;
-  return predict_with_columns(model, std::move(names), data).columns;
+  return predict_with_columns(law, std::move(names), data).columns;
 }
 
 } // namespace frictab

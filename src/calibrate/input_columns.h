@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/dataset.h"
-#include "models/law.h"
+#include "models/assembled_law.h"
 
 namespace frictab {
 
@@ -54,10 +54,11 @@ struct Predicted {
   InputColumns columns;
   std::vector<double> tau_MPa;
 };
-Predicted predict_with_columns(const Model& model, std::vector<std::string> names,
+Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string> names,
                                const Dataset& data);
 
 // The columns alone; nothing is predicted where no history asks for it.
-InputColumns input_columns(const Model& model, std::vector<std::string> names, const Dataset& data);
+InputColumns input_columns(const AssembledLaw& law, std::vector<std::string> names,
+                           const Dataset& data);
 
 } // namespace frictab

@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "core/error.h"
 #include "data/load.h"
-#include "run/pipeline.h"
+#include "run/summary.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
 
@@ -45,14 +45,13 @@ void write_junit(const Options& options, const Verification& verification) {
 
 int verify_alone(const Options& options, const CommonOptions& common) {
   const Table table = read_table(options.table);
-  const Model model = at_quantile(parse_model(read_file(options.model), options.model),
-                                  table.quantile(), {options.table, 0, 0});
+  const AssembledLaw law(at_quantile(parse_model(read_file(options.model), options.model),
+                                     table.quantile(), {options.table, 0, 0}));
   std::optional<Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
   const double allowed = options.max_drift_MPa.value_or(table.record.tolerance_MPa.value_or(0.5));
   Verification verification{allowed, {}};
-  verification.records =
-      verify({model, table, options.table, rows ? &*rows : nullptr, allowed}, {});
+  verification.records = verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
   write_junit(options, verification);
   if (common.json)
     fmt::print("{}", verification_json(verification));

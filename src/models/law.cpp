@@ -11,22 +11,14 @@ Expr shear_yield_stress(const Conventions& conventions) {
   return Expr(conventions.k_over_sigma_f) * Expr::symbol("sigma_f_MPa");
 }
 
-Expr limited_combine(const Law& law, const Conventions& conventions, double gain) {
-  const Expr tau = gain * maximum(law.build(conventions).combine, 0.0);
+Expr limited(const Expr& combine, const Conventions& conventions, double gain) {
+  const Expr tau = gain * maximum(combine, 0.0);
   return conventions.shear_limit ? minimum(tau, shear_yield_stress(conventions)) : tau;
 }
 
-Expr tau_formula(const Law& law, const Conventions& conventions, double gain) {
-  return substitute(limited_combine(law, conventions, gain),
-                    {{"value", law.build(conventions).value}});
-}
-
-Expr limited_combine(const Model& model) {
-  return limited_combine(*model.law, model.conventions, model.gain);
-}
-
-Expr tau_formula(const Model& model) {
-  return tau_formula(*model.law, model.conventions, model.gain);
+Expr tau_formula(const Law& law, const Conventions& conventions) {
+  const Formula formula = law.build(conventions);
+  return substitute(limited(formula.combine, conventions), {{"value", formula.value}});
 }
 
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
@@ -47,11 +39,11 @@ std::vector<std::string> parameter_names(const Law& law) {
   return names;
 }
 
-std::shared_ptr<const Law> registered(const Law& law) {
+std::shared_ptr<const Law> registered_law(const Law& law) {
   return {std::shared_ptr<const Law>(), &law}; // the registry outlives every model
 }
 
-std::shared_ptr<const Law> made(Law law) {
+std::shared_ptr<const Law> unregistered_law(Law law) {
   return std::make_shared<const Law>(std::move(law));
 }
 

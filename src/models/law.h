@@ -81,16 +81,17 @@ Expr shear_yield_stress(const Conventions& conventions);
 // behind them, by name, symbols of columns and derived quantities that a traced effect brought in.
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
 
-// combine, limited: minimum(gain maximum(combine, 0), k).
-Expr limited_combine(const Law& law, const Conventions& conventions, double gain = 1);
+// The shear stress `combine` under the shear limit: minimum(gain maximum(combine, 0), k).
+Expr limited(const Expr& combine, const Conventions& conventions, double gain = 1);
 
-// tau_R in MPa as one formula of state and parameters.
-Expr tau_formula(const Law& law, const Conventions& conventions, double gain = 1);
+// tau_R in MPa as one formula of state and parameters. For a calibrated law see
+// models/assembled_law.h.
+Expr tau_formula(const Law& law, const Conventions& conventions);
 
 std::vector<std::string> parameter_names(const Law& law);
 
 // One calibrated law: with this, and nothing else, tau_R can be predicted. Its law is a registered
-// one, or one that was found from data and is nowhere else (`made`).
+// one, or one that was found from data and is nowhere else.
 struct Model {
   std::shared_ptr<const Law> law;
   Conventions conventions;
@@ -106,13 +107,9 @@ struct Model {
   std::string name() const; // the law's; log_coulomb_q05 for its 5 % quantile
 };
 
-// The formulas above for a calibrated law.
-Expr limited_combine(const Model& model);
-Expr tau_formula(const Model& model);
-
-// A law of the registry, and one made at run time, as a model holds them.
-std::shared_ptr<const Law> registered(const Law& law);
-std::shared_ptr<const Law> made(Law law);
+// How a model holds its law: one of the registry, or one that was found from data.
+std::shared_ptr<const Law> registered_law(const Law& law);
+std::shared_ptr<const Law> unregistered_law(Law law);
 
 // Whether the law is the registry's: then its name says all about it.
 bool is_registered(const Law& law);

@@ -100,11 +100,12 @@ std::string effect_plots(const ReportInput& input, const Trace& trace, const Tra
   std::size_t before = 0, after = 0;
   const ModelFit* extended = fit_of(input, trace.extended_model, after);
   if (!extended || !fit_of(input, trace.model, before)) return "";
-  const auto names = inputs(*extended->model.law, extended->model.conventions);
-  const InputColumns columns = input_columns(extended->model, names, input.validation);
+  const AssembledLaw law(extended->model);
+  const InputColumns columns = input_columns(law, law.inputs, input.validation);
   const EffectInput& input_of_effect = effect.placed.inputs[0];
   const auto column = static_cast<std::size_t>(
-      std::find(names.begin(), names.end(), symbol_of(input_of_effect.column)) - names.begin());
+      std::find(law.inputs.begin(), law.inputs.end(), symbol_of(input_of_effect.column)) -
+      law.inputs.begin());
   const Values x = columns[column], measured = input.validation.values("tau_R_MPa");
   const auto r0 = residuals(measured, input.predicted[before]);
   const auto r1 = residuals(measured, input.predicted[after]);

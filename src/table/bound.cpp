@@ -22,13 +22,6 @@ namespace {
 
 constexpr std::size_t degree_linear = 4, degree_cubic = 5;
 
-std::map<std::string, Expr> numbers(const Model& model) {
-  std::map<std::string, Expr> out;
-  for (std::size_t p = 0; p < model.parameters.size(); ++p)
-    out.emplace(model.law->parameters[p].name, model.parameters[p]);
-  return out;
-}
-
 Expr combine_of(const Table& table) {
   std::map<std::string, Expr> constants;
   for (const auto& [name, value] : table.constants)
@@ -37,12 +30,11 @@ Expr combine_of(const Table& table) {
 }
 
 // The law's piece as the table holds it, in the coordinates of its axes.
-Expr piece_of(const Model& model, const Table& table) {
+Expr piece_of(const AssembledLaw& law, const Table& table) {
   std::set<std::string> logarithmic;
   for (const TableAxis& axis : table.axes)
     if (axis.log) logarithmic.insert(axis.name);
-  const Expr value = in_coordinates(
-      substitute(model.law->build(model.conventions).value, numbers(model)), logarithmic);
+  const Expr value = in_coordinates(law.in_numbers(law.piece), logarithmic);
   return table.log_value ? log_in_coordinates(value) : value;
 }
 
@@ -71,11 +63,11 @@ struct Look {
 
 class Cells {
 public:
-  Cells(const Model& model, const Table& table, const std::vector<StateRange>& ranges)
-      : ranges_(ranges), table_(table), function_(table), law_(model, names_of(ranges)),
+  Cells(const AssembledLaw& law, const Table& table, const std::vector<StateRange>& ranges)
+      : ranges_(ranges), table_(table), function_(table), law_(law, names_of(ranges)),
         monomials_(table.axes.size(),
                    table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
-        piece_(piece_of(model, table), axis_names(table), monomials_), interpolant_(table),
+        piece_(piece_of(law, table), axis_names(table), monomials_), interpolant_(table),
         rewriting_(monomials_), deviation_(monomials_, interpolant_.taps()),
         combine_(
             substitute(combine_of(table), {{"value", table.log_value ? exp(Expr::symbol("value"))
@@ -334,13 +326,12 @@ Box Cells::half(const Box& box, const Look& look, bool upper) const {
 }
 
 // Why there is no bound, or nothing.
-std::string obstacle(const Model& model, const Table& table, const BoundOptions& options) {
-  const Expr of_law = substitute(limited_combine(model), numbers(model));
+std::string obstacle(const AssembledLaw& law, const Table& table, const BoundOptions& options) {
+  const Expr of_law = law.in_numbers(law.combine);
   if (to_text(shared(of_law)) != to_text(shared(combine_of(table))))
     return "the table is combined to tau_R by a formula that is not the law's";
   const std::vector<std::string> axes = axis_names(table);
-  for (const std::string& name :
-       symbols(substitute(model.law->build(model.conventions).value, numbers(model))))
+  for (const std::string& name : law.piece_inputs)
     if (std::find(axes.begin(), axes.end(), name) == axes.end())
       return "the law's piece depends on " + name + ", which is no axis of the table";
   double cells = 1, nodes = 1;
@@ -357,12 +348,12 @@ std::string obstacle(const Model& model, const Table& table, const BoundOptions&
 
 } // namespace
 
-DriftBound bound_drift(const Model& model, const Table& table,
+DriftBound bound_drift(const AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options) {
   DriftBound out;
-  out.why_not = obstacle(model, table, options);
+  out.why_not = obstacle(law, table, options);
   if (!out.why_not.empty()) return out;
-  const Cells cells(model, table, ranges);
+  const Cells cells(law, table, ranges);
   constexpr std::size_t per_task = 16;
   std::vector<Cells::Result> results(cells.count());
   const std::size_t most = std::clamp<std::size_t>(options.most_boxes / results.size(), 20, 4000);
@@ -393,20 +384,19 @@ double rounded_up(double value) {
   return std::ceil(value / unit * (1 - 1e-12)) * unit;
 }
 
-ProvenDrift prove_drift(const Model& model, const Table& table,
+ProvenDrift prove_drift(const AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found,
                         double allowed_MPa) {
   // As close as 2 % where that settles whether the table is allowed, else to 10 %.
   const double goal = std::max(
       1e-3 * allowed_MPa, std::clamp(allowed_MPa, 1.02 * found.drift_MPa, 1.1 * found.drift_MPa));
-  ProvenDrift out{std::move(found), bound_drift(model, table, ranges, {goal})};
+  ProvenDrift out{std::move(found), bound_drift(law, table, ranges, {goal})};
   if (out.bound.found_MPa > out.worst.drift_MPa) {
     const TableFunction function(table);
     States start;
     for (const double x : out.bound.state)
       start.push_back({x});
-    const WorstCase more =
-        worst_case(LawFunction(model, function.inputs()), function, ranges, start);
+    const WorstCase more = worst_case(LawFunction(law, function.inputs()), function, ranges, start);
     if (more.drift_MPa > out.worst.drift_MPa) {
       out.worst.drift_MPa = more.drift_MPa;
       out.worst.state = more.state;

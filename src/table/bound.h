@@ -27,7 +27,7 @@ struct BoundOptions {
   std::size_t most_boxes = 1'000'000;
   std::size_t most_cells = 2'000'000;
 };
-DriftBound bound_drift(const Model& model, const Table& table,
+DriftBound bound_drift(const AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options);
 
 // What the search found and what is proven above it. Each helps the other: the bound stops where it
@@ -36,7 +36,7 @@ struct ProvenDrift {
   WorstCase worst;
   DriftBound bound;
 };
-ProvenDrift prove_drift(const Model& model, const Table& table,
+ProvenDrift prove_drift(const AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa);
 
 // Three significant digits, never below the value: how a bound is shown.

@@ -93,13 +93,14 @@ std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& 
   return values;
 }
 
-Table assemble(const Model& model, const Pieces& pieces, const std::vector<StateRange>& ranges,
-               std::vector<TableAxis> axes, Interpolation interpolation, bool log_value) {
+Table sampled_table(const AssembledLaw& law, const Pieces& pieces,
+                    const std::vector<StateRange>& ranges, std::vector<TableAxis> axes,
+                    Interpolation interpolation, bool log_value) {
   std::vector<double> values = sample(pieces, ranges, axes);
   if (log_value)
     for (double& value : values)
       value = std::log(value);
-  Table table = describe_table(model, ranges, std::move(axes), interpolation, log_value);
+  Table table = describe_table(law, ranges, std::move(axes), interpolation, log_value);
   table.value = std::move(values);
   return table;
 }
@@ -110,13 +111,14 @@ Table assemble(const Model& model, const Pieces& pieces, const std::vector<State
 // axes are measured; then axes give up cells one by one.
 class Builder {
 public:
-  Builder(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options)
-      : model_(model), ranges_(ranges), options_(options), limit_(0.96 * options.tolerance_MPa),
-        pieces_(model, ranges), law_(model, pieces_.names) {
-    const auto used = symbols(model.law->build(model.conventions).value);
+  Builder(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+          const TableOptions& options)
+      : law_(law), ranges_(ranges), options_(options), limit_(0.96 * options.tolerance_MPa),
+        pieces_(law, ranges), tau_R_(law, pieces_.names) {
+    const Law& description = *law.model.law;
     for (std::size_t r = 0; r < ranges.size(); ++r)
-      if (used.count(ranges[r].name)) {
-        plans_.push_back(plan_axis(*model.law, ranges[r], options));
+      if (law.piece_inputs.count(ranges[r].name)) {
+        plans_.push_back(plan_axis(description, ranges[r], options));
         plans_.back().input = r;
       }
     Counts least;
@@ -124,9 +126,9 @@ public:
       least.push_back(plan.cells);
     check_memory(axes_with(least), options);
     const std::vector<double> ends = sample(pieces_, ranges, axes_with(least));
-    log_value_ = model.law->log_value && options.coordinates == "law" &&
+    log_value_ = description.log_value && options.coordinates == "law" &&
                  *std::min_element(ends.begin(), ends.end()) > 0;
-    box_ = with_law(law_, box_points(ranges, box_samples));
+    box_ = with_law(tau_R_, box_points(ranges, box_samples));
   }
 
   Table build() {
@@ -193,15 +195,16 @@ private:
     trial.cells = cells;
     std::vector<TableAxis> axes = axes_with(cells);
     check_memory(axes, options_);
-    trial.table = assemble(model_, pieces_, ranges_, std::move(axes), interpolation_, log_value_);
+    trial.table =
+        sampled_table(law_, pieces_, ranges_, std::move(axes), interpolation_, log_value_);
     const TableFunction function(trial.table);
     trial.drift = compare(peaks_, function);
     if (trial.drift > enough) return trial;
-    Probe all = with_law(law_, cell_points(ranges_, trial.table.axes, box_samples));
+    Probe all = with_law(tau_R_, cell_points(ranges_, trial.table.axes, box_samples));
     append(all, box_);
     compare(all, function);
-    const WorstCase worst = worst_case(law_, function, ranges_, all);
-    append(peaks_, with_law(law_, worst.peaks));
+    const WorstCase worst = worst_case(tau_R_, function, ranges_, all);
+    append(peaks_, with_law(tau_R_, worst.peaks));
     trial.drift = std::max(trial.drift, worst.drift_MPa);
     return trial;
   }
@@ -282,7 +285,7 @@ private:
   }
 
   bool within_budget(const Counts& cells) const {
-    double nodes = 1, numbers = static_cast<double>(model_.law->parameters.size());
+    double nodes = 1, numbers = static_cast<double>(law_.parameters.size());
     for (const std::size_t count : cells) {
       nodes *= static_cast<double>(count + 1);
       numbers += static_cast<double>(count + 1);
@@ -303,7 +306,7 @@ private:
       throw InputError(options_.place,
                        fmt::format("the smallest table of {} has {} nodes, which is more than "
                                    "table.nodes or table.max_bytes allows",
-                                   model_.name(), thousands(count_nodes(axes_with(least)))),
+                                   law_.model.name(), thousands(count_nodes(axes_with(least)))),
                        "a larger budget, or fewer nodes in [table.axes]");
     double target = budget_target(errors, least);
     for (AxisPlan& plan : plans_)
@@ -369,12 +372,12 @@ private:
     return true;
   }
 
-  const Model& model_;
+  const AssembledLaw& law_;
   const std::vector<StateRange>& ranges_;
   const TableOptions& options_;
   const double limit_; // below the tolerance: what is found is not quite the largest there is
   Pieces pieces_;
-  LawFunction law_;
+  LawFunction tau_R_;
   std::vector<AxisPlan> plans_;
   bool log_value_ = false;
   Interpolation interpolation_ = Interpolation::linear;
@@ -386,18 +389,18 @@ private:
 
 } // namespace
 
-Table build_table(const Model& model, const std::vector<StateRange>& ranges,
+Table build_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
-  return Builder(model, ranges, options).build();
+  return Builder(law, ranges, options).build();
 }
 
-std::optional<std::vector<TableAxis>>
-fixed_axes(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options) {
-  const auto used = symbols(model.law->build(model.conventions).value);
+std::optional<std::vector<TableAxis>> fixed_axes(const AssembledLaw& law,
+                                                 const std::vector<StateRange>& ranges,
+                                                 const TableOptions& options) {
   std::vector<TableAxis> axes;
   for (const StateRange& range : ranges) {
-    if (!used.count(range.name)) continue;
-    const AxisPlan plan = plan_axis(*model.law, range, options);
+    if (!law.piece_inputs.count(range.name)) continue;
+    const AxisPlan plan = plan_axis(*law.model.law, range, options);
     if (!plan.by_user) return std::nullopt;
     axes.push_back(axis_with(plan, plan.cells));
   }

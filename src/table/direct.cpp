@@ -3,15 +3,18 @@
 
 namespace frictab {
 
-void add_extension(Table& table, const Model& model) {
-  table.extension = shared(model.law->build(model.conventions).value);
-  const auto used = symbols(*table.extension);
-  for (std::size_t p = 0; p < model.parameters.size(); ++p)
-    if (const std::string& name = model.law->parameters[p].name; used.count(name))
-      table.constants[name] = model.parameters[p];
+void add_constants(Table& table, const AssembledLaw& law, const Expr& expression) {
+  const auto used = symbols(expression);
+  for (std::size_t p = 0; p < law.parameters.size(); ++p)
+    if (used.count(law.parameters[p])) table.constants[law.parameters[p]] = law.model.parameters[p];
 }
 
-Table direct_form(const Model& model, const Table& table) {
+void add_extension(Table& table, const AssembledLaw& law) {
+  table.extension = shared(law.piece);
+  add_constants(table, law, *table.extension);
+}
+
+Table direct_form(const AssembledLaw& law, const Table& table) {
   Table direct = table;
   direct.value.clear();
   direct.log_value = false;
@@ -20,7 +23,7 @@ Table direct_form(const Model& model, const Table& table) {
     axis.nodes = {axis.nodes.front(), axis.nodes.back()};
     axis.kinks.clear();
   }
-  add_extension(direct, model);
+  add_extension(direct, law);
   // These are the table's own.
   direct.record.worst_case_MPa.reset();
   direct.record.proven_drift_MPa.reset();

@@ -2,15 +2,18 @@
 // form that an exporter may be handed instead of the table.
 #pragma once
 
-#include "calibrate/calibration.h"
+#include "models/assembled_law.h"
 #include "table/table.h"
 
 namespace frictab {
 
-// Gives a table of this model its extension and the constants that it needs.
-void add_extension(Table& table, const Model& model);
+// Gives a table the constants that this expression of its law needs.
+void add_constants(Table& table, const AssembledLaw& law, const Expr& expression);
+
+// Gives a table of this law its extension and the constants that it needs.
+void add_extension(Table& table, const AssembledLaw& law);
 
 // The same axes, ranges, sides and attributes without any value: tau_R by the law's own formula.
-Table direct_form(const Model& model, const Table& table);
+Table direct_form(const AssembledLaw& law, const Table& table);
 
 } // namespace frictab

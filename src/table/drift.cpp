@@ -12,9 +12,8 @@
 
 namespace frictab {
 
-LawFunction::LawFunction(const Model& model, std::vector<std::string> columns)
-    : program_(tau_formula(model), std::move(columns), parameter_names(*model.law)),
-      parameters_(model.parameters) {}
+LawFunction::LawFunction(const AssembledLaw& law, std::vector<std::string> columns)
+    : program_(law.tau_R, std::move(columns), law.parameters), parameters_(law.model.parameters) {}
 
 namespace {
 

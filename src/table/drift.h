@@ -12,7 +12,7 @@ namespace frictab {
 // A law with its parameters, as a function of states in a given order.
 class LawFunction {
 public:
-  LawFunction(const Model& model, std::vector<std::string> columns);
+  LawFunction(const AssembledLaw& law, std::vector<std::string> columns);
   double operator()(std::span<const double> state) const { return program_(state, parameters_); }
   void evaluate(std::size_t rows, std::span<const double* const> columns, double* tau) const {
     program_.evaluate(rows, columns, parameters_, tau);

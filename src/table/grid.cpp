@@ -46,11 +46,9 @@ std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
   return row;
 }
 
-Pieces::Pieces(const Model& model, const std::vector<StateRange>& ranges)
-    : names(names_of(ranges)),
-      value(model.law->build(model.conventions).value, names, parameter_names(*model.law)),
-      combine(limited_combine(model), with_value(ranges), parameter_names(*model.law)),
-      parameters(model.parameters) {}
+Pieces::Pieces(const AssembledLaw& law, const std::vector<StateRange>& ranges)
+    : names(names_of(ranges)), value(law.piece, names, law.parameters),
+      combine(law.combine, with_value(ranges), law.parameters), parameters(law.model.parameters) {}
 
 // Cells are shared out over the segments between fixed nodes by their measure.
 TableAxis axis_with(const AxisPlan& plan, std::size_t cells) {

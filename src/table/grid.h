@@ -4,7 +4,6 @@
 #include <map>
 #include <vector>
 
-#include "calibrate/calibration.h"
 #include "expr/program.h"
 #include "table/build.h"
 #include "table/table.h"
@@ -17,7 +16,7 @@ std::vector<std::string> with_value(const std::vector<StateRange>& ranges);
 
 // The tabulated piece of a law, and tau_R from it, as functions of all states of its ranges.
 struct Pieces {
-  Pieces(const Model& model, const std::vector<StateRange>& ranges);
+  Pieces(const AssembledLaw& law, const std::vector<StateRange>& ranges);
   std::vector<std::string> names;
   Program value;
   Program combine; // row: value, then names

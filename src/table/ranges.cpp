@@ -74,11 +74,10 @@ StateRange asked_range(const Quantity& quantity, const AxisOptions& axis) {
 
 } // namespace
 
-std::vector<StateRange> state_ranges(const Model& model, const Dataset& training,
+std::vector<StateRange> state_ranges(const AssembledLaw& law, const Dataset& training,
                                      const TableOptions& options) {
   std::vector<StateRange> ranges;
-  const InputColumns columns =
-      input_columns(model, inputs(*model.law, model.conventions), training);
+  const InputColumns columns = input_columns(law, law.inputs, training);
   for (std::size_t i = 0; i < columns.names().size(); ++i) {
     const std::string& name = columns.names()[i];
     const Quantity* quantity = find_quantity(name);
@@ -88,7 +87,7 @@ std::vector<StateRange> state_ranges(const Model& model, const Dataset& training
     else if (quantity && quantity->state)
       ranges.push_back(default_range(*quantity, columns[i]));
     else
-      ranges.push_back(further_range(*model.law, name, columns[i]));
+      ranges.push_back(further_range(*law.model.law, name, columns[i]));
   }
   return ranges;
 }

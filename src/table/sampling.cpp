@@ -75,23 +75,21 @@ void describe_further_input(InputRecord& input, const Law& law, const std::strin
 
 } // namespace
 
-Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
+Table describe_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, Interpolation interpolation, bool log_value) {
+  const Model& model = law.model;
   Table table;
   table.model = model.name();
   table.quantity = model.law->quantity;
   table.log_value = log_value;
   table.interpolation = interpolation;
   table.axes = std::move(axes);
-  table.combine = limited_combine(model);
-  const auto used = symbols(table.combine);
-  for (std::size_t p = 0; p < model.parameters.size(); ++p)
-    if (used.count(model.law->parameters[p].name))
-      table.constants[model.law->parameters[p].name] = model.parameters[p];
+  table.combine = law.combine;
+  add_constants(table, law, table.combine);
   if (std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
         return axis.below == Outside::law || axis.above == Outside::law;
       }))
-    add_extension(table, model);
+    add_extension(table, law);
   for (const StateRange& range : ranges) {
     InputRecord& input = table.record.inputs[range.name];
     input.low = range.low;

@@ -20,7 +20,7 @@ void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
                   const std::vector<TableAxis>& axes, std::size_t first, std::span<double> values);
 
 // A table without its values.
-Table describe_table(const Model& model, const std::vector<StateRange>& ranges,
+Table describe_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, Interpolation interpolation, bool log_value);
 
 } // namespace frictab

@@ -40,9 +40,9 @@ std::uint64_t hash_of(std::span<const double> values) {
 }
 
 // Everything the bytes of the values depend on.
-std::string job_line(const Model& model, const Table& table) {
-  std::string text = FRICTAB_VERSION + to_text(model.law->build(model.conventions).value);
-  for (const double parameter : model.parameters)
+std::string job_line(const AssembledLaw& law, const Table& table) {
+  std::string text = FRICTAB_VERSION + to_text(law.piece);
+  for (const double parameter : law.model.parameters)
     text += " " + shortest(parameter);
   for (const TableAxis& axis : table.axes) {
     text += "\n" + axis.name + (axis.log ? " log" : "");
@@ -82,11 +82,12 @@ std::string place_of(const Table& table, std::size_t node) {
 
 class Sampler {
 public:
-  Sampler(const Model& model, const std::vector<StateRange>& ranges, const TableOptions& options)
-      : ranges_(ranges), pieces_(model, ranges), place_(options.place) {
-    auto axes = fixed_axes(model, ranges, options).value();
-    const bool log_value = model.law->log_value && is_positive(pieces_, ranges, axes);
-    table = describe_table(model, ranges, std::move(axes), Interpolation::linear, log_value);
+  Sampler(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+          const TableOptions& options)
+      : ranges_(ranges), pieces_(law, ranges), place_(options.place) {
+    auto axes = fixed_axes(law, ranges, options).value();
+    const bool log_value = law.model.law->log_value && is_positive(pieces_, ranges, axes);
+    table = describe_table(law, ranges, std::move(axes), Interpolation::linear, log_value);
     table.record.tolerance_MPa = options.tolerance_MPa;
     table.record.refinement = "every axis has the number of nodes that the job says";
   }
@@ -166,9 +167,9 @@ void check_room(const Table& table, const Hdf5Storage& storage, const fs::path& 
 
 } // namespace
 
-bool is_streamed(const Model& model, const std::vector<StateRange>& ranges,
+bool is_streamed(const AssembledLaw& law, const std::vector<StateRange>& ranges,
                  const TableOptions& options) {
-  const auto axes = fixed_axes(model, ranges, options);
+  const auto axes = fixed_axes(law, ranges, options);
   if (!axes || axes->empty()) return false;
   const double bytes = 8.0 * static_cast<double>(count_nodes(*axes));
   if (bytes <= options.memory_limit_MiB * (1 << 20)) return false;
@@ -184,13 +185,13 @@ bool is_streamed(const Model& model, const std::vector<StateRange>& ranges,
   return true;
 }
 
-StreamedTable stream_table(const Model& model, const std::vector<StateRange>& ranges,
+StreamedTable stream_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
                            const TableOptions& options, const fs::path& file) {
-  Sampler sampler(model, ranges, options);
+  Sampler sampler(law, ranges, options);
   check_room(sampler.table, options.hdf5, file);
   fs::create_directories(file.parent_path());
   const fs::path work = beside(file, ".partial");
-  const ChunkList list(beside(file, ".chunks"), job_line(model, sampler.table));
+  const ChunkList list(beside(file, ".chunks"), job_line(law, sampler.table));
   if (list.found().empty()) fs::remove(work); // of another job
   const ValuesFile out(work, values_at, sampler.table.nodes());
   const auto stored =
@@ -199,7 +200,7 @@ StreamedTable stream_table(const Model& model, const std::vector<StateRange>& ra
   std::vector<std::size_t> open;
   for (std::size_t chunk = 0; chunk < kept.size(); ++chunk)
     if (!kept[chunk]) open.push_back(chunk);
-  const Progress progress("sampling " + model.name(), kept.size(), kept.size() - open.size());
+  const Progress progress("sampling " + law.model.name(), kept.size(), kept.size() - open.size());
   parallel_for(open.size(), [&](std::size_t i) {
     const std::vector<double> values = sampler.values(open[i]);
     out.write(sampler.first(open[i]), values);

@@ -183,9 +183,9 @@ Model Search::model_of(const Rival& rival) const {
   Model model;
   model.conventions = input.fit.model.conventions;
   const Law& law = *input.fit.model.law;
-  model.law = made(extended_law(law, model.conventions,
-                                std::span(rival.parameters).first(law.parameters.size()),
-                                rival.effects, traced_name(law.name)));
+  model.law = unregistered_law(
+      extended_law(law, model.conventions, std::span(rival.parameters).first(law.parameters.size()),
+                   rival.effects, traced_name(law.name)));
   model.parameters = rival.parameters;
   return model;
 }

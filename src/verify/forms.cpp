@@ -76,12 +76,12 @@ double median(std::array<double, repeats> values) {
   return values[repeats / 2];
 }
 
-void measure(FormComparison& out, const Exporter& exporter, const Model& model, const Table& table,
-             const Table& direct) {
+void measure(FormComparison& out, const Exporter& exporter, const AssembledLaw& law,
+             const Table& table, const Table& direct) {
   const std::vector<std::string> names = table.inputs();
-  const LawFunction law(model, names);
+  const LawFunction tau_R(law, names);
   const Probe probe =
-      with_law(law, box_points(table_ranges(table, nullptr, table.model), states_timed));
+      with_law(tau_R, box_points(table_ranges(table, nullptr, table.model), states_timed));
   Subject of_table(exporter, table, names, probe.states);
   Subject of_law(exporter, direct, names, probe.states);
   const std::vector<double>& answer = of_law.answer();
@@ -99,19 +99,19 @@ void measure(FormComparison& out, const Exporter& exporter, const Model& model, 
 
 } // namespace
 
-FormComparison form_sizes(const Model& model, const Table& table) {
+FormComparison form_sizes(const AssembledLaw& law, const Table& table) {
   FormComparison out;
   out.model = table.model;
   out.nodes = table.nodes();
   out.table.bytes = sizeof(double) * baked_numbers(table);
-  out.direct.bytes = sizeof(double) * baked_numbers(direct_form(model, table));
+  out.direct.bytes = sizeof(double) * baked_numbers(direct_form(law, table));
   if (table.record.worst_case_MPa) out.table.drift_MPa = *table.record.worst_case_MPa;
   return out;
 }
 
-FormComparison compare_forms(const Model& model, const Table& table) {
+FormComparison compare_forms(const AssembledLaw& law, const Table& table) {
   const Exporter& exporter = *find_exporter("c");
-  FormComparison out = form_sizes(model, table);
+  FormComparison out = form_sizes(law, table);
   const std::string compiler = exporter.variants({table, "mm-t-s", {}})[0].command.front();
   if (table.axes.empty())
     out.why_not = "nothing is tabulated, both are the same";
@@ -119,7 +119,7 @@ FormComparison compare_forms(const Model& model, const Table& table) {
     out.why_not = "there is no " + compiler + " on this machine";
   else
     try {
-      measure(out, exporter, model, table, direct_form(model, table));
+      measure(out, exporter, law, table, direct_form(law, table));
     } catch (const InputError& error) { // too large for a source
       out.why_not = error.what();
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/calibration.h"
+#include "models/assembled_law.h"
 #include "table/table.h"
 
 namespace frictab {
@@ -24,11 +24,11 @@ struct FormComparison {
 };
 
 // Sizes and the table's known drift alone: what does not depend on the machine.
-FormComparison form_sizes(const Model& model, const Table& table);
+FormComparison form_sizes(const AssembledLaw& law, const Table& table);
 
 // Compiles both forms for target `c` as its recipe says and times them on states that fill the
 // ranges of the table.
-FormComparison compare_forms(const Model& model, const Table& table);
+FormComparison compare_forms(const AssembledLaw& law, const Table& table);
 
 // "the law itself is 2.1 times faster: export.form = "direct"": the law is recommended unless its
 // table is at least twice as fast.

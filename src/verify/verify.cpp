@@ -44,14 +44,14 @@ Probe probe(const LawFunction& law, const TableFunction& table, States states) {
 Subjects prepare(const VerifyInput& input) {
   Subjects s;
   s.names = input.table.inputs();
-  for (const std::string& name : inputs(*input.model.law, input.model.conventions))
+  for (const std::string& name : input.law.inputs)
     if (std::find(s.names.begin(), s.names.end(), name) == s.names.end())
       throw InputError({input.table_name, 0, 0},
                        fmt::format("the law {} needs {}, which this table neither has as an axis "
                                    "nor uses in its combine formula",
-                                   input.model.law->name, name),
+                                   input.law.model.law->name, name),
                        "verify a table against the model it was made from");
-  const LawFunction law(input.model, s.names);
+  const LawFunction law(input.law, s.names);
   const TableFunction table(input.table);
   const auto ranges = table_ranges(input.table, input.rows, input.table_name);
   s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
@@ -60,14 +60,14 @@ Subjects prepare(const VerifyInput& input) {
     for (const std::string& name : s.names)
       worst.push_back({input.known->worst_state.at(name)});
   } else {
-    s.proven = prove_drift(input.model, input.table, ranges,
-                           worst_case(law, table, ranges, s.range), input.max_drift_MPa);
+    s.proven = prove_drift(input.law, input.table, ranges, worst_case(law, table, ranges, s.range),
+                           input.max_drift_MPa);
     for (const double x : s.proven.worst.state)
       worst.push_back({x});
   }
   append(s.range, probe(law, table, worst)); // sources are looked at there as well
   if (input.rows) {
-    States states = input_columns(input.model, s.names, *input.rows).values();
+    States states = input_columns(input.law, s.names, *input.rows).values();
     s.beyond = rows_beyond(input.table, states);
     s.rows = probe(law, table, std::move(states));
   }
@@ -138,7 +138,7 @@ std::size_t leave_out_not_posed(std::vector<double>& tau, const std::vector<doub
 DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::string& subject,
                     const std::function<void(const Probe&, std::vector<double>&)>& answer) {
   DriftRecord record;
-  record.model = input.model.name();
+  record.model = input.law.model.name();
   record.subject = subject;
   for (const Probe* reference : {&s.rows, &s.range}) {
     std::vector<double> tau(reference->law.size(), not_posed);
@@ -179,7 +179,7 @@ Columns columns_for(const Table& source, const Subjects& s, const Probe& referen
 // The same states with some of them held. A solver's own table answers beyond its ends as it
 // likes: rows that the table refuses are none of its failures.
 Subjects at_held(const VerifyInput& input, const Subjects& s, const HeldStates& held) {
-  const LawFunction law(input.model, s.names);
+  const LawFunction law(input.law, s.names);
   const TableFunction table(input.table);
   Subjects out;
   out.names = s.names;
@@ -225,7 +225,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const std::string subject = source.exporter->name + "/" + variant.name + form;
   if (!have_program(variant.program())) {
     DriftRecord record;
-    record.model = input.model.name();
+    record.model = input.law.model.name();
     record.subject = subject;
     record.ran = false;
     record.why_not = "there is no " + variant.program() + " on this machine";

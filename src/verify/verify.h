@@ -11,7 +11,7 @@ namespace frictab {
 
 // What one table is held against.
 struct VerifyInput {
-  const Model& model;
+  const AssembledLaw& law;
   const Table& table;
   std::string table_name;        // for messages
   const Dataset* rows = nullptr; // validation rows; may be absent

@@ -164,7 +164,7 @@ void add_kinked() {
   options.tolerance_MPa = 0.01;
   options.interpolation = Interpolation::linear;
   const auto ranges = test::kinked_ranges();
-  const Table table = build_table(model, ranges, options);
+  const Table table = build_table(AssembledLaw(model), ranges, options);
   constexpr std::size_t n = 5;
   auto rows = std::make_shared<std::vector<double>>(states(n)); // states, one after the other
   auto columns = std::make_shared<Columns>(n);
@@ -195,7 +195,7 @@ void add_kinked() {
   auto tau = std::make_shared<std::vector<double>>(queries);
   measure("kinked/tau" + tail + "/frictab batch", queries,
           [=] { (void)columns, function->evaluate(queries, pointers, *tau); });
-  const auto law = std::make_shared<LawFunction>(model, function->inputs());
+  const auto law = std::make_shared<LawFunction>(AssembledLaw(model), function->inputs());
   measure("kinked/law/frictab batch", queries,
           [=] { law->evaluate(queries, pointers, tau->data()); });
 }

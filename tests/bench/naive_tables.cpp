@@ -20,13 +20,13 @@ constexpr std::size_t samples = 200000;
 // The same law without pieces: everything is in the tabulated number.
 Model without_pieces(const Model& model) {
   Law law = *model.law;
-  const Expr tau = tau_formula(model);
+  const Expr tau = AssembledLaw(model).tau_R;
   law.build = [tau](const Conventions&) { return Formula{tau, Expr::symbol("value")}; };
   law.quantity = "tau_R";
   law.log_value = false;
   law.kinks.clear();
   Model out = model;
-  out.law = made(std::move(law));
+  out.law = unregistered_law(std::move(law));
   out.gain = 1;
   out.conventions.shear_limit = false; // it is in tau already
   return out;
@@ -34,7 +34,7 @@ Model without_pieces(const Model& model) {
 
 double drift_of(const Model& model, const Table& table, const std::vector<StateRange>& ranges) {
   const TableFunction function(table);
-  return worst_case(LawFunction(model, function.inputs()), function, ranges,
+  return worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                     probe_points(ranges, table.axes, samples))
       .drift_MPa;
 }
@@ -50,7 +50,7 @@ Table naive(const Model& model, const std::vector<StateRange>& ranges, std::size
     options.axes[range.name].nodes = std::max<std::size_t>(2, per_axis);
     options.axes[range.name].spacing = "linear";
   }
-  return build_table(model, ranges, options);
+  return build_table(AssembledLaw(model), ranges, options);
 }
 
 void print_row(const std::filesystem::path& directory, const std::filesystem::path& file) {
@@ -61,8 +61,8 @@ void print_row(const std::filesystem::path& directory, const std::filesystem::pa
   const auto ranges = table_ranges(table, nullptr, file.string());
   const TableFunction function(table);
   const ProvenDrift drift =
-      prove_drift(model, table, ranges,
-                  worst_case(LawFunction(model, function.inputs()), function, ranges,
+      prove_drift(AssembledLaw(model), table, ranges,
+                  worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                              probe_points(ranges, table.axes, samples)),
                   table.record.tolerance_MPa.value());
   const Model whole = without_pieces(model);

@@ -46,7 +46,7 @@ BENCHMARK_CAPTURE(calibrate_law, wzl_L2, "wzl", Loss::l2)->Unit(benchmark::kMill
 struct Query {
   explicit Query(const char* name) : model(test::plausible_model(*find_law(name))) {
     const Dataset data = test::sample_data(model);
-    table = build_table(model, state_ranges(model, data, {}), {});
+    table = build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {});
     states = test::random_states(table.inputs(), count, 5);
     for (const auto& column : states)
       columns.push_back(column.data());
@@ -72,7 +72,7 @@ void query_table(benchmark::State& state, const char* law) {
 
 void query_law(benchmark::State& state, const char* law) {
   Query query(law);
-  const LawFunction function(query.model, query.table.inputs());
+  const LawFunction function(AssembledLaw(query.model), query.table.inputs());
   for (auto _ : state) {
     function.evaluate(Query::count, query.columns, query.tau.data());
     benchmark::ClobberMemory();

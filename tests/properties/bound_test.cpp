@@ -22,17 +22,17 @@ Case with_table(const Model& model, const std::vector<StateRange>& ranges,
   TableOptions options;
   options.interpolation = interpolation;
   options.tolerance_MPa = tolerance;
-  Case out{model, ranges, build_table(model, ranges, options), {}};
+  Case out{model, ranges, build_table(AssembledLaw(model), ranges, options), {}};
   const TableFunction function(out.table);
-  out.worst = worst_case(LawFunction(model, function.inputs()), function, ranges,
+  out.worst = worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                          probe_points(ranges, out.table.axes, 20000));
   return out;
 }
 
 Case of_law(const std::string& name, Interpolation interpolation, double tolerance = 0.5) {
   const Model model = test::plausible_model(*find_law(name));
-  return with_table(model, state_ranges(model, test::sample_data(model), {}), interpolation,
-                    tolerance);
+  return with_table(model, state_ranges(AssembledLaw(model), test::sample_data(model), {}),
+                    interpolation, tolerance);
 }
 
 std::vector<std::string> law_names() {
@@ -54,7 +54,8 @@ class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
   for (const Interpolation interpolation : grid_interpolations) {
     const Case one = of_law(GetParam(), interpolation);
-    const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, one.worst, 0.5);
+    const ProvenDrift proven =
+        prove_drift(AssembledLaw(one.model), one.table, one.ranges, one.worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
     EXPECT_GE(*proven.bound.MPa, one.worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8)
@@ -70,10 +71,12 @@ TEST(Bound, IsAboveATableThatIsWrong) {
     Case one = of_law("wanheim_bay", interpolation, 0.1);
     one.table.value[one.table.value.size() / 2] += 0.05; // of ln tau
     const TableFunction function(one.table);
-    const WorstCase worst = worst_case(LawFunction(one.model, function.inputs()), function,
-                                       one.ranges, probe_points(one.ranges, one.table.axes, 20000));
+    const WorstCase worst =
+        worst_case(LawFunction(AssembledLaw(one.model), function.inputs()), function, one.ranges,
+                   probe_points(one.ranges, one.table.axes, 20000));
     EXPECT_GT(worst.drift_MPa, 2.0);
-    const ProvenDrift proven = prove_drift(one.model, one.table, one.ranges, worst, 0.5);
+    const ProvenDrift proven =
+        prove_drift(AssembledLaw(one.model), one.table, one.ranges, worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa);
     EXPECT_GE(*proven.bound.MPa, worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * worst.drift_MPa);
@@ -87,7 +90,7 @@ TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
       BoundOptions options;
       options.goal_MPa = 1.004 * one.worst.drift_MPa;
       options.most_boxes = 4'000'000;
-      const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);
+      const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
       ASSERT_TRUE(bound.MPa);
       EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa)
           << law << " " << interpolation_name(interpolation);
@@ -100,7 +103,7 @@ TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
   const Case one = with_table(model, ranges, Interpolation::cubic, 1);
-  const ProvenDrift proven = prove_drift(model, one.table, ranges, one.worst, 1);
+  const ProvenDrift proven = prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
   EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
   EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
@@ -117,9 +120,9 @@ TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
   const Case one = of_law("wanheim_bay", Interpolation::cubic);
   BoundOptions options;
   options.goal_MPa = 1.05 * one.worst.drift_MPa;
-  const DriftBound all = bound_drift(one.model, one.table, one.ranges, options);
+  const DriftBound all = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   set_threads(1);
-  const DriftBound single = bound_drift(one.model, one.table, one.ranges, options);
+  const DriftBound single = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   set_threads(0);
   EXPECT_EQ(*all.MPa, *single.MPa);
   EXPECT_EQ(all.boxes, single.boxes);
@@ -129,7 +132,7 @@ TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
 TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
   Case one = of_law("levanov", Interpolation::linear);
   one.table.combine = one.table.combine * Expr(1.0000001);
-  const DriftBound bound = bound_drift(one.model, one.table, one.ranges, {0.5});
+  const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, {0.5});
   EXPECT_FALSE(bound.MPa);
   EXPECT_EQ(bound.why_not, "the table is combined to tau_R by a formula that is not the law's");
 }
@@ -138,7 +141,7 @@ TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
   const Case one = of_law("levanov", Interpolation::linear);
   BoundOptions options{.goal_MPa = 0.5};
   options.most_cells = 10;
-  const DriftBound bound = bound_drift(one.model, one.table, one.ranges, options);
+  const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   EXPECT_FALSE(bound.MPa);
   EXPECT_EQ(bound.why_not, "the table has more than 10 cells");
 }

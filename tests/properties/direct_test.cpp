@@ -20,37 +20,38 @@ const std::vector<StateRange> all_ranges = {
     {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
     {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
 
-std::vector<StateRange> ranges_of(const Model& model) {
+std::vector<StateRange> ranges_of(const AssembledLaw& law) {
   std::vector<StateRange> ranges;
-  for (const std::string& name : inputs(*model.law, model.conventions))
+  for (const std::string& name : law.inputs)
     for (const StateRange& range : all_ranges)
       if (range.name == name) ranges.push_back(range);
   return ranges;
 }
 
 // A direct form needs no values: only the axes of a table and their ranges.
-Table direct_of(const Model& model) {
+Table direct_of(const AssembledLaw& law) {
   Table table;
-  table.model = model.name();
-  table.quantity = model.law->quantity;
-  table.combine = limited_combine(model);
-  for (const StateRange& range : ranges_of(model)) {
-    if (!symbols(model.law->build(model.conventions).value).count(range.name)) continue;
+  table.model = law.model.name();
+  table.quantity = law.model.law->quantity;
+  table.combine = law.combine;
+  for (const StateRange& range : ranges_of(law)) {
+    if (!law.piece_inputs.count(range.name)) continue;
     TableAxis axis;
     axis.name = range.name;
     axis.unit = "1";
     axis.nodes = {range.low, range.high};
     table.axes.push_back(axis);
   }
-  for (std::size_t p = 0; p < model.parameters.size(); ++p)
-    table.constants[model.law->parameters[p].name] = model.parameters[p];
-  return direct_form(model, table);
+  for (std::size_t p = 0; p < law.parameters.size(); ++p)
+    table.constants[law.parameters[p]] = law.model.parameters[p];
+  return direct_form(law, table);
 }
 
 void expect_law(const Model& model) {
-  const Table table = direct_of(model);
-  const LawFunction law(model, table.inputs());
-  const Probe probe = with_law(law, box_points(ranges_of(model), 20000)); // and all corners
+  const AssembledLaw law(model);
+  const Table table = direct_of(law);
+  const Probe probe = // all corners too
+      with_law(LawFunction(law, table.inputs()), box_points(ranges_of(law), 20000));
   std::vector<const double*> columns;
   for (const auto& column : probe.states)
     columns.push_back(column.data());
@@ -87,16 +88,16 @@ TEST_P(SlowDirectFormOfEveryLaw, IsTheLawTo1e12InEveryTarget) {
 }
 
 TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
-  const Model model = test::plausible_model(*find_law(GetParam()));
-  const Table table = direct_of(model);
+  const AssembledLaw law(test::plausible_model(*find_law(GetParam())));
+  const Table table = direct_of(law);
   const TableFunction direct(table);
-  const Program law(tau_formula(model), table.inputs(), parameter_names(*model.law));
-  const States states = box_points(ranges_of(model), 200);
+  const Program tau_R(law.tau_R, table.inputs(), law.parameters);
+  const States states = box_points(ranges_of(law), 200);
   for (std::size_t i = 0; i < 200; ++i) {
     std::vector<double> state, by_law(states.size()), by_direct(states.size());
     for (const auto& column : states)
       state.push_back(column[i]);
-    const double tau = law.gradient(state, model.parameters, by_law);
+    const double tau = tau_R.gradient(state, law.model.parameters, by_law);
     EXPECT_NEAR(direct.gradient(state, by_direct), tau, 1e-12 * tau);
     for (std::size_t d = 0; d < by_law.size(); ++d)
       EXPECT_NEAR(by_direct[d], by_law[d], 1e-10 * std::abs(by_law[d]) + 1e-14);
@@ -120,7 +121,7 @@ TEST(DirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
   law.build = [steep](const Conventions&) {
     return Formula{steep, Expr::symbol("value") * Expr::symbol("sigma_n_MPa")};
   };
-  model.law = made(law);
+  model.law = unregistered_law(law);
   expect_law(model);
 }
 

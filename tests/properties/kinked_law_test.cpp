@@ -14,10 +14,10 @@ TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
   TableOptions options;
   options.tolerance_MPa = 0.01;
   options.interpolation = Interpolation::linear;
-  const Table table = build_table(model, ranges, options);
+  const Table table = build_table(AssembledLaw(model), ranges, options);
   EXPECT_LE(table.nodes(), 300U);
   const TableFunction function(table);
-  EXPECT_LE(worst_case(LawFunction(model, function.inputs()), function, ranges,
+  EXPECT_LE(worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                        probe_points(ranges, table.axes, 200000))
                 .drift_MPa,
             0.01);

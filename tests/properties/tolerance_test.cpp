@@ -18,16 +18,16 @@ struct Made {
 
 Made make(const std::string& law, const TableOptions& options) {
   Made made{test::plausible_model(*find_law(law)), {}, {}};
-  made.ranges = state_ranges(made.model, test::sample_data(made.model), options);
-  made.table = build_table(made.model, made.ranges, options);
+  made.ranges = state_ranges(AssembledLaw(made.model), test::sample_data(made.model), options);
+  made.table = build_table(AssembledLaw(made.model), made.ranges, options);
   return made;
 }
 
 ProvenDrift drift_of(const Made& made, double allowed) {
   const TableFunction function(made.table);
-  return prove_drift(made.model, made.table, made.ranges,
-                     worst_case(LawFunction(made.model, function.inputs()), function, made.ranges,
-                                probe_points(made.ranges, made.table.axes, 20000)),
+  return prove_drift(AssembledLaw(made.model), made.table, made.ranges,
+                     worst_case(LawFunction(AssembledLaw(made.model), function.inputs()), function,
+                                made.ranges, probe_points(made.ranges, made.table.axes, 20000)),
                      allowed);
 }
 

@@ -155,7 +155,7 @@ TEST_P(SlowEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits)
 
 TEST_P(SlowEntryGradient, OfALargerNetworkIsItsFormulas) {
   Table table = test::direct_network();
-  add_extension(table, test::network_model(20, 8));
+  add_extension(table, AssembledLaw(test::network_model(20, 8)));
   const Functions entry(table, "mm-t-s", GetParam());
   const TableFunction function(table);
   const test::States states(table, 2000, 31, 0.2);

@@ -207,7 +207,7 @@ TEST(SlowFortranGradientUnit, OfALargerNetworkIsItsFormulas) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Model model = test::network_model(20, 8);
   Table table = test::direct_network();
-  add_extension(table, model);
+  add_extension(table, AssembledLaw(model));
   const Core core(table);
   const TableFunction function(table);
   const test::States states(table, 2000, 31, 0.2);

@@ -18,8 +18,8 @@ namespace {
 struct Case {
   explicit Case(const std::string& law)
       : model(test::plausible_model(*find_law(law))), data(test::sample_data(model)) {
-    table = build_table(model, state_ranges(model, data, {}), {});
-    direct = direct_form(model, table); // as the run hands it to these targets
+    table = build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {});
+    direct = direct_form(AssembledLaw(model), table); // as the run hands it to these targets
     direct.record.tolerance_MPa = 0.5;
   }
 
@@ -36,8 +36,9 @@ struct Case {
 
   // The table itself is compared once.
   DriftRecord compared(const std::vector<GeneratedSource>& sources, double allowed = 0.5) const {
-    if (!own) own = verify({model, table, "table", &data, 0.5, 20000}, {}).front();
-    return verify({model, table, "table", &data, allowed, 20000, &*own}, sources).back();
+    if (!own) own = verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, {}).front();
+    return verify({AssembledLaw(model), table, "table", &data, allowed, 20000, &*own}, sources)
+        .back();
   }
 
   Model model;
@@ -111,8 +112,9 @@ TEST(SlowNativeCost, IsTheDriftWhereTheLawNeedsNothingThatIsHeld) {
   const Case c("coulomb");
   Case unlimited = c;
   unlimited.model.conventions.shear_limit = false;
-  unlimited.table = build_table(unlimited.model, state_ranges(unlimited.model, c.data, {}), {});
-  unlimited.direct = direct_form(unlimited.model, unlimited.table);
+  unlimited.table = build_table(AssembledLaw(unlimited.model),
+                                state_ranges(AssembledLaw(unlimited.model), c.data, {}), {});
+  unlimited.direct = direct_form(AssembledLaw(unlimited.model), unlimited.table);
   for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
     const DriftRecord record = unlimited.verified(target);
     EXPECT_TRUE(record.held->empty()) << target;

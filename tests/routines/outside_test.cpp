@@ -134,9 +134,9 @@ TEST(SlowOutsideTheRange, ALawThatGoesOnLeavesTheEdgeByNoMoreThanTheDrift) {
     TableOptions options;
     for (const char* state : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "sigma_f_MPa"})
       options.axes[state].outside = {"law"};
-    const auto ranges = state_ranges(model, data, options);
-    const TableFunction table(build_table(model, ranges, options));
-    const LawFunction law(model, table.inputs());
+    const auto ranges = state_ranges(AssembledLaw(model), data, options);
+    const TableFunction table(build_table(AssembledLaw(model), ranges, options));
+    const LawFunction law(AssembledLaw(model), table.inputs());
     Random random(4);
     for (int i = 0; i < 200; ++i) {
       std::vector<double> at;

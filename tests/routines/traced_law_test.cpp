@@ -35,7 +35,7 @@ struct Case {
   Table table;
   explicit Case(Model of)
       : model(std::move(of)), data(test::traced_data(model)),
-        table(build_table(model, state_ranges(model, data, {}), {})) {
+        table(build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {})) {
     table.record.tolerance_MPa = 0.5;
   }
   explicit Case(const std::vector<std::string>& effects) : Case(test::traced_model(effects)) {}
@@ -121,7 +121,7 @@ std::vector<DriftRecord> verified(const Case& c, const Exporter& exporter, const
                                   const std::string& units = "mm-t-s",
                                   const std::map<std::string, std::string>& inputs = {}) {
   const ExportRequest request{form, units, inputs};
-  return verify({c.model, c.table, "table", &c.data, 0.5, 2000},
+  return verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000},
                 {{&exporter, request, exporter.generate(request)}});
 }
 
@@ -129,7 +129,8 @@ TEST(TracedLaw, TableIsProvenLikeAnyOther) {
   for (const char* effect :
        {"humidity", "work", "tool", "peak", "curve", "surface", "curve_by_tool"}) {
     const Case c({effect});
-    const DriftRecord record = verify({c.model, c.table, "table", &c.data, 0.5, 2000}, {})[0];
+    const DriftRecord record =
+        verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000}, {})[0];
     EXPECT_TRUE(record.passed) << effect;
     EXPECT_EQ(record.not_proven, "") << effect;
     ASSERT_TRUE(record.proven_MPa) << effect;
@@ -144,7 +145,7 @@ protected:
 
 void SlowTracedLawOf::expect_verified(const Case& c) {
   const Exporter& exporter = *find_exporter(GetParam());
-  const Table direct = direct_form(c.model, c.table);
+  const Table direct = direct_form(AssembledLaw(c.model), c.table);
   std::map<std::string, std::string> held;
   if (!exporter.whole()) held = {{"sigma_f_MPa", "constant:480"}};
   for (const Table* form : {&c.table, &direct})

@@ -29,7 +29,7 @@ Model kinked_model() {
   law.log_value = true;
   law.build = build;
   Model model;
-  model.law = made(law);
+  model.law = unregistered_law(law);
   model.conventions = {"flow_stress", 1, false};
   model.parameters = {0.12, -0.2, 0.1, 0.03, 0.001, 0.8};
   return model;

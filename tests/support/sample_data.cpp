@@ -82,7 +82,7 @@ Model plausible_model(const Law& law) {
       {"exp_coulomb", {0.08, -0.3, -0.001}},
       {"wzl", {0.4, -0.15, -0.06, -0.05}}};
   Model model;
-  model.law = registered(law);
+  model.law = registered_law(law);
   if (const auto found = truth.find(law.name); found != truth.end())
     model.parameters = found->second;
   else
@@ -106,7 +106,7 @@ Model network_model(std::size_t members, std::size_t hidden) {
       network.members.back().push_back(0.2 * random.normal());
   }
   Model model;
-  model.law = made(neural_network(network));
+  model.law = unregistered_law(neural_network(network));
   model.parameters = {0.08};
   return model;
 }

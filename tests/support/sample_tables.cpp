@@ -206,7 +206,7 @@ Table direct_table() {
 }
 
 Table direct_network() {
-  const Model model = test::network_model(3, 4);
+  const AssembledLaw law(test::network_model(3, 4));
   Table table;
   table.model = "network";
   table.interpolation = Interpolation::none;
@@ -214,8 +214,8 @@ Table direct_network() {
                 axis("v_rel_mm_s", true, {5, 500}), axis("T_contact_C", false, {20, 200}),
                 axis("s_mm", false, {0, 40})};
   table.axes[3].above = Outside::law;
-  add_extension(table, model);
-  table.combine = limited_combine(model);
+  add_extension(table, law);
+  table.combine = law.combine;
   return table;
 }
 

@@ -60,8 +60,8 @@ Model traced_model(const std::vector<std::string>& which) {
 
 Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects) {
   Model model;
-  model.law = made(extended_law(*base.law, model.conventions, base.parameters, effects,
-                                traced_name(base.law->name)));
+  model.law = unregistered_law(extended_law(*base.law, model.conventions, base.parameters, effects,
+                                            traced_name(base.law->name)));
   for (const Parameter& parameter : model.law->parameters)
     model.parameters.push_back(parameter.start);
   return model;

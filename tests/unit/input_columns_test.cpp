@@ -91,7 +91,8 @@ TEST(InputColumns, RefuseLevelsTheLawDoesNotKnowAndNumbersForText) {
 TEST(InputColumns, FollowTheLawsOwnStressUntilNothingChanges) {
   const Model model = test::traced_model({"work", "peak"});
   Dataset data = test::traced_data(model);
-  const Predicted found = predict_with_columns(model, inputs(*model.law, model.conventions), data);
+  const Predicted found =
+      predict_with_columns(AssembledLaw(model), inputs(*model.law, model.conventions), data);
   const auto work = derive(*find_derived("friction_work"), data, found.tau_MPa);
   const auto peak = derive(*find_derived("peak_sigma_n"), data, {});
   const auto& names = found.columns.names();
@@ -128,7 +129,7 @@ TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
   const double mu[] = {0.08};
   const Law& coulomb = *find_law("coulomb");
   Model model;
-  model.law = made(extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
+  model.law = unregistered_law(extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
   model.parameters = {0.08, 0.4};
   Dataset data;
   data.experiments = {"one"};

@@ -13,7 +13,7 @@ TEST(ModelName, SaysBaseQuantileAndEffects) {
       Law law = *log_coulomb;
       if (traced) law.base = law.name, law.name = traced_name(law.name);
       Model model;
-      model.law = made(law);
+      model.law = unregistered_law(law);
       model.quantile = quantile;
       EXPECT_EQ(model.base(), "log_coulomb");
       EXPECT_EQ(model.traced(), traced);

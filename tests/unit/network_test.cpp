@@ -40,7 +40,7 @@ TrainedNetwork trained_on(const Dataset& data, std::uint64_t seed = 1) {
 
 double mean_error(const TrainedNetwork& network, const Dataset& data) {
   Model model;
-  model.law = made(network.law);
+  model.law = unregistered_law(network.law);
   model.conventions = conventions_of({}, data);
   model.parameters = {network.mu0};
   const std::vector<double> tau = predict(model, data);
@@ -190,8 +190,7 @@ TEST(SlowNeuralNetwork, NeverSeesTheValidationExperiments) {
   const auto formula = [&](const Dataset& validation) {
     CalibrationInput input{training, validation, {}, {}};
     input.models.use = {"neural_network"};
-    const Model model = calibrate(input).fits.front().model;
-    return to_text(tau_formula(model));
+    return to_text(AssembledLaw(calibrate(input).fits.front().model).tau_R);
   };
   EXPECT_EQ(formula(campaign(0.05, 5, 4, 12)), formula(campaign(0.3, 50, 5, 30)));
 }

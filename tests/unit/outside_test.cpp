@@ -24,7 +24,8 @@ Table built(const Model& model, const std::map<std::string, std::vector<std::str
   TableOptions options;
   for (const auto& [axis, words] : outside)
     options.axes[axis].outside = words;
-  return build_table(model, state_ranges(model, test::sample_data(model), options), options);
+  return build_table(AssembledLaw(model),
+                     state_ranges(AssembledLaw(model), test::sample_data(model), options), options);
 }
 
 Model log_coulomb() {
@@ -78,7 +79,7 @@ TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {
 TEST(TableFile, TakesAFormulaThatIsLongerThanAnHdf5Attribute) {
   const Model model = test::network_model(50, 12);
   Table table = test::direct_network();
-  add_extension(table, model);
+  add_extension(table, AssembledLaw(model));
   table.interpolation = Interpolation::linear;
   table.value.assign(32, 0.1);
   ASSERT_GT(to_text(*table.extension).size(), 2U * 65536U);
@@ -140,14 +141,15 @@ DriftRecord verified(const std::string& words, const std::string& target = "") {
   TableOptions options;
   options.axes["T_contact_C"].range = {60, 120};
   options.axes["T_contact_C"].outside = {words};
-  const Table table = build_table(model, state_ranges(model, data, options), options);
+  const Table table =
+      build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
   std::vector<GeneratedSource> sources;
   if (!target.empty()) {
     const Exporter* exporter = find_exporter(target);
     const ExportRequest request{table, "mm-t-s", {}};
     sources.push_back({exporter, request, exporter->generate(request)});
   }
-  return verify({model, table, "table", &data, 0.5, 20000}, sources).back();
+  return verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, sources).back();
 }
 
 TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
@@ -177,13 +179,14 @@ TEST(Verify, FailsASourceThatAnswersWhereItIsToRefuse) {
   TableOptions options;
   options.axes["T_contact_C"].range = {60, 120};
   options.axes["T_contact_C"].outside = {"error"};
-  const Table table = build_table(model, state_ranges(model, data, options), options);
+  const Table table =
+      build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
   Table lenient = table;
   for (TableAxis& axis : lenient.axes)
     axis.below = axis.above = Outside::clamp;
   const Exporter* exporter = find_exporter("c");
   const ExportRequest request{lenient, "mm-t-s", {}};
-  const DriftRecord r = verify({model, table, "table", &data, 0.5, 2000},
+  const DriftRecord r = verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
                                {{exporter, request, exporter->generate(request)}})
                             .back();
   if (!r.ran) GTEST_SKIP() << r.why_not;
@@ -216,12 +219,13 @@ TEST(Verify, CountsRowsThatADriverCannotPoseAndLeavesThemOutButNotAllOfThem) {
   const Model model = log_coulomb();
   const Dataset data = test::sample_data(model);
   const TableOptions options;
-  const Table table = build_table(model, state_ranges(model, data, options), options);
+  const Table table =
+      build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
   for (const bool poses : {true, false}) {
     const Exporter exporter = sparse(poses);
-    const DriftRecord r =
-        verify({model, table, "table", &data, 0.5, 2000}, {{&exporter, {table, "mm-t-s", {}}, {}}})
-            .back();
+    const DriftRecord r = verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
+                                 {{&exporter, {table, "mm-t-s", {}}, {}}})
+                              .back();
     EXPECT_FALSE(r.passed);
     EXPECT_EQ(r.n_rows_not_posed, poses ? data.rows() / 2 : data.rows());
     EXPECT_GT(r.n_points_not_posed, 1000u);

@@ -70,7 +70,7 @@ inline ReportSample report_sample(std::size_t laws, std::size_t experiments, std
   const auto sigma = s.validation.values("sigma_n_MPa");
   for (std::size_t l = 0; l < laws; ++l) {
     ModelFit fit;
-    fit.model.law = registered(all_laws()[all_laws().size() - 1 - l % all_laws().size()]);
+    fit.model.law = registered_law(all_laws()[all_laws().size() - 1 - l % all_laws().size()]);
     std::vector<double> predicted;
     for (const double value : sigma)
       predicted.push_back((0.1 - 0.003 * static_cast<double>(l)) * value);

@@ -37,12 +37,14 @@ struct Case {
   Model model = test::plausible_model(*find_law("log_coulomb"));
   Dataset data = test::sample_data(model);
   TableOptions options = large_grid();
-  std::vector<StateRange> ranges = state_ranges(model, data, options);
+  std::vector<StateRange> ranges = state_ranges(AssembledLaw(model), data, options);
 };
 
 class StreamedTableFile : public testing::Test {
 protected:
-  StreamedTable stream(const Case& c) { return stream_table(c.model, c.ranges, c.options, file()); }
+  StreamedTable stream(const Case& c) {
+    return stream_table(AssembledLaw(c.model), c.ranges, c.options, file());
+  }
   // As the pipeline does: the complete file under its name.
   Table complete(const Case& c, const StreamedTable& streamed) {
     fs::rename(finish_stream(streamed.table, c.options.hdf5, file()), file());
@@ -72,8 +74,8 @@ using SlowStreamedTableFile = StreamedTableFile;
 
 TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
   const Case c;
-  ASSERT_TRUE(is_streamed(c.model, c.ranges, c.options));
-  const Table inside = build_table(c.model, c.ranges, c.options);
+  ASSERT_TRUE(is_streamed(AssembledLaw(c.model), c.ranges, c.options));
+  const Table inside = build_table(AssembledLaw(c.model), c.ranges, c.options);
   const StreamedTable streamed = stream(c);
   EXPECT_EQ(streamed.chunks, 4U);
   EXPECT_EQ(streamed.kept, 0U);
@@ -87,7 +89,7 @@ TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
 
 TEST_F(StreamedTableFile, AnswersWithTheSameBitsAsTheTableInMemory) {
   const Case c;
-  const Table inside = build_table(c.model, c.ranges, c.options);
+  const Table inside = build_table(AssembledLaw(c.model), c.ranges, c.options);
   const StreamedTable streamed = stream(c);
   const TableFunction one(inside), two(streamed.table);
   const auto points = probe_points(c.ranges, inside.axes, 3000);
@@ -140,13 +142,13 @@ TEST_F(StreamedTableFile, AnotherJobStartsAnew) {
   EXPECT_EQ(stream(parameters).kept, 0U);
   Case grid = c;
   grid.options.axes["psi"].range = {1, 18};
-  grid.ranges = state_ranges(grid.model, grid.data, grid.options);
+  grid.ranges = state_ranges(AssembledLaw(grid.model), grid.data, grid.options);
   EXPECT_EQ(stream(grid).kept, 0U);
   Case law = c;
   law.model = test::plausible_model(*find_law("exp_coulomb"));
   for (const char* name : {"sigma_n_MPa", "T_contact_C"})
     law.options.axes[name].nodes = 2000;
-  law.ranges = state_ranges(law.model, law.data, law.options);
+  law.ranges = state_ranges(AssembledLaw(law.model), law.data, law.options);
   EXPECT_EQ(stream(law).kept, 0U);
 }
 
@@ -170,7 +172,7 @@ TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
   Case c;
   c.options.interpolation = Interpolation::cubic;
   try {
-    is_streamed(c.model, c.ranges, c.options);
+    is_streamed(AssembledLaw(c.model), c.ranges, c.options);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
@@ -182,8 +184,8 @@ TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
 TEST_F(StreamedTableFile, GridOfTheToleranceIsNotStreamed) {
   Case c;
   c.options.axes["psi"].nodes.reset();
-  EXPECT_FALSE(is_streamed(c.model, c.ranges, c.options));
-  EXPECT_FALSE(fixed_axes(c.model, c.ranges, c.options));
+  EXPECT_FALSE(is_streamed(AssembledLaw(c.model), c.ranges, c.options));
+  EXPECT_FALSE(fixed_axes(AssembledLaw(c.model), c.ranges, c.options));
 }
 
 TEST_F(StreamedTableFile, TableLargerThanTheDiskIsRefusedBeforeAnythingIsWritten) {
@@ -236,7 +238,8 @@ TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
   for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"})
     options.axes[name].nodes = 60;
   const Table table =
-      build_table(model, state_ranges(model, test::sample_data(model), options), options);
+      build_table(AssembledLaw(model),
+                  state_ranges(AssembledLaw(model), test::sample_data(model), options), options);
   for (const Hdf5Storage& storage : {Hdf5Storage{600, 0, true}, Hdf5Storage{600, 6, true}}) {
     const std::string file = directory.path("t.h5");
     write_table(table, file, storage);

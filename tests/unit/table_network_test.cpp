@@ -17,9 +17,9 @@ TEST(SlowTable, OfALawThatBendsInFiveStatesIsSmallWhereItIsCubic) {
     TableOptions options;
     options.tolerance_MPa = 1;
     options.interpolation = cubic ? Interpolation::cubic : Interpolation::linear;
-    const Table table = build_table(model, ranges, options);
+    const Table table = build_table(AssembledLaw(model), ranges, options);
     const TableFunction function(table);
-    EXPECT_LE(worst_case(LawFunction(model, function.inputs()), function, ranges,
+    EXPECT_LE(worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                          probe_points(ranges, table.axes, 50000))
                   .drift_MPa,
               1.0);
@@ -36,9 +36,9 @@ TEST(Table, NodesLieWhereTheLawBends) {
       {"sigma_n_MPa", 1000, 1001, ""}, {"psi", 2, 2.01, ""}, {"v_rel_mm_s", 50, 51, ""},
       {"T_contact_C", 99, 100, ""},    {"s_mm", 0, 40, ""},  {"sigma_f_MPa", 500, 501, ""}};
   options.tolerance_MPa = 0.02;
-  const Table graded = build_table(model, ranges, options);
+  const Table graded = build_table(AssembledLaw(model), ranges, options);
   options.axes["s_mm"].spacing = "linear";
-  const Table even = build_table(model, ranges, options);
+  const Table even = build_table(AssembledLaw(model), ranges, options);
   EXPECT_LT(2 * graded.axes[4].nodes.size(), even.axes[4].nodes.size());
   EXPECT_GT(even.axes[4].per_step(), 0);
   EXPECT_LT(4 * (graded.axes[4].nodes[1] - graded.axes[4].nodes[0]),

@@ -20,14 +20,15 @@ namespace {
 Table table_of(const std::string& law, const TableOptions& options = {}) {
   const Model model = test::plausible_model(*find_law(law));
   const Dataset data = test::sample_data(model);
-  return build_table(model, state_ranges(model, data, options), options);
+  return build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options),
+                     options);
 }
 
 double worst_of(const std::string& law, const Table& table) {
   const Model model = test::plausible_model(*find_law(law));
   const TableFunction function(table);
   const auto ranges = table_ranges(table, nullptr, "table");
-  return worst_case(LawFunction(model, function.inputs()), function, ranges,
+  return worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
                     probe_points(ranges, table.axes, 50000))
       .drift_MPa;
 }
@@ -131,7 +132,7 @@ TEST(Table, ShearLimitIsCombinedAfterInterpolationNotTabulatedAcross) {
       axis.nodes.push_back(low + (high - low) * i / 32);
     naive.axes.push_back(axis);
   }
-  const LawFunction law(model, {"sigma_n_MPa", "sigma_f_MPa"});
+  const LawFunction law(AssembledLaw(model), {"sigma_n_MPa", "sigma_f_MPa"});
   naive.value.clear();
   for (const double sigma_n : naive.axes[0].nodes)
     for (const double sigma_f : naive.axes[1].nodes) {

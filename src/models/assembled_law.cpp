@@ -1,0 +1,25 @@
+// Writes the formulas of a model out.
+#include "models/assembled_law.h"
+
+namespace frictab {
+
+AssembledLaw::AssembledLaw(Model calibrated)
+    : model(std::move(calibrated)), inputs(frictab::inputs(*model.law, model.conventions)),
+      parameters(parameter_names(*model.law)) {
+  const Formula formula = model.law->build(model.conventions);
+  piece = formula.value;
+  combine = limited(formula.combine, model.conventions, model.gain);
+  tau_R = substitute(combine, {{"value", piece}});
+  piece_inputs = symbols(piece);
+  for (const std::string& name : parameters)
+    piece_inputs.erase(name);
+}
+
+Expr AssembledLaw::in_numbers(const Expr& expression) const {
+  std::map<std::string, Expr> numbers;
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    numbers.emplace(parameters[p], model.parameters[p]);
+  return substitute(expression, numbers);
+}
+
+} // namespace frictab
