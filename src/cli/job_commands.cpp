@@ -6,6 +6,7 @@
 
 #include "calibrate/folds.h"
 #include "cli/job_commands.h"
+#include "run/summary.h"
 
 namespace frictab {
 
@@ -16,14 +17,13 @@ int run_stages(const std::string& file, const CommonOptions& common, const Stage
   Pipeline pipeline(std::move(job));
   stages(pipeline);
   pipeline.commit();
-  if (pipeline.training())
-    if (const std::string leak = leak_note(*pipeline.training(), *pipeline.validation());
-        !leak.empty())
+  if (const auto& data = pipeline.data())
+    if (const std::string leak = leak_note(data->training, data->validation); !leak.empty())
       note(common, "warning: " + leak);
   for (const std::string& line : pipeline.notes())
     note(common, line);
-  if (common.verbose && pipeline.training())
-    for (const std::string& line : pipeline.training()->notes)
+  if (common.verbose && pipeline.data())
+    for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
   fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
   for (const std::string& miss : pipeline.missed())

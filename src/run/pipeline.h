@@ -2,7 +2,6 @@
 // stage before it wrote.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,10 +11,13 @@
 #include "codegen/exporter.h"
 #include "io/atomic_file.h"
 #include "job/job.h"
+#include "models/assembled_law.h"
+#include "run/campaign.h"
+#include "run/result_directory.h"
 #include "table/table.h"
 #include "trace/trace.h"
 #include "verify/forms.h"
-#include "verify/verification.h"
+#include "verify/verify.h"
 
 namespace frictab {
 
@@ -40,8 +42,7 @@ public:
 
   // What the stages found, for summaries. Empty where the stage did not run.
   const Job& job() const { return job_; }
-  const std::optional<Dataset>& training() const { return training_; }
-  const std::optional<Dataset>& validation() const { return validation_; }
+  const std::optional<Campaign>& data() const { return data_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const std::vector<Trace>& traces() const { return traces_; }
   const std::vector<Table>& tables() const { return tables_; }
@@ -53,51 +54,42 @@ public:
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
-  void need_data();
-  void need_calibration();
+  // Where no stage of this run has made them, from the job's files or an earlier run.
+  void load_data();
+  void load_calibration();
+  void load_tables();
+
   void write_calibration();
-  std::vector<const ModelFit*> fits_to_trace() const;
   void add_traced_laws();
-  std::vector<std::filesystem::path> table_files() const;
-  void need_tables();
-  std::vector<Model> chosen_models();
-  Table sample_table(const Model& model); // and its place among the output files
-  void remove_old_sources();
-  ExportRequest request_for(const Table& form) const;
+  Table sample_table(const AssembledLaw& law);
+  void measure_drift(const AssembledLaw& law, Table& table);
+  void write_table_file(Table& table);
+  const SourceBundle& sources_in(const std::string& directory);
+  std::vector<GeneratedSource> sources_of(const Table& table, const Table& direct);
+
   double drift_allowed() const; // MPa
-  Model model_of(const Table& table);
-  std::vector<const ModelFit*> chosen_fits();
+  const AssembledLaw& assembled(const Model& model);
+  const AssembledLaw& law_of(const Table& table);
+  Table direct_for_sources(const Table& table);
+  ExportRequest request_for(const Table& form) const;
   // "export/c" where there is one table, "export/c/<model>" where there are several.
   std::string export_directory(const std::string& target, const Table& table) const;
-  // Names that a model may have: laws, and what an earlier run left of laws with traced effects.
-  std::vector<std::string> model_names() const;
-  // Names that a table or its sources may have: laws, and what an earlier run left of
-  // their bands and of laws with traced effects.
-  std::vector<std::string> table_names() const;
 
   Job job_;
+  ResultDirectory earlier_;
   OutputFiles output_;
-  std::optional<Dataset> training_;
-  std::optional<Dataset> validation_;
-  // Training and validation together, where the tool itself held out a few of few tests: tracing
-  // needs them all, and judges by leaving tests out itself.
-  std::optional<Dataset> all_;
+  std::optional<Campaign> data_;
   std::optional<Calibration> calibration_;
-  bool new_calibration_ = false; // what lies in the directory belongs to another one
+  bool new_calibration_ = false; // traces that lie in the directory belong to another one
   std::vector<Trace> traces_;
+  std::map<std::string, AssembledLaw> laws_; // those that have met a table, by model name
   std::vector<Table> tables_;
-  std::map<std::string, DriftRecord> compared_; // each new table with its law, by name
+  std::map<std::string, DriftRecord> compared_; // each new table with its law, by model name
   std::vector<std::string> missed_;
-  bool have_tables_ = false;
-  std::map<std::string, std::map<std::string, std::string>> sources_; // by export directory
+  std::map<std::string, SourceBundle> sources_; // by export directory
   std::optional<Verification> verification_;
   std::vector<FormComparison> forms_;
   std::vector<std::string> notes_;
 };
-
-// The summary of what a pipeline holds, as text that is read in ten seconds, or as JSON.
-std::string summary_text(const Pipeline& pipeline);
-std::string drift_text(const Verification& verification); // the drift section alone
-std::string summary_json(const Pipeline& pipeline);
 
 } // namespace frictab

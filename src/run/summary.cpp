@@ -1,4 +1,6 @@
-// What a run found, for a person with ten seconds and for programs.
+// Headline, lines per stage, and the same as JSON.
+#include "run/summary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,7 +15,6 @@
 #include "core/text.h"
 #include "io/json.h"
 #include "report/numbers.h"
-#include "run/pipeline.h"
 #include "table/bound.h"
 #include "trace/trace_file.h"
 #include "verify/beyond.h"
@@ -24,14 +25,15 @@ namespace frictab {
 namespace {
 
 void add_data(std::string& out, const Pipeline& p) {
-  if (!p.training()) return;
+  if (!p.data()) return;
+  const Dataset &training = p.data()->training, &validation = p.data()->validation;
   const auto describe = [](const Dataset& d) {
     return fmt::format("{} rows of {} experiments", thousands(d.rows()), d.experiments.size());
   };
-  const bool synthetic = is_synthetic(*p.training());
-  out += fmt::format("Data: {} to train, {} to validate{}\n", describe(*p.training()),
-                     describe(*p.validation()), synthetic ? " - SYNTHETIC data" : "");
-  for (const Dataset* data : {&*p.training(), &*p.validation()})
+  const bool synthetic = is_synthetic(training);
+  out += fmt::format("Data: {} to train, {} to validate{}\n", describe(training),
+                     describe(validation), synthetic ? " - SYNTHETIC data" : "");
+  for (const Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
 }
@@ -310,7 +312,7 @@ nlohmann::ordered_json form_json(const FormComparison& c) {
 
 std::string summary_json(const Pipeline& p) {
   nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
-  if (p.training()) j["synthetic_data"] = is_synthetic(*p.training());
+  if (p.data()) j["synthetic_data"] = is_synthetic(p.data()->training);
   if (p.calibration())
     j["calibration"] = parse_json(calibration_json(*p.calibration()), "calibration.json");
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();

@@ -1,0 +1,77 @@
+// Reads a job's data and splits them where the job does not.
+#include "run/campaign.h"
+
+#include <algorithm>
+
+#include "calibrate/calibration.h"
+#include "calibrate/folds.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/load.h"
+#include "data/oracle.h"
+#include "data/quantity.h"
+#include "effects/extended_law.h"
+
+namespace frictab {
+
+namespace {
+
+// Below so many, the tests that the tool holds out itself are needed for tracing as well.
+constexpr std::size_t few_experiments = 30;
+
+void add_oracle(const DataOptions& options, Campaign& campaign) {
+  if (options.oracle.empty()) return;
+  if (!is_synthetic(campaign.training))
+    throw InputError(options.oracle_place,
+                     "data.oracle is for synthetic data: measured data have no known truth",
+                     "synthetic data say so in a column `origin`; for measured data, repeated "
+                     "tests give the noise floor");
+  read_oracle(options, campaign.training, campaign.validation);
+}
+
+// [export.inputs] may name what only a traced effect brings in: a recorded column, or a history.
+void check_export_inputs(const ExportOptions& exports, const Dataset& data) {
+  std::vector<std::string> known;
+  for (const Quantity& quantity : quantities())
+    if (quantity.state) known.push_back(quantity.name);
+  for (const DerivedQuantity& derived : derived_quantities())
+    known.push_back(derived.name);
+  for (const Column& column : data.columns)
+    known.push_back(symbol_of(column.name));
+  FaultList faults;
+  for (const auto& [name, place] : exports.input_places)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      faults.add(place, "'" + name + "' in [export.inputs] is no state, history or column",
+                 suggest(name, known));
+  faults.throw_if_any();
+}
+
+Campaign with_validation_files(const DataOptions& options) {
+  Campaign campaign{
+      load_dataset(options.training, options), load_dataset(options.validation, options), {}};
+  if (std::string leak = leak_note(campaign.training, campaign.validation); !leak.empty())
+    campaign.validation.notes.push_back(std::move(leak));
+  return campaign;
+}
+
+Campaign with_held_out_tests(const DataOptions& options, std::uint64_t seed) {
+  Dataset all = load_dataset(options.training, options);
+  Split split = hold_out(all, options.holdout, seed);
+  Campaign campaign{std::move(split.training), std::move(split.validation), {}};
+  if (all.experiments.size() < few_experiments) campaign.undivided = std::move(all);
+  return campaign;
+}
+
+} // namespace
+
+Campaign load_campaign(const Job& job) {
+  Campaign campaign = job.data.validation.empty()
+                          ? with_held_out_tests(job.data, job.calibration.seed)
+                          : with_validation_files(job.data);
+  add_oracle(job.data, campaign);
+  check_export_inputs(job.exports, campaign.training);
+  return campaign;
+}
+
+} // namespace frictab

@@ -1,0 +1,24 @@
+// The data of a job: tests to calibrate on and tests to judge by.
+#pragma once
+
+#include <optional>
+
+#include "data/dataset.h"
+#include "job/job.h"
+
+namespace frictab {
+
+struct Campaign {
+  Dataset training;
+  Dataset validation;
+  // Training and validation together, where the tool itself held out a few of few tests: tracing
+  // needs them all, and judges by leaving tests out itself.
+  std::optional<Dataset> undivided;
+};
+
+// Reads the files of [data]. Without validation files some experiments are held out. Throws
+// InputError for files that cannot be used, for data.oracle with measured data, and where
+// [export.inputs] names what is no state, history or column.
+Campaign load_campaign(const Job& job);
+
+} // namespace frictab

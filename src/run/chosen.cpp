@@ -1,0 +1,80 @@
+// Resolves the names in trace.models and table.model.
+#include "run/chosen.h"
+
+#include <algorithm>
+
+#include "calibrate/band.h"
+#include "core/error.h"
+
+namespace frictab {
+
+namespace {
+
+using Fits = std::vector<const ModelFit*>;
+
+void add_once(Fits& fits, const ModelFit& fit) {
+  if (std::find(fits.begin(), fits.end(), &fit) == fits.end()) fits.push_back(&fit);
+}
+
+// Constants of the literature and means are there to be compared with, not to be mended.
+bool is_constant(const Law& law) {
+  return law.calibrated == Calibrated::fixed || law.calibrated == Calibrated::mean;
+}
+
+Fits fits_named(const Calibration& calibration, const std::string& law) {
+  Fits fits;
+  for (const ModelFit& fit : calibration.fits)
+    if (fit.model.law->name == law) fits.push_back(&fit);
+  return fits;
+}
+
+// The fits of one entry of table.model.
+Fits fits_of_entry(const Calibration& calibration, const std::string& name, const Place& place) {
+  if (name == "best") return {&calibration.fits.front()};
+  if (name == "all") {
+    Fits fits;
+    for (const ModelFit& fit : calibration.fits)
+      fits.push_back(&fit);
+    return fits;
+  }
+  Fits fits = fits_named(calibration, name);
+  if (fits.empty())
+    throw InputError(place, "table.model: law '" + name + "' was not calibrated",
+                     read_model_name(name).traced
+                         ? "it is there where trace finds an effect that its law lacks"
+                         : "add it to models.use, or map the columns it needs");
+  return fits;
+}
+
+} // namespace
+
+std::vector<const ModelFit*> fits_to_trace(const Calibration& calibration,
+                                           const TraceOptions& options) {
+  Fits chosen;
+  for (const std::string& name : options.models) {
+    if (name == "best") {
+      add_once(chosen, calibration.fits.front());
+    } else if (name == "all") {
+      for (const ModelFit& fit : calibration.fits)
+        if (!is_constant(*fit.model.law)) add_once(chosen, fit);
+    } else {
+      for (const ModelFit* fit : fits_named(calibration, name))
+        add_once(chosen, *fit);
+    }
+  }
+  return chosen;
+}
+
+std::vector<Model> models_to_tabulate(const Calibration& calibration, const TableOptions& options) {
+  Fits chosen;
+  for (const std::string& name : options.model)
+    for (const ModelFit* fit : fits_of_entry(calibration, name, options.place))
+      add_once(chosen, *fit);
+  std::vector<Model> models;
+  for (const ModelFit* fit : chosen)
+    for (const double quantile : options.quantile)
+      models.push_back(at_quantile(fit->model, quantile, options.place));
+  return models;
+}
+
+} // namespace frictab

@@ -1,0 +1,21 @@
+// Which of the calibrated laws a job names.
+#pragma once
+
+#include <vector>
+
+#include "calibrate/calibration.h"
+#include "table/options.h"
+#include "trace/options.h"
+
+namespace frictab {
+
+// The fits of trace.models, each once: "best" is the first of the ranking, "all" every law that was
+// fitted to the data, so none of the constants. Names that were not calibrated are passed over.
+std::vector<const ModelFit*> fits_to_trace(const Calibration& calibration,
+                                           const TraceOptions& options);
+
+// The models of table.model at the quantiles of table.quantile. Throws InputError for a law that
+// was not calibrated, or for a quantile that it does not have.
+std::vector<Model> models_to_tabulate(const Calibration& calibration, const TableOptions& options);
+
+} // namespace frictab

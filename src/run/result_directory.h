@@ -1,0 +1,46 @@
+// What earlier runs left in a job's output directory: results that a later stage goes on from, and
+// files that a stage replaces.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/calibration.h"
+#include "codegen/exporter.h"
+#include "job/job.h"
+#include "table/table.h"
+#include "trace/trace.h"
+#include "verify/verification.h"
+
+namespace frictab {
+
+class ResultDirectory {
+public:
+  explicit ResultDirectory(const Job& job);
+
+  // Results. Those that a stage cannot do without throw InputError where they are missing, with the
+  // command that makes them; the others are empty.
+  Calibration calibration() const;
+  std::vector<Table> tables(double memory_limit_MiB) const; // by name; larger ones stay on disk
+  std::vector<Table> table_descriptions() const;            // without values
+  SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
+  std::vector<Trace> traces() const;
+  std::optional<Verification> verification() const;
+
+  // Files of the tool itself, relative to the directory, that a stage replaces as a whole. Files
+  // that a user put beside them are not among them.
+  std::vector<std::string> model_files() const;  // models/NAME.json
+  std::vector<std::string> table_files() const;  // tables/NAME.h5 and its work files
+  std::vector<std::string> source_files() const; // those that recipes list
+
+private:
+  std::vector<std::filesystem::path> all_tables() const;
+  std::vector<std::string> table_names() const;
+
+  std::filesystem::path directory_;
+  std::string job_; // for hints
+};
+
+} // namespace frictab

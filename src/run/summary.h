@@ -1,0 +1,14 @@
+// What a pipeline found, as text that is read in ten seconds, or as JSON.
+#pragma once
+
+#include <string>
+
+#include "run/pipeline.h"
+
+namespace frictab {
+
+std::string summary_text(const Pipeline& pipeline);
+std::string drift_text(const Verification& verification); // the drift section alone
+std::string summary_json(const Pipeline& pipeline);
+
+} // namespace frictab
