@@ -7,9 +7,9 @@ AssembledLaw::AssembledLaw(Model calibrated)
     : model(std::move(calibrated)), inputs(frictab::inputs(*model.law, model.conventions)),
       parameters(parameter_names(*model.law)) {
   const Formula formula = model.law->build(model.conventions);
-  piece = formula.value;
-  combine = limited(formula.combine, model.conventions, model.gain);
-  tau_R = substitute(combine, {{"value", piece}});
+  piece = shared(formula.value);
+  combine = shared(limited(formula.combine, model.conventions, model.gain));
+  tau_R = shared(substitute(combine, {{"value", piece}}));
   piece_inputs = symbols(piece);
   for (const std::string& name : parameters)
     piece_inputs.erase(name);

@@ -19,7 +19,8 @@ struct AssembledLaw {
   std::vector<std::string> inputs;     // states that tau_R depends on, as inputs(law) lists them
   std::vector<std::string> parameters; // their names, in the order of model.parameters
 
-  // Of states and parameters by name:
+  // Of states and parameters by name, each part stored once, as in a table that was read from its
+  // file: sources do not depend on where their table came from.
   Expr piece;   // the smooth part that a table holds
   Expr combine; // tau_R from "value", states and parameters, with the model's gain and shear limit
   Expr tau_R;   // MPa: `combine` of `piece`

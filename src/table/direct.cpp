@@ -10,7 +10,7 @@ void add_constants(Table& table, const AssembledLaw& law, const Expr& expression
 }
 
 void add_extension(Table& table, const AssembledLaw& law) {
-  table.extension = shared(law.piece);
+  table.extension = law.piece;
   add_constants(table, law, *table.extension);
 }
 

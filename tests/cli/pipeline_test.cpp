@@ -86,9 +86,11 @@ TEST_F(SlowMainJob, SameJobGivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(SlowMainJob, StagesOneByOneGiveTheSameFilesAsRun) {
-  ASSERT_EQ(run_frictab({"run", job, "-o", directory.path("run")}).exit_code, 0);
+  // Shaw's formula names the shear yield stress twice.
+  const std::string models = R"(table.model=["best", "levanov", "shaw"])";
+  ASSERT_EQ(run_frictab({"run", job, "--set", models, "-o", directory.path("run")}).exit_code, 0);
   for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"}) {
-    const auto result = run_frictab({stage, job, "-o", directory.path("stages")});
+    const auto result = run_frictab({stage, job, "--set", models, "-o", directory.path("stages")});
     ASSERT_EQ(result.exit_code, 0) << stage << result.err;
   }
   const auto run = files_below(directory.path("run")),
