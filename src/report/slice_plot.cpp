@@ -25,23 +25,23 @@ std::string held_text(const Slice& slice) {
 // Places of the inner state that get a line: all, or seven spread evenly.
 std::vector<std::size_t> lines_of(const Slice& slice) {
   if (slice.along.size() == 1) return {0};
-  const std::size_t places = slice.places[1].size(), most = std::min<std::size_t>(places, 7);
+  const std::size_t count = slice.values[1].size(), most = std::min<std::size_t>(count, 7);
   std::vector<std::size_t> lines;
   for (std::size_t i = 0; i < most; ++i)
-    lines.push_back(i * (places - 1) / (most - 1));
+    lines.push_back(i * (count - 1) / (most - 1));
   return lines;
 }
 
 } // namespace
 
 std::string slice_svg(const Slice& slice) {
-  const std::vector<double>& x = slice.places[0];
+  const std::vector<double>& x = slice.values[0];
   const auto [low, high] = std::minmax_element(slice.tau_MPa.begin(), slice.tau_MPa.end());
   const svg::Axis x_axis =
       svg::nice_axis(x.front(), x.back(), 6, with_unit(slice.along[0], slice.units[0]));
   svg::Plot plot(560, 360, x_axis, svg::nice_axis(std::min(0.0, *low), *high, 6, "tau_R, MPa"));
   const bool two = slice.along.size() == 2;
-  const std::size_t inner = two ? slice.places[1].size() : 1;
+  const std::size_t inner = two ? slice.values[1].size() : 1;
   const std::vector<std::size_t> lines = lines_of(slice);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     std::vector<double> y;
@@ -50,7 +50,7 @@ std::string slice_svg(const Slice& slice) {
     const std::string colour = two ? svg::class_colour(k + 1, lines.size() + 1) : "#1d4ed8";
     plot.line(x, y, {colour, 2, "", false});
     if (two)
-      plot.label(x.back(), y.back(), fmt::format("{:.4g}", slice.places[1][lines[k]]), colour);
+      plot.label(x.back(), y.back(), fmt::format("{:.4g}", slice.values[1][lines[k]]), colour);
   }
   const std::string what =
       slice.model + (two ? ", lines at " + with_unit(slice.along[1], slice.units[1]) : "");

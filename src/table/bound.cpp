@@ -68,7 +68,7 @@ public:
         monomials_(table.axes.size(),
                    table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
         piece_(piece_of(law, table), axis_names(table), monomials_), interpolant_(table),
-        rewriting_(monomials_), deviation_(monomials_, interpolant_.taps()),
+        rewriting_(monomials_), deviation_(monomials_, interpolant_.support()),
         combine_(
             substitute(combine_of(table), {{"value", table.log_value ? exp(Expr::symbol("value"))
                                                                      : Expr::symbol("value")}}),

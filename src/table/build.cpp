@@ -138,7 +138,7 @@ public:
     AxisErrors errors(pieces_, ranges_, log_value_, interpolation_ == Interpolation::cubic);
     const double target = first_target(errors);
     for (AxisPlan& plan : plans_)
-      errors.place_nodes(plan, target);
+      errors.distribute_nodes(plan, target);
     refine(errors, target);
     if (best_.drift <= limit_) trim();
     return finished();
@@ -174,7 +174,7 @@ private:
     const double target = first_target(errors);
     double nodes = 1;
     for (AxisPlan plan : plans_) {
-      errors.place_nodes(plan, target);
+      errors.distribute_nodes(plan, target);
       nodes *=
           1.0 + static_cast<double>(plan.by_user ? plan.cells : errors.cells_for(plan, target));
     }
@@ -310,7 +310,7 @@ private:
                        "a larger budget, or fewer nodes in [table.axes]");
     double target = budget_target(errors, least);
     for (AxisPlan& plan : plans_)
-      errors.place_nodes(plan, target);
+      errors.distribute_nodes(plan, target);
     for (int round = 0; round < 5; ++round) {
       target = budget_target(errors, least);
       const Counts cells = cells_at(errors, target);

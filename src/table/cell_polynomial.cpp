@@ -32,11 +32,11 @@ double binomial(std::size_t n, std::size_t k) {
 } // namespace
 
 CellPolynomials::CellPolynomials(const Table& table)
-    : taps_(table.interpolation == Interpolation::cubic ? 4 : 2) {
+    : support_(table.interpolation == Interpolation::cubic ? 4 : 2) {
   std::vector<SplineAxis> splines;
   for (const TableAxis& axis : table.axes) {
     Axis out{axis.nodes.size(), {}, {}};
-    if (taps_ == 4) {
+    if (support_ == 4) {
       splines.push_back(spline_axis(axis));
       out.first = splines.back().first;
       out.basis = splines.back().basis;
@@ -48,7 +48,7 @@ CellPolynomials::CellPolynomials(const Table& table)
     }
     axes_.push_back(std::move(out));
   }
-  coefficients_ = taps_ == 4 ? spline_coefficients(splines, table.value) : table.value;
+  coefficients_ = support_ == 4 ? spline_coefficients(splines, table.value) : table.value;
   stride_.assign(axes_.size(), 1);
   for (std::size_t a = axes_.size(); a-- > 1;)
     stride_[a - 1] = stride_[a] * axes_[a].nodes;
@@ -56,49 +56,51 @@ CellPolynomials::CellPolynomials(const Table& table)
 
 void CellPolynomials::over(std::span<const CellPart> box, std::vector<double>& tensor) const {
   std::size_t base = 0, count = 1;
-  std::vector<std::array<double, 16>> matrix(axes_.size()); // [Chebyshev][tap]
+  std::vector<std::array<double, 16>> matrix(axes_.size()); // [Chebyshev][coefficient]
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     const CellPart& part = box[a];
-    const double* b = axes_[a].basis.data() + taps_ * taps_ * part.cell;
+    const double* b = axes_[a].basis.data() + support_ * support_ * part.cell;
     const double middle = 0.5 * (part.low + part.high), radius = 0.5 * (part.high - part.low);
     matrix[a].fill(0);
-    for (std::size_t power = 0; power < taps_; ++power)
+    for (std::size_t power = 0; power < support_; ++power)
       for (std::size_t j = 0; j <= power; ++j) { // t^power = (middle + radius x)^power
         double factor = binomial(power, j);
         for (std::size_t k = 0; k < power; ++k)
           factor *= k < j ? radius : middle;
         for (std::size_t m = 0; m <= j; ++m)
-          for (std::size_t tap = 0; tap < taps_; ++tap)
-            matrix[a][m * taps_ + tap] += chebyshev(j, m) * factor * b[power * taps_ + tap];
+          for (std::size_t coefficient = 0; coefficient < support_; ++coefficient)
+            matrix[a][m * support_ + coefficient] +=
+                chebyshev(j, m) * factor * b[power * support_ + coefficient];
       }
     base += static_cast<std::size_t>(axes_[a].first[part.cell]) * stride_[a];
-    count *= taps_;
+    count *= support_;
   }
   tensor.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t at = base, rest = i;
     bool there = true;
-    for (std::size_t a = axes_.size(); a-- > 0; rest /= taps_) {
-      const std::size_t tap = rest % taps_;
-      there = there && tap < axes_[a].nodes; // an axis of 2 or 3 nodes has no more coefficients
-      at += tap * stride_[a];
+    for (std::size_t a = axes_.size(); a-- > 0; rest /= support_) {
+      const std::size_t coefficient = rest % support_;
+      there =
+          there && coefficient < axes_[a].nodes; // an axis of 2 or 3 nodes has no more coefficients
+      at += coefficient * stride_[a];
     }
     tensor[i] = there ? coefficients_[at] : 0;
   }
   std::size_t inner = count;
   for (std::size_t a = 0; a < axes_.size(); ++a) {
-    inner /= taps_;
-    const std::size_t outer = count / (inner * taps_);
+    inner /= support_;
+    const std::size_t outer = count / (inner * support_);
     for (std::size_t o = 0; o < outer; ++o)
       for (std::size_t i = 0; i < inner; ++i) {
         double x[4];
-        double* at = tensor.data() + o * inner * taps_ + i;
-        for (std::size_t t = 0; t < taps_; ++t)
+        double* at = tensor.data() + o * inner * support_ + i;
+        for (std::size_t t = 0; t < support_; ++t)
           x[t] = at[t * inner];
-        for (std::size_t m = 0; m < taps_; ++m) {
+        for (std::size_t m = 0; m < support_; ++m) {
           double sum = 0;
-          for (std::size_t t = 0; t < taps_; ++t)
-            sum += matrix[a][m * taps_ + t] * x[t];
+          for (std::size_t t = 0; t < support_; ++t)
+            sum += matrix[a][m * support_ + t] * x[t];
           at[m * inner] = sum;
         }
       }
@@ -142,17 +144,17 @@ void Rewriting::halve(std::size_t variable, bool upper, std::span<double> c) con
   apply(upper ? upper_[variable] : lower_[variable], c);
 }
 
-Deviation::Deviation(const Monomials& monomials, std::size_t taps)
-    : variables_(monomials.variables()), degree_(std::max(monomials.degree(), taps - 1)),
-      taps_(taps) {
+Deviation::Deviation(const Monomials& monomials, std::size_t support)
+    : variables_(monomials.variables()), degree_(std::max(monomials.degree(), support - 1)),
+      support_(support) {
   std::size_t count = 1;
   for (std::size_t v = 0; v < variables_; ++v)
-    count *= taps;
+    count *= support;
   used_.assign(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t rest = i;
-    for (std::size_t v = variables_; v-- > 0; rest /= taps)
-      if (rest % taps) used_[i] |= 1u << v;
+    for (std::size_t v = variables_; v-- > 0; rest /= support)
+      if (rest % support) used_[i] |= 1u << v;
   }
   for (std::size_t i = 0; i < monomials.size(); ++i) {
     const auto& e = monomials.exponents(i);
@@ -161,9 +163,9 @@ Deviation::Deviation(const Monomials& monomials, std::size_t taps)
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < variables_; ++v) {
       if (e[v]) bits |= 1u << v;
-      at = e[v] < taps && at != npos ? at * taps + e[v] : npos;
+      at = e[v] < support && at != npos ? at * support + e[v] : npos;
     }
-    place_.push_back(at);
+    tensor_index_.push_back(at);
     used_by_.push_back(bits);
   }
 }
@@ -224,8 +226,8 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
   };
   for (std::size_t i = 0; i < c.size(); ++i) {
     rounding += std::abs(c[i]);
-    if (place_[i] != npos) {
-      tensor[place_[i]] -= c[i];
+    if (tensor_index_[i] != npos) {
+      tensor[tensor_index_[i]] -= c[i];
       continue;
     }
     const std::size_t v = single(used_by_[i]);
@@ -235,8 +237,8 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
     const std::size_t v = single(used_[i]);
     std::size_t degree = i;
     for (std::size_t w = variables_; w-- > v + 1;)
-      degree /= taps_;
-    add(-tensor[i], used_[i], v, degree % taps_);
+      degree /= support_;
+    add(-tensor[i], used_[i], v, degree % support_);
   }
   out.range.high = out.range.low;
   for (std::size_t v = 0; v < variables_; ++v) {

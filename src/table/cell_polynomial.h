@@ -21,18 +21,19 @@ class CellPolynomials {
 public:
   explicit CellPolynomials(const Table& table);
 
-  std::size_t taps() const { return taps_; } // per axis: 2, or 4 for a cubic spline
+  // Coefficients that act in a cell, per axis: 2, or 4 for a cubic spline.
+  std::size_t support() const { return support_; }
 
-  // Chebyshev coefficients of the interpolant over a box, row-major, taps() per axis.
+  // Chebyshev coefficients of the interpolant over a box, row-major, support() per axis.
   void over(std::span<const CellPart> box, std::vector<double>& tensor) const;
 
 private:
   struct Axis {
     std::size_t nodes;
     std::vector<int> first;    // per cell
-    std::vector<double> basis; // per cell: [power of t][tap], taps() powers
+    std::vector<double> basis; // per cell: [power of t][coefficient], support() powers
   };
-  std::size_t taps_;
+  std::size_t support_;
   std::vector<Axis> axes_;
   std::vector<std::size_t> stride_;
   std::vector<double> coefficients_;
@@ -60,7 +61,7 @@ private:
 // Bounds of a polynomial minus an interpolant over a box.
 class Deviation {
 public:
-  Deviation(const Monomials& monomials, std::size_t taps);
+  Deviation(const Monomials& monomials, std::size_t support);
 
   struct Result {
     Bounds range;
@@ -70,10 +71,10 @@ public:
   Result operator()(std::span<const double> c, std::vector<double>& tensor) const;
 
 private:
-  std::size_t variables_, degree_, taps_;
-  std::vector<std::size_t> place_;     // of a monomial in the tensor, or npos
-  std::vector<std::uint32_t> used_;    // per tensor entry: bits of the variables it depends on
-  std::vector<std::uint32_t> used_by_; // the same per monomial
+  std::size_t variables_, degree_, support_;
+  std::vector<std::size_t> tensor_index_; // of a monomial in the tensor, or npos
+  std::vector<std::uint32_t> used_;       // per tensor entry: bits of the variables it depends on
+  std::vector<std::uint32_t> used_by_;    // the same per monomial
   std::vector<Monomials::Exponents> exponents_;
 };
 

@@ -172,9 +172,9 @@ TableDifference difference(const Table& a, const Table& b, const HeldStates& hel
 }
 
 std::string difference_text(const TableDifference& d, const std::array<std::string, 2>& names) {
-  std::string place, range;
+  std::string state, range;
   for (std::size_t i = 0; i < d.ranges.size(); ++i) {
-    place += fmt::format("{}{}={}", i ? " " : "", d.ranges[i].name, shortest(d.worst[i]));
+    state += fmt::format("{}{}={}", i ? " " : "", d.ranges[i].name, shortest(d.worst[i]));
     range += d.ranges[i].why == "held"
                  ? fmt::format("  {:<14}{:g}, held\n", d.ranges[i].name, d.ranges[i].low)
                  : fmt::format("  {:<14}{:g} .. {:g}\n", d.ranges[i].name, d.ranges[i].low,
@@ -183,7 +183,7 @@ std::string difference_text(const TableDifference& d, const std::array<std::stri
   std::string text = fmt::format("Difference of tau_R at {} states of the common range, MPa:\n",
                                  thousands(d.states));
   text += fmt::format("  max   {:.4g} ({:.6g} and {:.6g}){}\n", d.drift.max_abs, d.tau_MPa[0],
-                      d.tau_MPa[1], place.empty() ? "" : " at " + place);
+                      d.tau_MPa[1], state.empty() ? "" : " at " + state);
   text += fmt::format("  p99   {:.4g}\n  rms   {:.4g}\n  mean  {:.4g}\n", d.drift.p99, d.drift.rms,
                       d.drift.mean_abs);
   if (!range.empty()) text += "Common range:\n" + range;

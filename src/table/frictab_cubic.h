@@ -65,46 +65,51 @@ FT_INLINE double ft_dot4(const double* w, ft_quad x) {
          (w[2] * ft_get4(x, 2) + w[3] * ft_get4(x, 3));
 }
 
-FT_INLINE int ft_taps(const ft_spline_axis* axis) {
+FT_INLINE int ft_support_size(const ft_spline_axis* axis) {
   return axis->nodes.n < 4 ? axis->nodes.n : 4;
 }
 
-/* Where N axes are read: the first coefficient, those at each axis' taps with their weights. */
+/* The support of a state on N axes, which is the coefficients whose splines are not zero there: the
+ * first of them, and per axis the weights of its 2 to 4. */
 typedef struct {
   double w[FT_MAX_AXES][4];
   double t[FT_MAX_AXES]; /* weight of the cell's upper node */
   int cell[FT_MAX_AXES];
   long at;
   unsigned outside;
-} ft_spot;
+} ft_support;
 
-FT_INLINE void ft_spot_0(const ft_spline_axis* axis, const double* u, ft_spot* spot) {
+FT_INLINE void ft_support_0(const ft_spline_axis* axis, const double* u, ft_support* support) {
   (void)axis;
   (void)u;
-  spot->at = 0;
-  spot->outside = 0u;
+  support->at = 0;
+  support->outside = 0u;
 }
-#define FT_SPOT_TAP(D, J)                                                                          \
-  spot->w[D][J] = b[J] + spot->t[D] * (b[4 + J] + spot->t[D] * (b[8 + J] + spot->t[D] * b[12 + J]));
-#define FT_SPOT(N, D)                                                                              \
-  FT_INLINE void ft_spot_##N(const ft_spline_axis* axis, const double* u, ft_spot* spot) {         \
+#define FT_SUPPORT_WEIGHT(D, J)                                                                    \
+  support->w[D][J] =                                                                               \
+      b[J] + support->t[D] * (b[4 + J] + support->t[D] * (b[8 + J] + support->t[D] * b[12 + J]));
+#define FT_SUPPORT(N, D)                                                                           \
+  FT_INLINE void ft_support_##N(const ft_spline_axis* axis, const double* u,                       \
+                                ft_support* support) {                                             \
     const double* b;                                                                               \
-    ft_spot_##D(axis, u, spot);                                                                    \
-    if (ft_locate(&axis[D].nodes, u[D], &spot->cell[D], &spot->t[D])) spot->outside |= 1u << D;    \
-    b = axis[D].basis + 16 * spot->cell[D];                                                        \
-    spot->at += axis[D].first[spot->cell[D]] * axis[D].nodes.stride;                               \
-    FT_SPOT_TAP(D, 0) FT_SPOT_TAP(D, 1) FT_SPOT_TAP(D, 2) FT_SPOT_TAP(D, 3)                        \
+    ft_support_##D(axis, u, support);                                                              \
+    if (ft_locate(&axis[D].nodes, u[D], &support->cell[D], &support->t[D]))                        \
+      support->outside |= 1u << D;                                                                 \
+    b = axis[D].basis + 16 * support->cell[D];                                                     \
+    support->at += axis[D].first[support->cell[D]] * axis[D].nodes.stride;                         \
+    FT_SUPPORT_WEIGHT(D, 0)                                                                        \
+    FT_SUPPORT_WEIGHT(D, 1) FT_SUPPORT_WEIGHT(D, 2) FT_SUPPORT_WEIGHT(D, 3)                        \
   }
-FT_SPOT(1, 0)
-FT_SPOT(2, 1)
-FT_SPOT(3, 2)
-FT_SPOT(4, 3)
-FT_SPOT(5, 4)
-FT_SPOT(6, 5)
-FT_SPOT(7, 6)
-FT_SPOT(8, 7)
+FT_SUPPORT(1, 0)
+FT_SUPPORT(2, 1)
+FT_SUPPORT(3, 2)
+FT_SUPPORT(4, 3)
+FT_SUPPORT(5, 4)
+FT_SUPPORT(6, 5)
+FT_SUPPORT(7, 6)
+FT_SUPPORT(8, 7)
 
-/* Along the first of `axis`: sum over its taps of w[j] times the 4 coefficients there. */
+/* Along the first of `axis`: sum over its support of w[j] times the 4 coefficients there. */
 FT_INLINE ft_quad ft_rows(const ft_spline_axis* axis, const double* w, ft_values v, long at) {
   const long step = axis->nodes.stride;
   const int n = axis->nodes.n;
@@ -141,7 +146,7 @@ FT_INLINE ft_quad ft_sum_3(const ft_spline_axis* axis, ft_weights w, ft_values v
   FT_INLINE ft_quad ft_sum_##N(const ft_spline_axis* axis, ft_weights w, ft_values v, long at) {   \
     ft_quad sum = ft_zero4();                                                                      \
     int j;                                                                                         \
-    for (j = 0; j < ft_taps(axis); ++j, at += axis->nodes.stride)                                  \
+    for (j = 0; j < ft_support_size(axis); ++j, at += axis->nodes.stride)                          \
       sum = ft_plus4(sum, ft_times4(w[0][j], ft_sum_##D(axis + 1, w + 1, v, at)));                 \
     return sum;                                                                                    \
   }
@@ -156,10 +161,10 @@ FT_SUM(8, 7)
 #define FT_CUBIC(N, LAST)                                                                          \
   FT_INLINE double ft_cubic_##N(const ft_spline_axis* axis, ft_values v, const double* u,          \
                                 unsigned* outside) {                                               \
-    ft_spot spot;                                                                                  \
-    ft_spot_##N(axis, u, &spot);                                                                   \
-    if (outside) *outside = spot.outside;                                                          \
-    return ft_dot4(spot.w[LAST], ft_sum_##N(axis, (ft_weights)spot.w, v, spot.at));                \
+    ft_support support;                                                                            \
+    ft_support_##N(axis, u, &support);                                                             \
+    if (outside) *outside = support.outside;                                                       \
+    return ft_dot4(support.w[LAST], ft_sum_##N(axis, (ft_weights)support.w, v, support.at));       \
   }
 FT_CUBIC(1, 0)
 FT_CUBIC(2, 1)

@@ -23,56 +23,58 @@ FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, u
 /* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
 typedef struct {
   ft_pair value, by[FT_MAX_AXES];
-} ft_fan;
+} ft_pair_gradient;
 
-FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+FT_INLINE void ft_corners_gradient_1(const ft_axis* axis, const double* w, ft_values v, long at,
+                                     ft_pair_gradient* sum) {
   (void)axis;
   (void)w;
-  fan->value = ft_load(v, at);
+  sum->value = ft_load(v, at);
 }
-#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
-#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
-#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
-#define FT_FAN_LOOP(D)                                                                             \
+#define FT_CORNERS_GRADIENT_BY(i) sum->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_CORNERS_GRADIENT_END(J, D)                                                              \
+  ft_corners_gradient_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_CORNERS_GRADIENT_BOTH(D) FT_CORNERS_GRADIENT_END(0, D) FT_CORNERS_GRADIENT_END(1, D)
+#define FT_CORNERS_GRADIENT_LOOP(D)                                                                \
   for (j = 0; j < 2; ++j)                                                                          \
-  FT_FAN_END(j, D)
-#define FT_FAN(N, D, INNER, ENDS)                                                                  \
-  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
-                            ft_fan* fan) {                                                         \
-    ft_fan end[2];                                                                                 \
+  FT_CORNERS_GRADIENT_END(j, D)
+#define FT_CORNERS_GRADIENT(N, D, INNER, ENDS)                                                     \
+  FT_INLINE void ft_corners_gradient_##N(const ft_axis* axis, const double* w, ft_values v,        \
+                                         long at, ft_pair_gradient* sum) {                         \
+    ft_pair_gradient end[2];                                                                       \
     int j = 0;                                                                                     \
     (void)j;                                                                                       \
     ENDS(D)                                                                                        \
-    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
-    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
-    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
+    sum->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    sum->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_CORNERS_GRADIENT_BY)                                                        \
   }
-FT_FAN(2, 1, 0, FT_FAN_BOTH)
-FT_FAN(3, 2, 1, FT_FAN_BOTH)
-FT_FAN(4, 3, 2, FT_FAN_BOTH)
-FT_FAN(5, 4, 3, FT_FAN_BOTH)
-FT_FAN(6, 5, 4, FT_FAN_LOOP)
-FT_FAN(7, 6, 5, FT_FAN_LOOP)
-FT_FAN(8, 7, 6, FT_FAN_LOOP)
+FT_CORNERS_GRADIENT(2, 1, 0, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(3, 2, 1, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(4, 3, 2, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(5, 4, 3, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(6, 5, 4, FT_CORNERS_GRADIENT_LOOP)
+FT_CORNERS_GRADIENT(7, 6, 5, FT_CORNERS_GRADIENT_LOOP)
+FT_CORNERS_GRADIENT(8, 7, 6, FT_CORNERS_GRADIENT_LOOP)
 
 /* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
 #define FT_LINEAR_BY(i)                                                                            \
-  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
-            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+  by_u[i] = ft_between(t, ft_get(sum.by[i], 0), ft_get(sum.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), found.w[i], found.cell[i], found.outside >> (i)&1u);
 #define FT_LINEAR_GRADIENT(N, LAST)                                                                \
   FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
                                           double* by_u, unsigned* outside) {                       \
-    ft_place place;                                                                                \
-    ft_fan fan;                                                                                    \
+    ft_location found;                                                                             \
+    ft_pair_gradient sum;                                                                          \
     double t;                                                                                      \
-    ft_place_##N(axis, u, &place);                                                                 \
-    if (outside) *outside = place.outside;                                                         \
-    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
-    t = place.w[LAST];                                                                             \
+    ft_locate_##N(axis, u, &found);                                                                \
+    if (outside) *outside = found.outside;                                                         \
+    ft_corners_gradient_##N(axis, found.w, v, found.at, &sum);                                     \
+    t = found.w[LAST];                                                                             \
     FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
-        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
-        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
-    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
+        (ft_get(sum.value, 1) - ft_get(sum.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, found.cell[LAST], found.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(sum.value, 0), ft_get(sum.value, 1));                              \
   }
 FT_LINEAR_GRADIENT(1, 0)
 FT_LINEAR_GRADIENT(2, 1)

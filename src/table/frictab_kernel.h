@@ -27,7 +27,7 @@
 /* One axis: n >= 2 ascending nodes u in the axis coordinate (x, or ln x where the axis is
  * logarithmic), and per cell 1/(u[i + 1] - u[i]). How a cell is found (the same one each way):
  * scale > 0: (int)(u * scale - shift) is the cell or one below it, or where there is a guide, the
- * place in it of such a cell; scale = 0: by bisection. */
+ * position in it of such a cell; scale = 0: by bisection. */
 typedef struct {
   int n;
   long stride; /* of the values along this axis */
@@ -172,28 +172,28 @@ typedef struct {
   int cell[FT_MAX_AXES];
   long at;
   unsigned outside;
-} ft_place;
+} ft_location;
 
-FT_INLINE void ft_place_0(const ft_axis* axis, const double* u, ft_place* place) {
+FT_INLINE void ft_locate_0(const ft_axis* axis, const double* u, ft_location* found) {
   (void)axis;
   (void)u;
-  place->at = 0;
-  place->outside = 0u;
+  found->at = 0;
+  found->outside = 0u;
 }
-#define FT_PLACE(N, D)                                                                             \
-  FT_INLINE void ft_place_##N(const ft_axis* axis, const double* u, ft_place* place) {             \
-    ft_place_##D(axis, u, place);                                                                  \
-    if (ft_locate(axis + D, u[D], &place->cell[D], &place->w[D])) place->outside |= 1u << D;       \
-    place->at += place->cell[D] * axis[D].stride;                                                  \
+#define FT_LOCATE(N, D)                                                                            \
+  FT_INLINE void ft_locate_##N(const ft_axis* axis, const double* u, ft_location* found) {         \
+    ft_locate_##D(axis, u, found);                                                                 \
+    if (ft_locate(axis + D, u[D], &found->cell[D], &found->w[D])) found->outside |= 1u << D;       \
+    found->at += found->cell[D] * axis[D].stride;                                                  \
   }
-FT_PLACE(1, 0)
-FT_PLACE(2, 1)
-FT_PLACE(3, 2)
-FT_PLACE(4, 3)
-FT_PLACE(5, 4)
-FT_PLACE(6, 5)
-FT_PLACE(7, 6)
-FT_PLACE(8, 7)
+FT_LOCATE(1, 0)
+FT_LOCATE(2, 1)
+FT_LOCATE(3, 2)
+FT_LOCATE(4, 3)
+FT_LOCATE(5, 4)
+FT_LOCATE(6, 5)
+FT_LOCATE(7, 6)
+FT_LOCATE(8, 7)
 
 /* Along all of N axes but the last: the pair that is left on that one. Up to 5 axes, 16 pairs, are
  * unrolled; further ones are loops, so that the code stays small. */
@@ -228,12 +228,12 @@ FT_CORNERS_LOOP(8, 7)
 #define FT_LINEAR(N, LAST)                                                                         \
   FT_INLINE double ft_linear_##N(const ft_axis* axis, ft_values v, const double* u,                \
                                  unsigned* outside) {                                              \
-    ft_place place;                                                                                \
+    ft_location found;                                                                             \
     ft_pair ends;                                                                                  \
-    ft_place_##N(axis, u, &place);                                                                 \
-    if (outside) *outside = place.outside;                                                         \
-    ends = ft_corners_##N(axis, place.w, v, place.at);                                             \
-    return ft_between(place.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
+    ft_locate_##N(axis, u, &found);                                                                \
+    if (outside) *outside = found.outside;                                                         \
+    ends = ft_corners_##N(axis, found.w, v, found.at);                                             \
+    return ft_between(found.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
   }
 FT_LINEAR(1, 0)
 FT_LINEAR(2, 1)

@@ -54,10 +54,10 @@ Pieces::Pieces(const AssembledLaw& law, const std::vector<StateRange>& ranges)
 TableAxis axis_with(const AxisPlan& plan, std::size_t cells) {
   TableAxis axis = plan.axis;
   axis.nodes.clear();
-  const bool even = plan.place.empty();
+  const bool even = plan.position.empty();
   const auto measure = [&](double x) {
     const double u = to_u(axis, x);
-    return even ? u : straight(plan.place, plan.measure, u);
+    return even ? u : straight(plan.position, plan.measure, u);
   };
   const double whole = measure(plan.fixed.back()) - measure(plan.fixed.front());
   for (std::size_t s = 0; s + 1 < plan.fixed.size(); ++s) {
@@ -67,7 +67,7 @@ TableAxis axis_with(const AxisPlan& plan, std::size_t cells) {
     axis.nodes.push_back(plan.fixed[s]);
     for (std::size_t i = 1; i < share; ++i) {
       const double m = a + (b - a) * static_cast<double>(i) / static_cast<double>(share);
-      axis.nodes.push_back(to_x(axis, even ? m : straight(plan.measure, plan.place, m)));
+      axis.nodes.push_back(to_x(axis, even ? m : straight(plan.measure, plan.position, m)));
     }
   }
   axis.nodes.push_back(plan.fixed.back());
@@ -124,15 +124,16 @@ std::vector<double> AxisErrors::between(const TableAxis& axis, std::vector<doubl
 
 std::vector<double> AxisErrors::by_cell(const AxisPlan& plan, const TableAxis& axis) const {
   const std::size_t lines = lines_.front().size(), cells = axis.nodes.size() - 1;
-  std::vector<double> places = axis.nodes; // nodes, then middles
+  std::vector<double> positions = axis.nodes; // nodes, then middles
   for (std::size_t c = 0; c < cells; ++c)
-    places.push_back(to_x(axis, 0.5 * (to_u(axis, axis.nodes[c]) + to_u(axis, axis.nodes[c + 1]))));
+    positions.push_back(
+        to_x(axis, 0.5 * (to_u(axis, axis.nodes[c]) + to_u(axis, axis.nodes[c + 1]))));
   std::vector<std::vector<double>> columns(lines_.size());
   for (std::size_t k = 0; k < lines_.size(); ++k)
-    for (const double place : places)
+    for (const double position : positions)
       for (std::size_t l = 0; l < lines; ++l)
-        columns[k].push_back(k == plan.input ? place : lines_[k][l]);
-  std::vector<double> value(places.size() * lines);
+        columns[k].push_back(k == plan.input ? position : lines_[k][l]);
+  std::vector<double> value(positions.size() * lines);
   pieces_.value.evaluate(value.size(), pointers(columns), pieces_.parameters, value.data());
   const std::size_t nodes = axis.nodes.size() * lines, middles = cells * lines;
   const std::vector<double> guess =
@@ -174,7 +175,7 @@ std::size_t AxisErrors::cells_for(const AxisPlan& plan, double target) const {
   }
 }
 
-void AxisErrors::place_nodes(AxisPlan& plan, double target) const {
+void AxisErrors::distribute_nodes(AxisPlan& plan, double target) const {
   const std::size_t even = cells_for(plan, target);
   if (plan.by_user || plan.even || even < 5) return;
   constexpr std::size_t resolution = 48;
@@ -190,7 +191,7 @@ void AxisErrors::place_nodes(AxisPlan& plan, double target) const {
     std::vector<double> density;
     for (std::size_t c = 0; c < errors.size(); ++c)
       density.push_back(std::pow(std::max(errors[c], least), 1 / order) / (u[c + 1] - u[c]));
-    graded.place = u;
+    graded.position = u;
     graded.measure = {0};
     for (std::size_t c = 0; c < errors.size(); ++c) { // smoothed over neighbours
       const double before = density[c > 0 ? c - 1 : c];

@@ -32,8 +32,8 @@ struct AxisPlan {
   bool by_user = false;      // the job says how many
   bool even = false;         // the job asks for even spacing
   // Where the nodes are dense: cells share out the measure, which ascends from 0 to 1 over the
-  // places (coordinates of the axis). Empty: evenly spaced in the coordinate.
-  std::vector<double> place, measure;
+  // positions (coordinates of the axis). Empty: evenly spaced in the coordinate.
+  std::vector<double> position, measure;
 };
 
 // The axis with `cells` cells (or some more: every fixed node stays one).
@@ -61,7 +61,7 @@ public:
   // Dense where the error of even spacing is large, so that all cells err alike (de Boor's
   // equidistribution, with measured errors); empty where that saves less than a fifth of the nodes:
   // even nodes are found without search.
-  void place_nodes(AxisPlan& plan, double target) const;
+  void distribute_nodes(AxisPlan& plan, double target) const;
 
 private:
   std::vector<double> between(const TableAxis& axis, std::vector<double> nodes) const;

@@ -37,12 +37,12 @@ std::optional<double> stated(std::optional<double> number) {
   return number && std::isnan(*number) ? std::nullopt : number;
 }
 
-std::string worst_place(const Table& table) {
-  std::string place;
+std::string worst_state(const Table& table) {
+  std::string text;
   for (const std::string& name : table.inputs())
     if (const auto at = stated(table.record.input(name).worst_case_at))
-      place += fmt::format("{}{}={:g}", place.empty() ? "" : " ", name, *at);
-  return place;
+      text += fmt::format("{}{}={:g}", text.empty() ? "" : " ", name, *at);
+  return text;
 }
 
 void add_axes(std::string& out, const Table& table) {
@@ -73,12 +73,12 @@ void add_axes(std::string& out, const Table& table) {
 }
 
 void add_drift(std::string& out, const Table& table) {
-  const std::string place = worst_place(table);
+  const std::string state = worst_state(table);
   if (const auto tolerance = stated(table.record.tolerance_MPa))
     out += fmt::format("Tolerance: {:g} MPa\n", *tolerance);
   if (const auto worst = stated(table.record.worst_case_MPa))
     out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", *worst,
-                       place.empty() ? "" : ", at " + place);
+                       state.empty() ? "" : ", at " + state);
   if (const auto proven = stated(table.record.proven_drift_MPa))
     out += fmt::format("Proven: nowhere above {:.3g} MPa\n", rounded_up(*proven));
 }

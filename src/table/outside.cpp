@@ -81,7 +81,7 @@ OutsideRule::Answer OutsideRule::prepare(std::span<const double> state, double* 
     if (ends_[a].leaves(x)) bits |= 1u << a;
     law = law || ends_[a].extends(x);
     refused = refused || ends_[a].refuses(x);
-    row[state.size() + a] = ends_[a].held(x);
+    row[state.size() + a] = ends_[a].asked_at(x);
   }
   if (outside) *outside = bits;
   return refused ? Answer::none : law ? Answer::law : Answer::table;
@@ -111,7 +111,7 @@ std::optional<double> OutsideRule::gradient(std::span<const double> state,
   std::copy(by_row, by_row + inputs, derivative.begin());
   for (std::size_t a = 0; a < ends_.size(); ++a) {
     const double x = state[ends_[a].input];
-    if (ends_[a].held(x) == x) derivative[ends_[a].input] += by_row[inputs + a];
+    if (ends_[a].asked_at(x) == x) derivative[ends_[a].input] += by_row[inputs + a];
   }
   return tau;
 }

@@ -31,7 +31,7 @@ struct AxisEnds {
     return (x < low && below == Outside::law) || (x > high && above == Outside::law);
   }
   // Where the formula is asked: at the end instead of beyond it on every other side.
-  double held(double x) const {
+  double asked_at(double x) const {
     if (x < low && below != Outside::law) return low;
     return x > high && above != Outside::law ? high : x;
   }

@@ -42,7 +42,7 @@ Slice slice(const Table& table, const HeldStates& held, const std::vector<std::s
   std::size_t rows = 1;
   for (const std::string& name : along) {
     out.units.push_back(unit_of(table, name));
-    out.places.push_back(even_places(table, name, points));
+    out.values.push_back(evenly_spaced(table, name, points));
     rows *= points;
   }
   for (const std::string& name : out.inputs) {
@@ -51,7 +51,7 @@ Slice slice(const Table& table, const HeldStates& held, const std::vector<std::s
     const auto a = static_cast<std::size_t>(at);
     const std::size_t inner = a + 1 == along.size() ? 1 : points;
     for (std::size_t i = 0; i < rows; ++i)
-      column[i] = a < along.size() ? out.places[a][i / inner % points] : held.at(name);
+      column[i] = a < along.size() ? out.values[a][i / inner % points] : held.at(name);
     out.states.push_back(std::move(column));
   }
   out.tau_MPa.resize(rows);

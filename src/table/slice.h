@@ -11,7 +11,7 @@ struct Slice {
   std::vector<std::string> along;          // one or two of them
   std::vector<std::string> units;          // of `along`
   HeldStates held;                         // the others
-  std::vector<std::vector<double>> places; // per state of `along`; the second one is inner
+  std::vector<std::vector<double>> values; // per state of `along`; the second one is inner
   std::vector<std::vector<double>> states; // per input: one value per row
   std::vector<double> tau_MPa;             // per row
 };

@@ -54,14 +54,14 @@ void add_segment(SplineAxis& axis, std::size_t begin, std::size_t end) {
     knots.push_back(u[begin + i]);
   knots.insert(knots.end(), degree + 1, u[end]);
   const std::size_t last_span = knots.size() - 2 * degree - 2;
-  const std::size_t taps = std::min<std::size_t>(4, u.size());
+  const std::size_t support = std::min<std::size_t>(4, u.size());
   for (std::size_t cell = 0; cell + 1 < nodes; ++cell) {
     const std::size_t span =
         nodes <= 4 ? 0 : std::min(cell - std::min<std::size_t>(cell, 1), last_span);
     const double low = u[begin + cell];
     const auto basis = cell_polynomials(knots, span, degree, low, u[begin + cell + 1] - low);
     // A short piece at the end of a longer axis: the window of coefficients must not pass the end.
-    const std::size_t first = std::min(begin + span, u.size() - taps);
+    const std::size_t first = std::min(begin + span, u.size() - support);
     const std::size_t shift = begin + span - first;
     axis.first.push_back(static_cast<int>(first));
     const std::size_t at = axis.basis.size();

@@ -86,7 +86,7 @@ void check_all_known(const Table& table, const HeldStates& held,
   throw InputError({}, "no value is given for " + join(missing, ", "), join(options, " "));
 }
 
-std::vector<double> even_places(const Table& table, const std::string& name, std::size_t count) {
+std::vector<double> evenly_spaced(const Table& table, const std::string& name, std::size_t count) {
   const auto range = table.range(name);
   if (!range)
     throw InputError({}, fmt::format("the range of {} is not known: it is no axis", name),
@@ -95,14 +95,13 @@ std::vector<double> even_places(const Table& table, const std::string& name, std
   const bool log = axis && axis->log;
   const auto [low, high] = *range;
   const double a = log ? std::log(low) : low, b = log ? std::log(high) : high;
-  std::vector<double> places;
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<double> values{low};
+  for (std::size_t i = 1; i + 1 < count; ++i) {
     const double u = a + (b - a) * static_cast<double>(i) / static_cast<double>(count - 1);
-    places.push_back(i == 0           ? low
-                     : i + 1 == count ? high
-                                      : std::clamp(log ? std::exp(u) : u, low, high));
+    values.push_back(std::clamp(log ? std::exp(u) : u, low, high));
   }
-  return places;
+  values.push_back(high);
+  return values;
 }
 
 } // namespace frictab

@@ -31,7 +31,7 @@ void check_all_known(const Table& table, const HeldStates& held,
 // The axis of this name; nullptr where the input is none.
 const TableAxis* find_axis(const Table& table, const std::string& name);
 
-// `count` places from end to end of an input's range, evenly in the coordinate of its axis.
-std::vector<double> even_places(const Table& table, const std::string& name, std::size_t count);
+// `count` values from end to end of an input's range, evenly in the coordinate of its axis.
+std::vector<double> evenly_spaced(const Table& table, const std::string& name, std::size_t count);
 
 } // namespace frictab

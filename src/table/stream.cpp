@@ -69,7 +69,7 @@ bool is_positive(const Pieces& pieces, const std::vector<StateRange>& ranges,
   return *std::min_element(values.begin(), values.end()) > 0;
 }
 
-std::string place_of(const Table& table, std::size_t node) {
+std::string state_at(const Table& table, std::size_t node) {
   std::string text;
   for (std::size_t a = table.axes.size(); a-- > 0;) {
     const TableAxis& axis = table.axes[a];
@@ -109,7 +109,7 @@ public:
         const auto node = first(chunk) + static_cast<std::size_t>(&value - out.data());
         throw InputError(place_,
                          fmt::format("{}{} is not finite at {}", table.log_value ? "ln " : "",
-                                     table.quantity, place_of(table, node)),
+                                     table.quantity, state_at(table, node)),
                          "narrower ranges in [table.axes]");
       }
     }
