@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include <dlfcn.h>
 
@@ -30,124 +29,144 @@ struct Block {
   std::vector<double> v, property, field, history, tau;
 };
 
+// The routine, and the columns of a table of rows by what the driver hands them over as.
 class Routine {
 public:
-  Routine(const Driver& driver, const Built& built, const ExportRequest& request)
-      : driver_(driver), inputs_(solver_inputs(request, driver.gives)),
-        stress_(solver_unit("MPa", request.units)),
+  Routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
+          std::string_view units, std::span<const double* const> columns)
+      : driver_(driver), inputs_(inputs), columns_(columns), stress_(solver_unit("MPa", units)),
         call_(reinterpret_cast<Ftdriv*>(Library::address(built.library, "ftdriv_"))),
         constants_(static_cast<double*>(dlsym(built.library, "ftcons_"))) {
     for (const SolverInput& input : inputs_)
       fields_ = std::max(fields_, input.field);
-  }
-
-  const std::vector<SolverInput>& inputs() const { return inputs_; }
-
-  // False where a row contradicts itself; NaN does not.
-  bool posed(std::span<const double* const> columns, std::size_t row) const {
-    const double pressure = canonical("sigma_n_MPa", columns, row).value_or(lowest_pressure());
-    std::optional<double> slip;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      if (inputs_[c].source != Source::given || inputs_[c].given != "s_mm") continue;
-      if (slip && *slip != columns[c][row]) return false;
-      slip = columns[c][row];
+    for (const GivenState& state : driver.gives.states)
+      table_rows_.push_back(table_row(state.state));
+    pressure_ = table_row("sigma_n_MPa").column;
+    peak_ = table_row("peak_sigma_n").column;
+    temperature_ = table_row("T_contact_C").column;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (is_given(c, "s_mm")) slips_.push_back(columns_[c]);
+      // The law's own, wherever it has it from.
+      if (inputs_[c].argument.name == "sigma_f_MPa") flow_stress_ = columns_[c];
     }
-    if (!history_posed(inputs_, columns, row)) return false;
-    if (driver_.zero_is_no_temperature && canonical("T_contact_C", columns, row) == 0.0)
-      return false;
-    const auto peak = canonical("peak_sigma_n", columns, row);
-    return !peak || !(*peak < pressure);
   }
 
-  void run(std::span<const std::size_t> rows, std::span<const double* const> columns,
-           std::span<double> tau) const {
-    const std::vector<GivenState>& states = driver_.gives.states;
+  // Whether a contact point can be in the state of this row: not where the row contradicts itself;
+  // NaN contradicts nothing.
+  bool row_can_be_posed(std::size_t row) const {
+    for (std::size_t i = 1; i < slips_.size(); ++i)
+      if (slips_[i - 1][row] != slips_[i][row]) return false;
+    if (!histories_can_be_posed(inputs_, columns_, row)) return false;
+    if (driver_.zero_is_no_temperature && temperature_ && temperature_[row] == 0.0) return false;
+    return !peak_ || !(peak_[row] < (pressure_ ? pressure_[row] : lowest_pressure()));
+  }
+
+  void run(std::span<const std::size_t> rows, std::span<double> tau) const {
     Block b;
     b.property.assign(property_count(inputs_), 0.0);
     b.tau.assign(rows.size(), 0.0);
     for (const std::size_t row : rows) {
-      for (const GivenState& state : states)
-        b.v.push_back(value_of(state.state, columns, row));
-      add_row(b, columns, row);
+      for (const TableRow& state : table_rows_)
+        b.v.push_back(solver_value(state, row));
+      add_row(b, row);
     }
     const auto n = static_cast<std::int32_t>(rows.size());
-    const auto ns = static_cast<std::int32_t>(states.size());
+    const auto ns = static_cast<std::int32_t>(table_rows_.size());
     const auto np = static_cast<std::int32_t>(b.property.size());
     const auto nf = static_cast<std::int32_t>(fields_);
     const auto nh = static_cast<std::int32_t>(b.history.size() / rows.size());
     call_(&n, &ns, b.v.data(), &np, b.property.data(), &nf, b.field.data(), &nh, b.history.data(),
           b.tau.data());
     for (std::size_t k = 0; k < rows.size(); ++k)
-      tau[rows[k]] = stress_of(b.tau[k], columns, rows[k]);
+      tau[rows[k]] = stress_of(b.tau[k], rows[k]);
   }
 
 private:
+  // What stands in a row of the solver's table that the law does not take from there.
+  enum class Otherwise { zero, pressure, flow_stress };
+
+  struct TableRow {
+    const double* column = nullptr; // canonical; null where the law does not take it from there
+    SolverUnit unit = {};
+    Otherwise otherwise = Otherwise::zero;
+  };
+
+  bool is_given(std::size_t column, std::string_view state) const {
+    return inputs_[column].source == Source::given && inputs_[column].given == state;
+  }
+
+  TableRow table_row(std::string_view state) const {
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      if (is_given(c, state)) return {columns_[c], inputs_[c].argument.solver};
+    if (state == "sigma_n_MPa") return {nullptr, stress_, Otherwise::pressure};
+    if (state == "sigma_f_MPa") return {nullptr, stress_, Otherwise::flow_stress};
+    return {};
+  }
+
   // Below it no peak is one, where the law does not say the pressure.
   double lowest_pressure() const {
     return driver_.peak_presses ? std::numeric_limits<double>::denorm_min() : driver_.pressure;
   }
 
-  // What the law takes from the solver's table; nothing where it takes no such state from there.
-  std::optional<double> canonical(const std::string& state, std::span<const double* const> columns,
-                                  std::size_t row) const {
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (inputs_[c].source == Source::given && inputs_[c].given == state) return columns[c][row];
-    return std::nullopt;
+  double pressure(std::size_t row) const {
+    if (pressure_) return pressure_[row];
+    return driver_.peak_presses && peak_ ? peak_[row] : driver_.pressure;
   }
 
-  double pressure(std::span<const double* const> columns, std::size_t row) const {
-    if (const auto given = canonical("sigma_n_MPa", columns, row)) return *given;
-    const auto peak = canonical("peak_sigma_n", columns, row);
-    return driver_.peak_presses && peak ? *peak : driver_.pressure;
+  double flow_stress(std::size_t row) const {
+    return flow_stress_ ? flow_stress_[row] : some_flow_stress;
   }
 
-  // The law's own, wherever it has it from.
-  double flow_stress(std::span<const double* const> columns, std::size_t row) const {
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (inputs_[c].argument.name == "sigma_f_MPa") return columns[c][row];
-    return some_flow_stress;
+  double solver_value(const TableRow& state, std::size_t row) const {
+    if (state.column) return state.unit.from_canonical(state.column[row]);
+    switch (state.otherwise) {
+    case Otherwise::pressure:
+      return state.unit.from_canonical(pressure(row));
+    case Otherwise::flow_stress:
+      return state.unit.from_canonical(flow_stress(row));
+    case Otherwise::zero:
+      break;
+    }
+    return 0.0;
   }
 
-  double value_of(const std::string& state, std::span<const double* const> columns,
-                  std::size_t row) const {
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (inputs_[c].source == Source::given && inputs_[c].given == state)
-        return inputs_[c].argument.solver.from_canonical(columns[c][row]);
-    if (state == "sigma_n_MPa") return stress_.from_canonical(pressure(columns, row));
-    return state == "sigma_f_MPa" ? stress_.from_canonical(flow_stress(columns, row)) : 0.0;
-  }
-
-  void add_row(Block& b, std::span<const double* const> columns, std::size_t row) const {
+  void add_row(Block& b, std::size_t row) const {
     b.field.resize(b.field.size() + fields_, 0.0);
     double* const field = b.field.data() + (b.field.size() - fields_);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double value = inputs_[c].argument.solver.from_canonical(columns[c][row]);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const double value = inputs_[c].argument.solver.from_canonical(columns_[c][row]);
       if (inputs_[c].source == Source::property) b.property[inputs_[c].property - 1] = value;
       if (inputs_[c].source == Source::field) field[inputs_[c].field - 1] = value;
-      if (inputs_[c].source == Source::constant && constants_) constants_[c] = columns[c][row];
+      if (inputs_[c].source == Source::constant && constants_) constants_[c] = columns_[c][row];
     }
-    const std::vector<double> past = history_values(inputs_, columns, row);
+    const std::vector<double> past = history_values(inputs_, columns_, row);
     b.history.insert(b.history.end(), past.begin(), past.end());
   }
 
-  double stress_of(double result, std::span<const double* const> columns, std::size_t row) const {
+  double stress_of(double result, std::size_t row) const {
     switch (driver_.result) {
     case fortran::Coefficient::stress:
       return stress_.to_canonical(result);
     case fortran::Coefficient::coulomb:
-      return result * std::abs(pressure(columns, row));
+      return result * std::abs(pressure(row));
     case fortran::Coefficient::shear:
       break;
     }
-    return result * flow_stress(columns, row) * std::numbers::inv_sqrt3;
+    return result * flow_stress(row) * std::numbers::inv_sqrt3;
   }
 
   const Driver& driver_;
-  std::vector<SolverInput> inputs_;
+  const std::vector<SolverInput>& inputs_;
+  std::span<const double* const> columns_; // canonical, the first of inputs_
   SolverUnit stress_;
   Ftdriv* call_;
   double* constants_; // null where the source has none that can be set
   std::size_t fields_ = 0;
+  std::vector<TableRow> table_rows_; // as Driver::gives has them
+  std::vector<const double*> slips_; // sliding distances that the solver's one row stands for
+  // Null where the law does not take them (the first three: from the solver).
+  const double *pressure_ = nullptr, *peak_ = nullptr, *temperature_ = nullptr,
+               *flow_stress_ = nullptr;
 };
 
 // These rows in groups that can share a call, at most `most` each: properties are constants of a
@@ -176,16 +195,16 @@ std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>
 
 } // namespace
 
-void drive_routine(const Driver& driver, const Built& built, const ExportRequest& request,
-                   std::size_t rows, std::span<const double* const> columns,
-                   std::span<double> tau) {
-  const Routine routine(driver, built, request);
+void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
+                   const ExportRequest& request, std::size_t rows,
+                   std::span<const double* const> columns, std::span<double> tau) {
+  const Routine routine(driver, inputs, built, request.units, columns);
   std::vector<std::size_t> asked;
   for (std::size_t row = 0; row < rows; ++row)
-    if (routine.posed(columns, row)) asked.push_back(row);
+    if (routine.row_can_be_posed(row)) asked.push_back(row);
   for (const std::vector<std::size_t>& group :
-       call_groups(routine.inputs(), std::move(asked), columns, driver.most_points))
-    routine.run(group, columns, tau);
+       call_groups(inputs, std::move(asked), columns, driver.most_points))
+    routine.run(group, tau);
 }
 
 void add_driver(BuildVariant& variant, const std::string& text) {

@@ -14,6 +14,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "codegen/coefficient.h"
 #include "codegen/solver_inputs.h"
@@ -33,11 +34,13 @@ struct Driver {
   bool zero_is_no_temperature = false;
 };
 
-// As Exporter::drive. Rows that contradict themselves as the state of a contact point (two sliding
-// distances, a peak below the present pressure) keep what is in `tau`. Constants of the source are
-// set where it has them in COMMON /FTCONS/.
-void drive_routine(const Driver& driver, const Built& built, const ExportRequest& request,
-                   std::size_t rows, std::span<const double* const> columns, std::span<double> tau);
+// As Exporter::drive; `inputs` are those of the driver's table for this request. Rows that
+// contradict themselves as the state of a contact point (two sliding distances, a peak below the
+// present pressure) keep what is in `tau`. Constants of the source are set where it has them in
+// COMMON /FTCONS/.
+void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
+                   const ExportRequest& request, std::size_t rows,
+                   std::span<const double* const> columns, std::span<double> tau);
 
 // Adds the driver's file to what the variant compiles.
 void add_driver(BuildVariant& variant, const std::string& text);

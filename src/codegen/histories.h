@@ -68,7 +68,7 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
 
 // Whether there are such ones: a peak is not below the present value (0 where the law does not take
 // it and it is no constant), a mean needs time, a load over its peak a load that the law takes.
-bool history_posed(const std::vector<SolverInput>& inputs, std::span<const double* const> columns,
-                   std::size_t row);
+bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
+                            std::span<const double* const> columns, std::size_t row);
 
 } // namespace frictab

@@ -12,9 +12,16 @@ namespace frictab {
 
 namespace {
 
+// solver_inputs() of the target's table, checked.
+std::vector<SolverInput> checked_inputs(const RoutineTarget& target, const ExportRequest& request) {
+  std::vector<SolverInput> inputs = solver_inputs(request, target.gives(request));
+  if (target.check) target.check(request, inputs);
+  return inputs;
+}
+
 SourceBundle bundle(const RoutineTarget& target, const ExportRequest& request) {
   check_request(request);
-  const std::vector<SolverInput> inputs = inputs_of(target, request);
+  const std::vector<SolverInput> inputs = checked_inputs(target, request);
   SourceBundle files = target.sources(request, inputs);
   add_values_file(files, request);
   nlohmann::ordered_json recipe =
@@ -37,20 +44,14 @@ std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportR
 
 } // namespace
 
-std::vector<SolverInput> inputs_of(const RoutineTarget& target, const ExportRequest& request) {
-  std::vector<SolverInput> inputs = solver_inputs(request, target.gives(request));
-  if (target.check) target.check(request, inputs);
-  return inputs;
-}
-
 Exporter routine_exporter(const RoutineTarget& target) {
   Exporter out = target.about;
   out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
   out.variants = [target](const ExportRequest& request) { return with_driver(target, request); };
   out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> columns, std::span<double> tau) {
-    drive_routine(target.drive(request, inputs_of(target, request)), built, request, rows, columns,
-                  tau);
+    const std::vector<SolverInput> inputs = checked_inputs(target, request);
+    drive_routine(target.drive(request, inputs), inputs, built, request, rows, columns, tau);
   };
   return out;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -32,8 +34,5 @@ struct RoutineTarget {
 };
 
 Exporter routine_exporter(const RoutineTarget& target);
-
-// solver_inputs() of the target's table, checked.
-std::vector<SolverInput> inputs_of(const RoutineTarget& target, const ExportRequest& request);
 
 } // namespace frictab
