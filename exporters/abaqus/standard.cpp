@@ -9,6 +9,8 @@
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
+#include "codegen/number_text.h"
+#include "codegen/solver_units.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -65,7 +67,7 @@ bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& reques
 }
 
 double smallest_pressure(const Table& table) {
-  const auto range = known_range(table, "sigma_n_MPa");
+  const auto range = table.range("sigma_n_MPa");
   return range && range->first > 0 ? std::min(1.0, range->first) : 1.0;
 }
 

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/baked_table.h"
 #include "codegen/call_entry.h"
+#include "codegen/entry_arguments.h"
 #include "codegen/entry_text.h"
-#include "codegen/fill.h"
+#include "codegen/number_text.h"
 #include "codegen/recipe.h"
+#include "codegen/table_text.h"
 #include "codegen/template.h"
 #include "codegen/values_file.h"
 #include "core/text.h"

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "codegen/baked_table.h"
+#include "codegen/entry_arguments.h"
+#include "codegen/number_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "expr/derivative.h"

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "core/text.h"
 #include "table/outside.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 #include "codegen/template.h"
 
 namespace frictab::c_target {

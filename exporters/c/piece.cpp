@@ -1,7 +1,10 @@
 // The law's own formula in C, with its derivatives where asked for.
 #include <fmt/format.h>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/layer.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "core/text.h"
 #include "expr/derivative.h"
 #include "expr/several.h"

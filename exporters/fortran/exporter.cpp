@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/call_entry.h"
+#include "codegen/entry_arguments.h"
 #include "codegen/entry_text.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/number_text.h"
 #include "codegen/recipe.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "io/json.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "codegen/compile.h"
-#include "codegen/fill.h"
+#include "codegen/entry_arguments.h"
 
 namespace frictab {
 

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fixed_form.h"
 #include "codegen/fortran_parts.h"
+#include "codegen/number_text.h"
 #include "core/error.h"
 
 namespace frictab::fortran {

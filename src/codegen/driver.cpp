@@ -12,6 +12,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/histories.h"
+#include "codegen/solver_units.h"
 
 namespace frictab {
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 
 namespace frictab {

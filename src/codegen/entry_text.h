@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 
 namespace frictab {
 

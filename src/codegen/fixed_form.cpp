@@ -1,22 +1,25 @@
-// Fortran in fixed form: statements and DATA within columns 7 to 72 and 19 continuation lines.
+// Cuts statements and DATA where the columns end.
+#include "codegen/fixed_form.h"
+
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
-#include "codegen/fill.h"
+#include "codegen/number_text.h"
 
 namespace frictab {
 
 namespace {
 
-constexpr std::size_t columns = 66; // 7..72
+constexpr std::size_t statement_columns = 66; // 7..72
 constexpr std::size_t continuations = 19;
 
 // Where to cut: behind the last blank or comma that fits, or anywhere (blanks mean nothing).
 std::size_t cut(std::string_view text) {
-  if (text.size() <= columns) return text.size();
-  const std::size_t at = text.find_last_of(" ,", columns - 1);
-  return at == std::string_view::npos || at == 0 ? columns : at + 1;
+  if (text.size() <= statement_columns) return text.size();
+  const std::size_t at = text.find_last_of(" ,", statement_columns - 1);
+  return at == std::string_view::npos || at == 0 ? statement_columns : at + 1;
 }
 
 std::string data_statement(const std::string& head, const std::vector<std::string>& lines) {
@@ -39,7 +42,7 @@ std::string data(const std::string& name, const std::vector<std::string>& number
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::string item = numbers[i] + ",";
     // One column less than there is: the last line ends with a slash instead of a comma.
-    if (!lines.empty() && lines.back().size() + item.size() <= columns - 1) {
+    if (!lines.empty() && lines.back().size() + item.size() <= statement_columns - 1) {
       lines.back() += item;
     } else {
       if (lines.size() == continuations) finish(i);

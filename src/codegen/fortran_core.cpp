@@ -5,9 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "codegen/baked_table.h"
+#include "codegen/entry_arguments.h"
+#include "codegen/fixed_form.h"
 #include "codegen/fortran_gradient.h"
 #include "codegen/fortran_interpolation.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "table/outside.h"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fixed_form.h"
 #include "core/text.h"
 #include "expr/derivative.h"
 #include "expr/several.h"

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "codegen/baked_table.h"
+#include "codegen/fixed_form.h"
+#include "codegen/number_text.h"
 #include "codegen/values_file.h"
 #include "table/axis_search.h"
 #include "table/spline.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 #include "codegen/fortran_parts.h"
 
 namespace frictab::fortran {

@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fixed_form.h"
 #include "codegen/layer.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "core/text.h"
 #include "expr/derivative.h"
 #include "expr/several.h"

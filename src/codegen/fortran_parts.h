@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "codegen/fill.h"
 #include "codegen/template.h"
+#include "expr/expr.h"
+#include "table/table.h"
 
 namespace frictab::fortran {
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "table/outside.h"
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
+#include "codegen/number_text.h"
+#include "codegen/solver_units.h"
 #include "data/derived.h"
 
 namespace frictab {

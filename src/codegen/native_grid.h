@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "codegen/fill.h"
+#include "codegen/solver_units.h"
 
 namespace frictab {
 

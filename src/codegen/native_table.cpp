@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "codegen/entry_arguments.h"
+#include "codegen/table_checks.h"
 #include "core/error.h"
 #include "data/quantity.h"
 #include "expr/program.h"

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/native_grid.h"
 #include "codegen/solver_inputs.h"
 #include "table/plain_text.h"

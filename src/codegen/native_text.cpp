@@ -6,8 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/native_table.h"
+#include "codegen/number_text.h"
 #include "codegen/recipe.h"
+#include "codegen/table_text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/json.h"

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codegen/entry_arguments.h"
+#include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "io/json.h"

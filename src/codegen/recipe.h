@@ -6,7 +6,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 
 namespace frictab {
 

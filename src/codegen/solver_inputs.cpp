@@ -8,8 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "codegen/fixed_form.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/histories.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "data/meaning.h"

@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "codegen/fill.h"
+#include "codegen/baked_table.h"
+#include "codegen/table_checks.h"
 #include "core/error.h"
 #include "core/text.h"
 

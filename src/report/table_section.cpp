@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "codegen/fill.h"
+#include "codegen/table_text.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "report/numbers.h"

@@ -11,7 +11,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
-#include "codegen/fill.h"
+#include "codegen/table_text.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "report/numbers.h"

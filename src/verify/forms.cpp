@@ -1,5 +1,6 @@
 // Times the two forms of a law against each other.
 #include "verify/forms.h"
+#include "codegen/baked_table.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "table/direct.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codegen/fill.h"
+#include "codegen/entry_arguments.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "codegen/fill.h"
+#include "codegen/entry_arguments.h"
 #include "support/generated.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"

@@ -9,6 +9,7 @@
 #include "calibrate/calibration.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/input_columns.h"
+#include "codegen/entry_arguments.h"
 #include "codegen/solver_inputs.h"
 #include "core/error.h"
 #include "support/calls/vfric.h"

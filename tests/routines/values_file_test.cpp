@@ -5,11 +5,12 @@
 #include <fstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/fill.h"
+#include "codegen/baked_table.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "support/generated.h"

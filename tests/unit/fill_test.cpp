@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codegen/fill.h"
+#include "codegen/entry_arguments.h"
+#include "codegen/fixed_form.h"
+#include "codegen/number_text.h"
 #include "core/random.h"
 #include "support/sample_tables.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"
-#include "codegen/fill.h"
+#include "codegen/table_text.h"
 #include "io/hdf5.h"
 #include "job/job.h"
 #include "support/rebuilt.h"

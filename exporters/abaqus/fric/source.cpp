@@ -3,6 +3,8 @@
 
 #include "abaqus/standard.h"
 #include "codegen/histories.h"
+#include "codegen/number_text.h"
+#include "codegen/solver_units.h"
 
 namespace frictab::abaqus::fric {
 

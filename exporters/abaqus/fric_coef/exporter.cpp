@@ -10,6 +10,7 @@
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
+#include "codegen/solver_units.h"
 #include "codegen/values_file.h"
 #include "source.h"
 

@@ -10,9 +10,11 @@
 #include "abaqus/stop.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/number_text.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
+#include "codegen/solver_units.h"
 #include "codegen/values_file.h"
 
 namespace frictab::abaqus::vfric_coef {

@@ -9,6 +9,8 @@
 #include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
+#include "codegen/number_text.h"
+#include "codegen/solver_units.h"
 #include "core/error.h"
 
 namespace frictab::deform::usrbcc {

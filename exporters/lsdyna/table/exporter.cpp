@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "codegen/native_table.h"
+#include "codegen/solver_units.h"
 #include "codegen/template.h"
 #include "io/atomic_file.h"
 

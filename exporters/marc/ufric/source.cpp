@@ -5,6 +5,8 @@
 
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/number_text.h"
+#include "codegen/solver_units.h"
 #include "core/error.h"
 
 namespace frictab::marc::ufric {

@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/compile.h"
+#include "codegen/entry_arguments.h"
 #include "codegen/recipe.h"
+#include "codegen/table_checks.h"
 #include "codegen/template.h"
 #include "io/atomic_file.h"
 #include "io/json.h"

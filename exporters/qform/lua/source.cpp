@@ -6,7 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "codegen/baked_table.h"
+#include "codegen/entry_arguments.h"
 #include "codegen/layer.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
 #include "codegen/template.h"
 #include "core/text.h"
 #include "table/outside.h"

@@ -1,0 +1,37 @@
+// Values as the kernels read them; the size of a source, counted in numbers.
+#include "codegen/baked_table.h"
+
+#include "codegen/layer.h"
+#include "table/spline.h"
+
+namespace frictab {
+
+bool is_cubic(const Table& table) {
+  return table.interpolation == Interpolation::cubic && !table.axes.empty();
+}
+
+std::vector<double> baked_values(const Table& table) {
+  if (table.stored) { // linear always
+    std::vector<double> values(table.stored->size());
+    table.stored->read(0, values);
+    return values;
+  }
+  if (!is_cubic(table)) return table.value;
+  std::vector<SplineAxis> axes;
+  for (const TableAxis& axis : table.axes)
+    axes.push_back(spline_axis(axis));
+  return spline_coefficients(axes, table.value);
+}
+
+std::size_t baked_numbers(const Table& table) {
+  std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
+  // Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
+  const std::size_t per_node = table.is_direct() ? 1 : is_cubic(table) ? 18 : 2;
+  for (const TableAxis& axis : table.axes)
+    numbers += axis.nodes.size() * per_node;
+  if (!table.extension) return numbers;
+  const LayeredFormula law = split_layer(*table.extension);
+  return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);
+}
+
+} // namespace frictab

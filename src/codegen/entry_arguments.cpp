@@ -1,0 +1,94 @@
+// Names arguments after state and unit, each once.
+#include "codegen/entry_arguments.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "data/meaning.h"
+#include "data/quantity.h"
+
+namespace frictab {
+
+namespace {
+
+std::string replace_ending(const std::string& name, std::string_view from, std::string_view to) {
+  if (name.size() <= from.size() || name.substr(name.size() - from.size()) != from) return name;
+  return name.substr(0, name.size() - from.size()) + std::string(to);
+}
+
+// A column's own name may hold anything; the prefix keeps it off keywords and generated names.
+std::string identifier(const std::string& name) {
+  std::string text = find_quantity(name) ? "" : "in_";
+  for (const char c : name)
+    text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return text;
+}
+
+std::string argument_name(const InputArgument& input) {
+  const std::string name = identifier(input.name);
+  if (input.solver.same()) return name;
+  if (input.unit == "MPa") return replace_ending(name, "_MPa", "_Pa");
+  if (input.unit == "mm/s") return replace_ending(name, "_mm_s", "_m_s");
+  if (input.unit == "mm") return replace_ending(name, "_mm", "_m");
+  return name;
+}
+
+InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
+  InputArgument input;
+  const Meaning meaning = meaning_of(name);
+  input.name = name;
+  input.unit = meaning.unit;
+  input.meaning = meaning.text;
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    if (table.axes[a].name != name) continue;
+    input.axis = a;
+    input.unit = table.axes[a].unit;
+    if (!table.axes[a].long_name.empty()) input.meaning = table.axes[a].long_name;
+  }
+  if (find_quantity(name)) { // whatever the axis says
+    input.unit = meaning.unit;
+    input.meaning = meaning.text;
+  }
+  if (input.meaning == Meaning{}.text) input.meaning = name + " " + input.meaning;
+  if (const auto& levels = table.record.input(name).levels) input.meaning = name + ": " + *levels;
+  input.solver = solver_unit(input.unit, units);
+  input.argument = argument_name(input);
+  return input;
+}
+
+} // namespace
+
+std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units) {
+  std::vector<InputArgument> arguments;
+  std::set<std::string> taken;
+  const std::vector<std::string> needed = table.inputs();
+  for (const Quantity& quantity : quantities())
+    if (quantity.argument) arguments.push_back(argument(table, quantity.name, units));
+  for (const std::string& name : needed) {
+    const auto same = [&](const InputArgument& a) { return a.name == name; };
+    const auto found = std::find_if(arguments.begin(), arguments.end(), same);
+    if (found == arguments.end())
+      arguments.push_back(argument(table, name, units)), arguments.back().used = true;
+    else
+      found->used = true;
+  }
+  for (InputArgument& a : arguments)
+    while (!taken.insert(a.argument).second)
+      a.argument += "_";
+  return arguments;
+}
+
+std::optional<double> typical_value(const Table& table, const std::string& name) {
+  const auto range = table.range(name);
+  if (!range) return std::nullopt;
+  if (table.record.input(name).levels) return range->first; // the level whose factor is 1
+  bool log = meaning_of(name).log_axis;
+  for (const TableAxis& axis : table.axes)
+    if (axis.name == name) log = axis.log;
+  const auto [low, high] = *range;
+  return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
+}
+
+} // namespace frictab

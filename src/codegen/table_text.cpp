@@ -1,0 +1,99 @@
+// Sentences about a table, from its axes and its record.
+#include "codegen/table_text.h"
+
+#include <fmt/format.h>
+
+#include "table/bound.h"
+#include "table/states.h"
+
+namespace frictab {
+
+namespace {
+
+const char* outside_text(Outside outside) {
+  switch (outside) {
+  case Outside::error:
+    return "error (NaN)";
+  case Outside::law:
+    return "the law's own formula";
+  case Outside::clamp:
+    break;
+  }
+  return "the value at this end";
+}
+
+} // namespace
+
+std::string range_text(const InputArgument& input, const Table& table) {
+  const auto known = table.range(input.name);
+  if (!known) return "no axis, any value";
+  const SolverUnit& unit = input.solver;
+  std::string text = fmt::format("{:.6g} .. {:.6g}", unit.from_canonical(known->first),
+                                 unit.from_canonical(known->second));
+  if (unit.name != "1") text += " " + unit.name;
+  return input.axis ? text : text + " (no axis: any value, verified there)";
+}
+
+std::vector<std::string> outside_lines(const Table& table) {
+  std::vector<std::string> lines;
+  bool all_clamp = true;
+  for (const TableAxis& axis : table.axes) {
+    all_clamp = all_clamp && axis.below == Outside::clamp && axis.above == Outside::clamp;
+    lines.push_back(fmt::format("{} below {:.6g}: {}, above {:.6g}: {}", axis.name,
+                                axis.nodes.front(), outside_text(axis.below), axis.nodes.back(),
+                                outside_text(axis.above)));
+  }
+  return all_clamp ? std::vector<std::string>{} : lines;
+}
+
+std::string drift_text(const Table& table) {
+  if (table.is_direct()) return "none but rounding, it is the law itself; measured in verify.json";
+  const TableRecord& record = table.record;
+  if (!record.worst_case_MPa)
+    return "not measured here; see verify.json of the run that wrote this file";
+  std::string text =
+      fmt::format("{:.3g} MPa, the largest found over the whole range", *record.worst_case_MPa);
+  if (record.proven_drift_MPa)
+    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(*record.proven_drift_MPa));
+  return text;
+}
+
+std::string origin_text(const Table& table) {
+  const std::string origin = table.record.data_origin.value_or("");
+  return origin.empty() ? "not stated" : origin;
+}
+
+std::string edge_text(const Table& table) {
+  const char* const pressure = "sigma_n_MPa";
+  const TableAxis* axis = find_axis(table, pressure);
+  if (!axis || axis->below != Outside::clamp || axis->nodes.front() <= 0) return "";
+  const double low = axis->nodes.front();
+  std::vector<double> state;
+  std::size_t at = 0;
+  for (const std::string& name : table.inputs()) {
+    if (name == pressure) at = state.size();
+    const auto typical = typical_value(table, name);
+    if (!typical) return "";
+    state.push_back(*typical);
+  }
+  const TableFunction tau(table);
+  state[at] = low;
+  const double at_low = tau(state);
+  state[at] = 0.001 * low;
+  const double at_edge = tau(state);
+  if (!(at_edge > 0.01 * at_low)) return "";
+  return fmt::format("keeps {:.3g} MPa below {:.6g} MPa of contact normal stress, also at an edge "
+                     "of the contact; the law itself there: [table.axes.{}] outside = \"law\"",
+                     at_edge, low, pressure);
+}
+
+std::string comment_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '/' && !out.empty() && out.back() == '*') out += ' ';
+    out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  }
+  return out;
+}
+
+} // namespace frictab
