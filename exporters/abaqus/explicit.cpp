@@ -68,11 +68,12 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
                           const std::vector<SolverInput>& inputs,
                           const std::vector<std::string>& remarks) {
   TemplateValues all, head;
-  fortran::add_head(all, exporter, request, inputs, "XPLB_ABQERR ends the analysis",
-                    directory_routine(Solver::explicit_));
+  fortran::add_head(all, exporter, request, inputs,
+                    {.error_action = "XPLB_ABQERR ends the analysis",
+                     .directory_routine = directory_routine(Solver::explicit_)});
   head.lists = all.lists;
   head.lists["remarks"] = fortran::comments(remarks);
-  head.text = {{"version", all.text.at("version")},
+  head.text = {{"head", all.text.at("head")},
                {"from", all.text.at("from")},
                {"n_props", std::to_string(property_count(inputs))}};
   return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));

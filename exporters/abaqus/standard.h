@@ -23,9 +23,10 @@ double smallest_pressure(const Table& table);
 
 // Fills in what both templates hold: head, histories, core with its gradient, stop, pmin and
 // smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_axes, refuses. Gives whether the
-// core holds ftqnan; `unknown` asks for it in any case.
+// core holds ftqnan; `unknown` asks for it in any case. `release` as in fortran::Head.
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
-                 const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown);
+                 const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown,
+                 const std::vector<std::string>& release = {});
 
 // Adds what keeps n values, of which those of codegen/histories.h are the last, proof against
 // iterations: text states_text (ftbegn, ftkeep), depvar, stamp, first, n_states.

@@ -132,6 +132,21 @@ std::vector<std::string> outside(const Table& table, const std::string& error_ac
   return lines;
 }
 
+std::string head_text(const ExportRequest& request, const std::vector<SolverInput>& inputs,
+                      const Head& head) {
+  std::vector<std::string> remarks = outside(request.table, head.error_action);
+  for (const std::string& line : values_file_lines(request, head.directory_routine))
+    remarks.push_back(line);
+  TemplateValues values;
+  values.text["version"] = FRICTAB_VERSION;
+  values.flags["of_a_release"] = !head.release.empty();
+  values.lists = {{"about", comments(about(request))},
+                  {"release", comments(head.release)},
+                  {"states", comments(state_lines(request, inputs))},
+                  {"outside", comments(remarks)}};
+  return without_last_break(render_template("fortran/frictab_head.f", values));
+}
+
 // ftload and what it calls.
 std::string values_unit(const std::vector<double>& numbers, const CoreOptions& options) {
   TemplateValues values;
@@ -175,24 +190,17 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
 }
 
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
-              const std::vector<SolverInput>& inputs, const std::string& error_action,
-              const std::string& directory_routine) {
+              const std::vector<SolverInput>& inputs, const Head& head) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  values.text["version"] = FRICTAB_VERSION;
+  values.text["head"] = head_text(request, inputs, head);
   values.text["from"] = table.is_direct() ? "by the law itself, no table" : "from a table";
   values.text["n_x"] = std::to_string(std::max<std::size_t>(inputs.size(), 1));
   values.text["stress"] = stress.name;
   values.text["length"] = solver_unit("mm", request.units).name;
   values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);
-  values.lists["about"] = comments(about(request));
-  values.lists["states"] = comments(state_lines(request, inputs));
   values.lists["properties"] = comments(property_lines(inputs));
   values.lists["source"] = comments({exporter.signature_source});
-  std::vector<std::string> remarks = outside(table, error_action);
-  for (const std::string& line : values_file_lines(request, directory_routine))
-    remarks.push_back(line);
-  values.lists["outside"] = comments(remarks);
   values.flags["refuses"] = refuses(table);
   values.offered = {"stress", "length", "to_solver", "properties"};
 }

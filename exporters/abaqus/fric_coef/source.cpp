@@ -2,7 +2,6 @@
 #include "source.h"
 
 #include "abaqus/standard.h"
-#include "codegen/fortran_parts.h"
 #include "codegen/histories.h"
 #include "core/error.h"
 
@@ -57,12 +56,14 @@ SolverGives given(bool release_2024) {
 
 std::vector<std::string> release_lines(bool release_2024) {
   if (release_2024)
-    return {"Verified: the list of the 2024 reference and of 3DEXPERIENCE, where fCoefDeriv is "
+    return {"ARGUMENT LIST OF RELEASE 2024.",
+            "Verified: the list of the 2024 reference and of 3DEXPERIENCE, where fCoefDeriv is "
             "(nBlock,20,2) and slipData (nBlock,6). Up to about 2020 it was another one of as many "
             "arguments, which no compiler tells apart; which release changed it is not known. "
             "Look into the manual of yours: a page that names slipRate instead of slipData needs "
             "[export.options] abaqus_release = \"2020\"."};
-  return {"Verified: the list of releases up to about 2020, where fCoefDeriv is (nBlock,3) and "
+  return {"ARGUMENT LIST OF RELEASE 2020.",
+          "Verified: the list of releases up to about 2020, where fCoefDeriv is (nBlock,3) and "
           "slipRate (nBlock). That of 2024 is another one of as many arguments, which no compiler "
           "tells apart; which release changed it is not known. Look into the manual of yours: a "
           "page that names slipData instead of slipRate needs [export.options] abaqus_release = "
@@ -92,16 +93,14 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
                      "argument list has no state variables",
                      "\"current\", or the target abaqus_fric");
   TemplateValues values;
-  values.flags["uses_unknown"] =
-      abaqus::add_routine(values, target(), request, inputs, gives(request), false);
+  values.flags["uses_unknown"] = abaqus::add_routine(values, target(), request, inputs,
+                                                     gives(request), false, release_lines(newer));
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
-  values.text["release"] = newer ? "2024" : "2020";
   values.text["n_props"] = std::to_string(property_count(inputs));
   abaqus::add_states(values, state_count(inputs));
-  values.lists["release_lines"] = fortran::comments(release_lines(newer));
   return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);
 }
 

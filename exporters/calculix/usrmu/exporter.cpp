@@ -46,7 +46,7 @@ const SolverGives& gives(const ExportRequest&) {
 std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values;
   fortran::add_head(values, *find_exporter("calculix_usrmu"), request, inputs,
-                    "STOP ends the analysis");
+                    {.error_action = "STOP ends the analysis"});
   const bool refuses = values.flags.at("refuses");
   values.text["least"] = fmt::format("{}", fortran::least_pressure);
   values.text["stress_convert"] = fortran_conversion(solver_unit("MPa", request.units));

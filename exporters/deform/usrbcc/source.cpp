@@ -145,7 +145,7 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   const SolverUnit stress = solver_unit("MPa", request.units);
   TemplateValues values;
   fortran::add_head(values, *find_exporter("deform_usrbcc"), request, inputs,
-                    "FTQUIT ends the simulation");
+                    {.error_action = "FTQUIT ends the simulation"});
   const bool refuses = values.flags["refuses"];
   values.lists["result"] = fortran::comments({result_text(kind, stress.name)});
   values.text["result_name"] = result_name(kind);

@@ -55,7 +55,7 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   const std::string end = "call cstop('E r r o r   t e r m i n a t i o n')";
   TemplateValues values;
   fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,
-                    "CSTOP ends the analysis");
+                    {.error_action = "CSTOP ends the analysis"});
   const std::size_t before_rest = before_histories + history_count(inputs);
   fortran::add_histories(values, inputs, request.units, false);
   values.text["n_history"] = std::to_string(state_count(table, inputs));

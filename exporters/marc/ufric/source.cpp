@@ -78,7 +78,7 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
                      "a stress-based friction model and marc_normal = \"stress\"");
   TemplateValues values;
   fortran::add_head(values, *find_exporter("marc_ufric"), request, inputs,
-                    "QUIT ends the analysis");
+                    {.error_action = "QUIT ends the analysis"});
   const bool refuses = values.flags["refuses"];
   const bool coulomb = chosen.coefficient == Coefficient::coulomb;
   const SolverUnit stress = solver_unit("MPa", request.units);
