@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
@@ -25,17 +26,8 @@ BuildVariant variant(const std::string& name, const std::string& real, int dimen
                      const std::string& file) {
   BuildVariant out;
   out.name = name;
-  out.command = {"gfortran",
-                 "-O2",
-                 "-std=legacy",
-                 "-ffixed-line-length-72",
-                 "-ffp-contract=off",
-                 "-fPIC",
-                 "-shared",
-                 "-I@{dir}",
-                 "-o",
-                 "@{out}",
-                 "@{dir}/" + file};
+  out.command = fortran::library_command({"-I@{dir}"});
+  out.command.push_back("@{dir}/" + file);
   out.extra["vaba_param.inc"] =
       fmt::format("C     Stand-in for the solver's include, for tests outside the solver.\n"
                   "      implicit {} (a-h,o-z)\n"
@@ -59,7 +51,8 @@ std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const 
 
 void add_compile(nlohmann::ordered_json& recipe, const std::string& file) {
   recipe["compile"] = {fmt::format("abaqus job=<job> user={} double=explicit", file),
-                       fmt::format("abaqus job=<job> user={}", file), fixed_form_check(file)};
+                       fmt::format("abaqus job=<job> user={}", file),
+                       fortran::fixed_form_check(file)};
   recipe["compile_note"] =
       "the last line only checks the source, beside a vaba_param.inc of your own";
 }

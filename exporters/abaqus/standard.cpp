@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
@@ -33,17 +34,8 @@ std::vector<std::string> coefficient_lines(bool frozen) {
 BuildVariant variant(const std::string& file, bool ends) {
   BuildVariant out;
   out.name = "double";
-  out.command = {"gfortran",
-                 "-O2",
-                 "-std=legacy",
-                 "-ffixed-line-length-72",
-                 "-ffp-contract=off",
-                 "-fPIC",
-                 "-shared",
-                 "-I@{dir}",
-                 "-o",
-                 "@{out}",
-                 "@{dir}/" + file};
+  out.command = fortran::library_command({"-I@{dir}"});
+  out.command.push_back("@{dir}/" + file);
   out.extra["aba_param.inc"] =
       "C     Stand-in for the solver's include, for tests outside the solver.\n"
       "      implicit real*8 (a-h,o-z)\n"

@@ -57,27 +57,4 @@ bool ends(const ExportRequest& request) {
   return refuses(request.table) || values_in_file(request);
 }
 
-BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
-                             const std::vector<std::string>& sources,
-                             const std::vector<std::string>& flags, bool quits) {
-  BuildVariant out;
-  out.name = name;
-  out.eps = eps;
-  out.command = {"gfortran",          "-O2",   "-std=legacy", "-ffixed-line-length-72",
-                 "-ffp-contract=off", "-fPIC", "-shared"};
-  out.command.insert(out.command.end(), flags.begin(), flags.end());
-  out.command.insert(out.command.end(), {"-o", "@{out}"});
-  if (quits || ends(request)) { // of two definitions the linker takes the first
-    out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
-    out.extra["ftquit.f"] =
-        "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
-        "      subroutine ftquit(text)\n"
-        "      character*(*) text\n"
-        "      end\n";
-  }
-  for (const std::string& source : sources)
-    out.command.push_back("@{dir}/" + source);
-  return out;
-}
-
 } // namespace frictab::fortran

@@ -1,9 +1,8 @@
 // How a Fortran routine ends the analysis where a side of an axis has outside = error, for solvers
-// without a message routine of their own; and how such sources are compiled to be driven here.
+// without a message routine of their own.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "codegen/exporter.h"
 
@@ -25,12 +24,5 @@ std::string say();
 // Whether a routine of this request can end the analysis: where a side refuses, or a file of values
 // cannot be read.
 bool ends(const ExportRequest& request);
-
-// How gfortran makes a library of these files of the bundle. Where they hold an ftquit, one that
-// comes back in silence takes its place, so that rows can be driven one after another. `quits` as
-// in CoreOptions, eps as in BuildVariant.
-BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
-                             const std::vector<std::string>& sources,
-                             const std::vector<std::string>& flags = {}, bool quits = false);
 
 } // namespace frictab::fortran

@@ -92,10 +92,6 @@ json recipe_table(const ExportRequest& request) {
   return out;
 }
 
-std::string fixed_form_check(const std::string& file) {
-  return "gfortran -c -O2 -std=legacy -ffixed-line-length-72 -ffp-contract=off " + file;
-}
-
 bool is_direct_recipe(const std::string& text, const std::string& file) {
   const json recipe = parse_json(text, file);
   return recipe.is_object() && recipe.value("form", json("table")) == "direct";

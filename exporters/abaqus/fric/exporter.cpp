@@ -7,6 +7,7 @@
 
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
+#include "codegen/fortran_build.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
@@ -69,7 +70,8 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
   out["state_variables_by"] = "contact point";
   out["state_variables"] = state_variables(request, inputs);
   out["properties"] = properties(request, inputs);
-  out["compile"] = {"abaqus job=<job> user=frictab_fric.f", fixed_form_check("frictab_fric.f")};
+  out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
+                    fortran::fixed_form_check("frictab_fric.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
   out["input_deck"] = input_deck(inputs);
 }

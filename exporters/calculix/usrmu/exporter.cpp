@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
@@ -76,7 +77,7 @@ void add_recipe(json& out, const ExportRequest&, const std::vector<SolverInput>&
       "sh frictab_hook.sh <its folder src>: puts calls of USRMU where friction is limited",
       "build as its README says, with frictab_usrmu.f among the objects (gfortran "
       "-frecursive)"};
-  out["compile"] = {fixed_form_check(file)};
+  out["compile"] = {fortran::fixed_form_check(file)};
   out["compile_note"] = "this line only checks the source; the program is built as `build` says";
   out["input_deck"] = "*Surface Interaction, name=FRICTAB\n"
                       "*Surface Behavior, pressure-overclosure=LINEAR\n <stiffness>\n"

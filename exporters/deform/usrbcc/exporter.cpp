@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/fortran_stop.h"
+#include "codegen/fortran_build.h"
 #include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
@@ -80,7 +80,7 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
   out["build"] = build_steps(inputs);
-  out["compile"] = {fixed_form_check("frictab_usrbcc.f")};
+  out["compile"] = {fortran::fixed_form_check("frictab_usrbcc.f")};
   out["compile_note"] = "this line only checks the source; the engine is built as `build` says";
   out["input_deck"] = keyword(kind);
   out["input_deck_note"] =

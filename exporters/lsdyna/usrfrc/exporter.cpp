@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "codegen/fortran_stop.h"
+#include "codegen/fortran_build.h"
 #include "codegen/histories.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
@@ -69,7 +69,7 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
                   "object package; older ones end at isurface and have no history",
                   "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
                   "build with the package's Makefile, which sets the kinds of real and integer"};
-  out["compile"] = {"make", fixed_form_check("frictab_usrfrc.f")};
+  out["compile"] = {"make", fortran::fixed_form_check("frictab_usrfrc.f")};
   out["compile_note"] = "the last line only checks the source";
   out["input_deck"] = keywords(request.table, inputs);
   out["input_deck_note"] =

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
@@ -51,7 +52,7 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
   out["properties"] = json::array();
   out["constants"] = "COMMON /FTCONS/ CST(n), canonical units, filled in BLOCK DATA FTDATA";
   out["compile"] = {"run_marc -jid <job> -user frictab_ufric.f",
-                    fixed_form_check("frictab_ufric.f")};
+                    fortran::fixed_form_check("frictab_ufric.f")};
   out["compile_note"] = "the first line is recalled; the last one only checks the source";
   out["input_deck"] = input_deck(chosen);
 }

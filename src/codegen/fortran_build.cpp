@@ -1,0 +1,49 @@
+// The flags of gfortran, and a stand-in for what ends an analysis.
+#include "codegen/fortran_build.h"
+
+#include "codegen/fortran_stop.h"
+#include "core/text.h"
+
+namespace frictab::fortran {
+
+namespace {
+
+const std::vector<std::string> fixed_form_flags = {"-O2", "-std=legacy", "-ffixed-line-length-72",
+                                                   "-ffp-contract=off"};
+
+} // namespace
+
+std::vector<std::string> library_command(const std::vector<std::string>& flags) {
+  std::vector<std::string> command = {"gfortran"};
+  command.insert(command.end(), fixed_form_flags.begin(), fixed_form_flags.end());
+  command.insert(command.end(), {"-fPIC", "-shared"});
+  command.insert(command.end(), flags.begin(), flags.end());
+  command.insert(command.end(), {"-o", "@{out}"});
+  return command;
+}
+
+std::string fixed_form_check(const std::string& file) {
+  return "gfortran -c " + join(fixed_form_flags, " ") + " " + file;
+}
+
+BuildVariant fortran_variant(const ExportRequest& request, const std::string& name, double eps,
+                             const std::vector<std::string>& sources,
+                             const std::vector<std::string>& flags, bool quits) {
+  BuildVariant out;
+  out.name = name;
+  out.eps = eps;
+  out.command = library_command(flags);
+  if (quits || ends(request)) { // of two definitions the linker takes the first
+    out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
+    out.extra["ftquit.f"] =
+        "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
+        "      subroutine ftquit(text)\n"
+        "      character*(*) text\n"
+        "      end\n";
+  }
+  for (const std::string& source : sources)
+    out.command.push_back("@{dir}/" + source);
+  return out;
+}
+
+} // namespace frictab::fortran
