@@ -19,16 +19,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double bound = 1e-13; // the order of operations only
 constexpr double psi = 2.5, flow = 480;
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fimplicit-none",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 // A contact point that slides by 0.05 mm in 1 ms, at 1000 MPa and 100 degC, 2 mm from its start.
 struct Spring {
   double pressure = 1000, temperature = 100, time = 1e-3;
@@ -64,7 +54,7 @@ protected:
     return four;
   }
   static const Library& routine() {
-    return *test::compiled("four", target(), request(table()), "double", strict);
+    return *test::compiled("four", target(), request(table()), "double", test::strict_declared);
   }
   static double mu(double pressure, double speed, double temperature) {
     static const TableFunction tau(table());
@@ -82,15 +72,8 @@ TEST_F(SlowCalculix, AgreesWithFrictabForEveryTableAndUnit) {
     for (const std::string units : {"mm-t-s", "m-kg-s"}) {
       SCOPED_TRACE(sample.name + " " + units);
       const test::SampleRequest sampled(target(), sample.table, units);
-      const ExportRequest asked = sampled.get();
-      const test::States states(sample.table, 20000, 11, 0.1);
-      const std::vector<double> truth = test::expected(sample.table, states);
-      std::vector<double> tau(truth.size(), -1);
-      BuildVariant variant = target().variants(asked)[0];
-      variant.command.insert(variant.command.begin() + 1, strict.begin(), strict.end());
-      CompiledTarget(target(), asked, target().generate(asked), variant)
-          .drive(tau.size(), states.columns(), tau);
-      EXPECT_LE(test::worst_relative(tau, truth), bound);
+      EXPECT_LE(test::worst_driven(target(), sampled.get(), "double", test::strict_declared),
+                bound);
     }
 }
 
@@ -108,7 +91,7 @@ TEST_F(Calculix, TakesTheTangentialDisplacementAsTheSlidingDistance) {
   Table slides = test::constant_table();
   slides.combine = Expr::symbol("sigma_n_MPa") * Expr::symbol("s_mm");
   const Library& library =
-      *test::compiled("slides", target(), {slides, "mm-t-s", {}}, "double", strict);
+      *test::compiled("slides", target(), {slides, "mm-t-s", {}}, "double", test::strict_declared);
   EXPECT_CLOSE(Spring().run(library), 2.0);
 }
 

@@ -34,16 +34,6 @@ constexpr double bound = 1e-13; // the order of operations only
 constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fimplicit-none",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 const Exporter& deform() {
   return *find_exporter("deform_usrbcc");
 }
@@ -63,7 +53,7 @@ struct SlowDeform : testing::Test {
   }
 
   void use(const std::string& key, const ExportRequest& asked) {
-    library = test::compiled(key, deform(), asked, "double", strict);
+    library = test::compiled(key, deform(), asked, "double", test::strict_declared);
     contact = library->find<Ufhcom>("ufhcom_");
     surface = library->find<Ufhcom2>("ufhcom2_");
     *contact = {20, 20, 50, 1000};
@@ -105,14 +95,7 @@ TEST_F(SlowDeform, AgreesWithFrictabForEveryTableAndFrictionType) {
     for (const auto& [friction, units] : choices) {
       SCOPED_TRACE(sample.name + " " + units + " " + friction);
       const ExportRequest asked = request(sample.table, friction, {}, units);
-      const test::States states(sample.table, 20000, 11, 0.1);
-      const std::vector<double> truth = test::expected(sample.table, states);
-      std::vector<double> result(truth.size(), -1);
-      BuildVariant variant = deform().variants(asked)[0];
-      variant.command.insert(variant.command.begin() + 1, strict.begin(), strict.end());
-      CompiledTarget(deform(), asked, deform().generate(asked), variant)
-          .drive(result.size(), states.columns(), result);
-      EXPECT_LE(test::worst_relative(result, truth), bound);
+      EXPECT_LE(test::worst_driven(deform(), asked, "double", test::strict_declared), bound);
     }
 }
 

@@ -37,10 +37,8 @@ TEST(SlowExport, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
       for (const BuildVariant& variant : exporter.variants(request)) {
         if (variant.program() != "gfortran") continue;
         SCOPED_TRACE(exporter.name + " " + sample.name + " " + variant.name);
-        // The include's constants and the solver's other arguments are not ours to use.
         EXPECT_NO_THROW(test::compiled(sample.name + " warnings", exporter, request, variant.name,
-                                       {"-Wall", "-Wextra", "-Werror", "-Wno-unused-dummy-argument",
-                                        "-Wno-unused-parameter"}));
+                                       test::no_warnings));
       }
     }
 }

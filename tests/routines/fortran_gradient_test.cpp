@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "codegen/compile.h"
+#include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "support/generated.h"
 #include "support/sample_data.h"
@@ -27,23 +28,8 @@ public:
   explicit Core(const Table& table) : inputs_(table.inputs().size()) {
     BuildVariant build;
     build.name = "core";
-    build.command = {"gfortran",
-                     "-O2",
-                     "-std=legacy",
-                     "-ffixed-line-length-72",
-                     "-ffp-contract=off",
-                     "-Wall",
-                     "-Wextra",
-                     "-Werror",
-                     "-Wno-unused-dummy-argument",
-                     "-Wno-unused-parameter",
-                     "-fcheck=all",
-                     "-ffpe-trap=invalid,zero,overflow",
-                     "-fPIC",
-                     "-shared",
-                     "-o",
-                     "@{out}",
-                     "@{dir}/core.f"};
+    build.command = fortran::library_command(test::strict);
+    build.command.push_back("@{dir}/core.f");
     text = fortran::core({.table = table}, {.gradient = true}).text + "\n";
     library_ = std::make_unique<Library>(compile_library({{"core.f", text}}, build, work_.path()));
     gradient_ = library_->find<void(const double*, double*, double*)>("ftgrad_");

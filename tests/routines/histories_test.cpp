@@ -16,15 +16,6 @@ namespace frictab {
 
 namespace {
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 // mu over sliding distance, friction work and peak pressure, as a traced law has them.
 Table history_table() {
   Table table;
@@ -87,7 +78,8 @@ protected:
 
   static void* routine(const std::string& key, const Table& table, const std::string& units) {
     return Library::address(test::compiled(key + units, *find_exporter(Point::target),
-                                           {table, units, {}}, single ? "single" : "double", strict)
+                                           {table, units, {}}, single ? "single" : "double",
+                                           test::strict)
                                 ->handle(),
                             Point::entry);
   }

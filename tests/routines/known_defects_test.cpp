@@ -24,7 +24,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 const std::vector<std::string> targets = {"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"};
-const std::vector<std::string> checked = {"-fcheck=all", "-g", "-ffpe-trap=invalid,zero,overflow"};
 
 std::string source(const std::string& target, const Table& table) {
   const SourceBundle files = find_exporter(target)->generate({table, "mm-t-s", {}});
@@ -42,7 +41,7 @@ std::string code(const std::string& target, const Table& table) {
 
 template <class Real>
 void* routine(const std::string& target, const std::string& key, const Table& table,
-              const std::vector<std::string>& flags = checked) {
+              const std::vector<std::string>& flags = test::run_checks) {
   return Library::address(test::compiled("defects " + key, *find_exporter(target),
                                          {table, "mm-t-s", {}},
                                          sizeof(Real) == 4 ? "single" : "double", flags)

@@ -24,16 +24,6 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double psi = 2.5, flow = 480;
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fimplicit-none",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 const Exporter& lsdyna() {
   return *find_exporter("lsdyna_usrfrc");
 }
@@ -53,7 +43,7 @@ template <class Real> struct SlowLsDyna : testing::Test {
   static const Library& library(const std::string& key, const Table& table,
                                 const std::map<std::string, std::string>& inputs = {},
                                 const std::string& units = "mm-t-s") {
-    return *test::compiled(key, lsdyna(), {table, units, inputs}, variant, strict);
+    return *test::compiled(key, lsdyna(), {table, units, inputs}, variant, test::strict_declared);
   }
   static const Library& four_axes() { return library("four_axes", four_axis()); }
   static const Library& branching() { return library("branching", test::branching_table()); }
@@ -106,15 +96,11 @@ TYPED_TEST(SlowLsDyna, AgreesWithFrictabForEveryTableAndUnit) {
     for (const std::string units : {"mm-t-s", "m-kg-s"}) {
       SCOPED_TRACE(sample.name + " " + units);
       const ExportRequest asked{sample.table, units, {}};
-      const test::States states(sample.table, 20000, 11, 0.1,
-                                {{"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}});
-      const std::vector<double> truth = test::expected(sample.table, states);
-      std::vector<double> result(truth.size(), -1);
-      BuildVariant build = lsdyna().variants(asked)[TestFixture::single ? 1 : 0];
-      build.command.insert(build.command.begin() + 1, strict.begin(), strict.end());
-      CompiledTarget(lsdyna(), asked, lsdyna().generate(asked), build)
-          .drive(result.size(), states.columns(), result);
-      EXPECT_LE(test::worst_relative(result, truth), TestFixture::bound);
+      EXPECT_LE(
+          test::worst_driven(lsdyna(), asked, TestFixture::single ? "single" : "double",
+                             test::strict_declared,
+                             {{"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}}),
+          TestFixture::bound);
     }
 }
 

@@ -24,16 +24,6 @@ constexpr double bound = 1e-13; // the order of operations only
 constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fimplicit-none",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 const Exporter& marc() {
   return *find_exporter("marc_ufric");
 }
@@ -52,8 +42,8 @@ protected:
   }
 
   static void* routine(const std::string& key, const ExportRequest& request) {
-    return Library::address(test::compiled(key, marc(), request, "double", strict)->handle(),
-                            "ufric_");
+    return Library::address(
+        test::compiled(key, marc(), request, "double", test::strict_declared)->handle(), "ufric_");
   }
   static const Table& four_axis() {
     static const Table table = test::four_axis_table();
@@ -97,14 +87,7 @@ TEST_F(SlowMarc, AgreesWithFrictabForEveryTableUnitAndChoice) {
         SCOPED_TRACE(sample.name + " " + units + " " + friction);
         const ExportRequest asked =
             request(sample.table, {{"marc_friction", friction}, {"marc_dimension", "3d"}}, units);
-        const test::States states(sample.table, 20000, 11, 0.1);
-        const std::vector<double> truth = test::expected(sample.table, states);
-        std::vector<double> tau(truth.size(), -1);
-        BuildVariant variant = marc().variants(asked)[0];
-        variant.command.insert(variant.command.begin() + 1, strict.begin(), strict.end());
-        CompiledTarget(marc(), asked, marc().generate(asked), variant)
-            .drive(tau.size(), states.columns(), tau);
-        EXPECT_LE(test::worst_relative(tau, truth), bound);
+        EXPECT_LE(test::worst_driven(marc(), asked, "double", test::strict_declared), bound);
       }
 }
 

@@ -230,8 +230,7 @@ protected:
     const ExportRequest request{table, "mm-t-s", {}};
     BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
     variant.extra["solver.f"] = keeper;
-    for (const char* flag : {"-fcheck=all", "-ffpe-trap=invalid,zero,overflow"})
-      variant.command.insert(variant.command.begin() + 1, flag);
+    test::add_flags(variant, test::run_checks);
     library = std::make_unique<Library>(
         compile_library(exporter.generate(request), variant, work.path()));
     seen = library->find<Seen>("ftseen_");

@@ -6,18 +6,10 @@
 #include <tuple>
 #include <vector>
 
+#include "support/generated.h"
 #include "support/sample_tables.h"
 
 namespace frictab::test {
-
-inline const std::vector<std::string> strict = {"-Wall",
-                                                "-Wextra",
-                                                "-Werror",
-                                                "-Wno-unused-dummy-argument",
-                                                "-Wno-unused-parameter",
-                                                "-fcheck=all",
-                                                "-g",
-                                                "-ffpe-trap=invalid,zero,overflow"};
 
 // psi, sigma_f: what the tests pass as properties.
 inline constexpr double psi = 2.5, flow = 480;

@@ -31,11 +31,8 @@ std::vector<const Exporter*> with_values_option() {
   return out;
 }
 
-// (CalculiX knows no flow stress, and a sample's table has no range of it to take one from.)
 ExportRequest request_of(const Exporter& exporter, const Table& table, const std::string& values) {
-  std::map<std::string, std::string> inputs;
-  if (exporter.name == "calculix_usrmu") inputs = {{"sigma_f_MPa", "constant:480"}};
-  return {table, "mm-t-s", inputs, {{values_option().name, values}}};
+  return {table, "mm-t-s", test::sample_inputs(exporter), {{values_option().name, values}}};
 }
 
 // Tables with axes: the others have no values to put away.

@@ -20,15 +20,6 @@ using calls::VfricCoefCall;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 // psi, sigma_f: what the tests pass as properties; T is property 2 of the four-axis table.
 constexpr double psi = 2.5, flow = 480;
 constexpr double shear_limit = 0.8 * 0.5773502691896258 * flow;
@@ -46,7 +37,7 @@ protected:
   static void* routine(const std::string& key, const Table& table,
                        const std::map<std::string, std::string>& inputs = {},
                        const std::string& units = "mm-t-s",
-                       const std::vector<std::string>& flags = strict) {
+                       const std::vector<std::string>& flags = test::strict) {
     const ExportRequest request{table, units, inputs};
     return Library::address(test::compiled(key, *find_exporter("abaqus_vfric_coef"), request,
                                            single ? "single" : "double", flags)

@@ -20,15 +20,6 @@ using calls::VfricCall;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> strict = {"-Wall",
-                                         "-Wextra",
-                                         "-Werror",
-                                         "-Wno-unused-dummy-argument",
-                                         "-Wno-unused-parameter",
-                                         "-fcheck=all",
-                                         "-g",
-                                         "-ffpe-trap=invalid,zero,overflow"};
-
 // psi, sigma_f: what the tests pass as properties; T is property 2 of the four-axis table.
 constexpr double psi = 2.5, flow = 480;
 
@@ -47,7 +38,7 @@ protected:
                        const std::string& units = "mm-t-s") {
     const ExportRequest request{table, units, inputs};
     return Library::address(test::compiled(key, *find_exporter("abaqus_vfric"), request,
-                                           single ? "single" : "double", strict)
+                                           single ? "single" : "double", test::strict)
                                 ->handle(),
                             "vfric_");
   }

@@ -13,6 +13,7 @@
 
 #include "codegen/values_file.h"
 #include "core/text.h"
+#include "support/sample_tables.h"
 
 namespace frictab::test {
 
@@ -41,6 +42,21 @@ void keep_values(const SourceBundle& bundle, const fs::path& directory) {
   fs::rename(own, directory / values_file_name);
 }
 
+std::vector<std::string> both(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+BuildVariant variant_of(const Exporter& exporter, const ExportRequest& request,
+                        const std::string& name, const std::vector<std::string>& flags) {
+  for (BuildVariant& build : exporter.variants(request)) {
+    if (build.name != name) continue;
+    add_flags(build, flags);
+    return build;
+  }
+  throw std::logic_error("no variant " + exporter.name + "/" + name);
+}
+
 std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVariant& build) {
   const fs::path kept = kept_library(bundle, build);
   keep_values(bundle, fs::path(kept).replace_extension());
@@ -59,20 +75,33 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
 
 } // namespace
 
+const std::vector<std::string> strict = both(no_warnings, run_checks);
+const std::vector<std::string> strict_declared = both(strict, {"-fimplicit-none"});
+
+void add_flags(BuildVariant& variant, const std::vector<std::string>& flags) {
+  variant.command.insert(variant.command.begin() + 1, flags.begin(), flags.end());
+}
+
 const Library* compiled(const std::string& key, const Exporter& exporter,
                         const ExportRequest& request, const std::string& variant,
                         const std::vector<std::string>& flags) {
   static std::map<std::string, std::unique_ptr<Library>> libraries;
   const std::string name = exporter.name + "/" + variant + "/" + key;
   if (const auto found = libraries.find(name); found != libraries.end()) return found->second.get();
-  for (BuildVariant build : exporter.variants(request)) {
-    if (build.name != variant) continue;
-    if (!have_program(build.command[0])) return nullptr;
-    build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
-    return libraries.emplace(name, library_of(exporter.generate(request), build))
-        .first->second.get();
-  }
-  throw std::logic_error("no variant " + name);
+  const BuildVariant build = variant_of(exporter, request, variant, flags);
+  if (!have_program(build.command[0])) return nullptr;
+  return libraries.emplace(name, library_of(exporter.generate(request), build)).first->second.get();
+}
+
+double worst_driven(const Exporter& exporter, const ExportRequest& request,
+                    const std::string& variant, const std::vector<std::string>& flags,
+                    const std::map<std::string, double>& fixed) {
+  const States states(request.table, 20000, 11, 0.1, fixed);
+  std::vector<double> tau(states.rows(), -1);
+  CompiledTarget(exporter, request, exporter.generate(request),
+                 variant_of(exporter, request, variant, flags))
+      .drive(tau.size(), states.columns(), tau);
+  return worst_relative(tau, expected(request.table, states));
 }
 
 FloatTraps::FloatTraps() {

@@ -1,6 +1,9 @@
-// Compiled routines for tests: each combination is compiled once per test program.
+// Compiled routines for tests: each combination is compiled once per test program. Generated
+// Fortran has to compile without a warning, and to run with bounds checked and floating point traps
+// on.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,10 +13,29 @@
 
 namespace frictab::test {
 
+// For gfortran. (The constants of a solver's include, and its other arguments, are not ours to
+// use.)
+inline const std::vector<std::string> no_warnings = {
+    "-Wall", "-Wextra", "-Werror", "-Wno-unused-dummy-argument", "-Wno-unused-parameter"};
+inline const std::vector<std::string> run_checks = {"-fcheck=all", "-g",
+                                                    "-ffpe-trap=invalid,zero,overflow"};
+// Both; the second also where no include of the solver gives names a type by their first letter.
+extern const std::vector<std::string> strict, strict_declared;
+
+// Behind the compiler's name.
+void add_flags(BuildVariant& variant, const std::vector<std::string>& flags);
+
 // The named variant of a target with further compiler flags; nullptr where the compiler is missing.
 const Library* compiled(const std::string& key, const Exporter& exporter,
                         const ExportRequest& request, const std::string& variant,
                         const std::vector<std::string>& flags = {});
+
+// Drives the named variant, with further compiler flags, over 20,000 rows of the request's table,
+// 10 % beyond the ends of its axes (`fixed` as in States): the largest relative difference from
+// frictab.
+double worst_driven(const Exporter& exporter, const ExportRequest& request,
+                    const std::string& variant, const std::vector<std::string>& flags,
+                    const std::map<std::string, double>& fixed = {});
 
 // Turns invalid operations, divisions by zero and overflows into a signal while it lives.
 class FloatTraps {

@@ -264,13 +264,17 @@ const std::vector<NamedTable>& sample_tables() {
   return tables;
 }
 
+std::map<std::string, std::string> sample_inputs(const Exporter& exporter) {
+  const bool knows_flow_stress = exporter.whole() && exporter.name != "calculix_usrmu";
+  if (knows_flow_stress) return {};
+  return {{"sigma_f_MPa", "constant:480"}};
+}
+
 SampleRequest::SampleRequest(const Exporter& exporter, const Table& table, const std::string& units)
-    : table_(table), units_(units) {
-  if (exporter.name == "calculix_usrmu") inputs_ = {{"sigma_f_MPa", "constant:480"}};
+    : table_(table), units_(units), inputs_(sample_inputs(exporter)) {
   if (exporter.whole()) return;
   table_.record.tolerance_MPa = 40;
   table_.record.worst_case_MPa = 0.25;
-  inputs_ = {{"sigma_f_MPa", "constant:480"}};
 }
 
 States::States(const Table& table, std::size_t rows, std::uint64_t seed, double spread,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,12 @@ struct NamedTable {
 };
 const std::vector<NamedTable>& sample_tables();
 
-// What a target is asked for of a sample: a solver's own table gets a flow stress to hold and a
-// tolerance that keeps its text short (the samples' values are rough).
+// The job's [export.inputs] for a sample: a flow stress for targets whose solver knows none and
+// takes a constant, or holds it. The samples have no range of it to take one from.
+std::map<std::string, std::string> sample_inputs(const Exporter& exporter);
+
+// What a target is asked for of a sample: sample_inputs(); a solver's own table gets a tolerance
+// that keeps its text short (the samples' values are rough).
 class SampleRequest {
 public:
   SampleRequest(const Exporter& exporter, const Table& table, const std::string& units);
