@@ -90,7 +90,8 @@ void read_keyword(std::string_view line, NativeValues& values) {
     if (cells[i].starts_with("TAUMAX=")) values.limit = read_number(cells[i].substr(7));
 }
 
-NativeValues read(const std::string& text, const std::vector<NativeColumn>& columns) {
+NativeValues read(const std::string& text, const ExportRequest& request) {
+  const std::vector<NativeColumn> columns = native_columns(request, form(request));
   const auto lines = deck_lines(text, "**");
   if (lines.empty()) throw std::runtime_error("no *FRICTION line");
   NativeValues keyword;
@@ -135,10 +136,7 @@ NativeTarget target() {
           .file = file_name,
           .form = form,
           .write = write,
-          .read =
-              [](const std::string& text, const ExportRequest& request) {
-                return read(text, native_columns(request, form(request)));
-              },
+          .read = read,
           .entry = "*FRICTION",
           .input_deck =
               "*Surface Interaction, name=FRICTAB\n*Include, input=frictab_friction.inp\n",

@@ -67,7 +67,8 @@ std::string write(const ExportRequest&, const NativeTable& table,
   return render_template("ansys/table/frictab_friction.mac", values);
 }
 
-NativeValues read(const std::string& text, const std::vector<NativeColumn>& columns) {
+NativeValues read(const std::string& text, const ExportRequest& request) {
+  const std::vector<NativeColumn> columns = native_columns(request, form(request));
   std::map<std::string, double, std::less<>> now;
   std::vector<std::vector<double>> places;
   std::vector<double> value;
@@ -120,10 +121,7 @@ NativeTarget target() {
           .file = file_name,
           .form = form,
           .write = write,
-          .read =
-              [](const std::string& text, const ExportRequest& request) {
-                return read(text, native_columns(request, form(request)));
-              },
+          .read = read,
           .entry = "TB,FRIC",
           .input_deck =
               "/PREP7\nft_mat = 1   ! material of the contact pair\nft_real = 1  ! its real "

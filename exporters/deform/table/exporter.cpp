@@ -74,11 +74,11 @@ std::vector<double> numbers(std::string_view line) {
   return out;
 }
 
-NativeValues read(const std::string& text, bool shear) {
+NativeValues read(const std::string& text, const ExportRequest& request) {
   const auto lines = deck_lines(text, "*");
   if (lines.size() < 5 || !lines[0].starts_with("FRCFAC ")) throw std::runtime_error("no FRCFAC");
   const std::vector<double> head = numbers(lines[0].substr(7));
-  if (head.size() != 7 || head[2] != (shear ? 1 : 2) || head[3] != 5)
+  if (head.size() != 7 || head[2] != (is_shear(request) ? 1 : 2) || head[3] != 5)
     throw std::runtime_error("FRCFAC is of another type");
   NativeValues out;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -123,8 +123,7 @@ NativeTarget target() {
           .file = file_name,
           .form = form,
           .write = write,
-          .read = [](const std::string& text,
-                     const ExportRequest& request) { return read(text, is_shear(request)); },
+          .read = read,
           .entry = "FRCFAC",
           .input_deck = "load frictab_frcfac.key in the preprocessor, with your object numbers in "
                         "its FRCFAC line",

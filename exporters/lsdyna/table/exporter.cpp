@@ -78,7 +78,7 @@ double number_of(std::string_view line) {
   return read_number(cells.size() == 1 ? cells[0] : line);
 }
 
-NativeValues read(const std::string& text) {
+NativeValues read(const std::string& text, const ExportRequest&) {
   const auto lines = deck_lines(text, "$");
   if (lines.empty() || lines[0] != "*DEFINE_TABLE") throw std::runtime_error("no *DEFINE_TABLE");
   std::vector<double> speeds, value;
@@ -129,7 +129,7 @@ NativeTarget target() {
       .file = file_name,
       .form = form,
       .write = write,
-      .read = [](const std::string& text, const ExportRequest&) { return read(text); },
+      .read = read,
       .entry = fmt::format("*DEFINE_TABLE {}", table_id),
       .input_deck = input_deck(),
       .plain_name = "lsdyna",
