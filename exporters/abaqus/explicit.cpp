@@ -1,15 +1,12 @@
 // Statements, heads and build variants of the targets for Abaqus/Explicit.
 #include "explicit.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
-#include "codegen/recipe.h"
 #include "stop.h"
 
 namespace frictab::abaqus {

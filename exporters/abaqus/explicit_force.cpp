@@ -1,6 +1,8 @@
 // VFRIC and VFRICTION: source and recipe from what they differ by.
 #include "explicit.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,10 +10,8 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 #include "codegen/number_text.h"
-#include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/solver_units.h"
-#include "codegen/values_file.h"
 #include "core/text.h"
 #include "deck.h"
 #include "stop.h"

@@ -1,7 +1,6 @@
 // What the targets for Abaqus/Standard share: choices, units, states, how they are compiled here.
 #pragma once
 
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
+#include "codegen/template.h"
 
 namespace frictab::abaqus {
 

@@ -1,7 +1,6 @@
 // Target `fortran`: the law as a module of Fortran 2008. Fills templates/fortran/frictab_tau_R.f90.
 #include "codegen/exporter.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "codegen/call_entry.h"

@@ -1,6 +1,7 @@
 // Names, comments, the law's own formula and the sides of the axes in fixed form.
 #include "codegen/fortran_parts.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>

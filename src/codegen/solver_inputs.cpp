@@ -1,6 +1,7 @@
 // Reads the job's [export.inputs] against a solver's table, and writes the Fortran that it has for
 // each state.
 #include "codegen/solver_inputs.h"
+#include "codegen/template.h"
 
 #include <algorithm>
 #include <charconv>

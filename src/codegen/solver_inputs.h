@@ -10,7 +10,6 @@
 
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
-#include "codegen/template.h"
 
 namespace frictab {
 

@@ -8,7 +8,6 @@
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
 #include "codegen/fortran_build.h"
-#include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"

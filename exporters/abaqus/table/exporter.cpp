@@ -1,6 +1,7 @@
 // Target `abaqus_table`: data lines of *FRICTION without USER, for Abaqus/Standard and /Explicit.
 #include "codegen/exporter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include "codegen/native_table.h"
 #include "codegen/template.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
 
 namespace frictab::abaqus::table {
 

@@ -9,7 +9,6 @@
 
 #include "codegen/native_table.h"
 #include "codegen/template.h"
-#include "io/atomic_file.h"
 
 namespace frictab::ansys::table {
 

@@ -2,12 +2,11 @@
 // in 2-D and 3-D.
 #include "codegen/exporter.h"
 
-#include <fmt/format.h>
+#include <span>
 
 #include "codegen/native_table.h"
 #include "codegen/template.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
 
 namespace frictab::deform::table {
 

@@ -7,7 +7,6 @@
 
 #include "codegen/fortran_build.h"
 #include "codegen/histories.h"
-#include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"

@@ -2,14 +2,11 @@
 // over pressure, as FS=2 of *CONTACT_..._SURFACE_TO_SURFACE reads it.
 #include "codegen/exporter.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "codegen/native_table.h"
 #include "codegen/solver_units.h"
 #include "codegen/template.h"
-#include "io/atomic_file.h"
 
 namespace frictab::lsdyna::table {
 

@@ -6,7 +6,6 @@
 
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_stop.h"
-#include "codegen/recipe.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/values_file.h"

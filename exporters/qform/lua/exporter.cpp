@@ -1,7 +1,7 @@
 // Target `qform_lua`: a friction subroutine in Lua for QForm, run here by LuaJIT and by Lua.
 #include "codegen/exporter.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
