@@ -38,7 +38,9 @@ struct GivenState {
   std::string exists = {}; // "nTemp .gt. 0"; empty: always
   std::string absent = {}; // the value (canonical) where it does not; empty: @{fallback}
   std::string part = {};   // of the routine, where it reads in several places
-  std::string slope = {};  // what the routine does with dy(@{index}), for its derivatives
+  // What the routine does with dy(@{index}), for its derivatives. Once for every state of the law
+  // that this row stands for: the row of s_mm may stand for two, so that it has to add.
+  std::string slope = {};
 };
 
 // What a solver hands to its routine. Its driver (codegen/driver.h) gets values in this order.

@@ -65,6 +65,19 @@ TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
   }
 }
 
+TEST_F(FricCoef2024, GivesTheDerivativeOfALawThatTakesTheSlipByBothOfItsNames) {
+  static const Table table = two_slips_table();
+  for (const std::string units : {"mm-t-s", "m-kg-s"}) {
+    const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
+    auto c = call({});
+    c.pressure[0] = 300 * stress;
+    c.slip[3] = 7 * length;
+    run(c, routine("two slips " + units, {table, units, {}}));
+    EXPECT_CLOSE(c.coefficient[0], 0.08 + 7 * 5e-3);
+    EXPECT_NEAR(c.derivative[5] * length, 5e-3, 1e-15);
+  }
+}
+
 TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
   static const Table table = peak_and_work_table();
   static const TableFunction function(table);

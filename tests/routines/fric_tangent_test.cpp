@@ -40,6 +40,17 @@ TEST_F(FricTangents, TangentsHoldWhereTheLimitFollowsTheSlipItself) {
     }
 }
 
+TEST_F(FricTangents, TangentsHoldWhereALawTakesTheSlipByBothOfItsNames) {
+  void* const two_slips = routine("two slips", {two_slips_table(), "mm-t-s", {}});
+  for (const int directions : {1, 2}) {
+    auto c = call(directions);
+    c.properties = {critical};
+    c.time_increment = 0.125;
+    move(c, 12, directions == 1 ? 0 : 35);
+    expect_tangents(c, two_slips, "two slips");
+  }
+}
+
 TEST_F(FricTangents, TangentsHoldBelowTheSmallestPressureAndAtTheShearLimit) {
   for (const double pressure : {0.01, 0.7, 2200.0, 9000.0})
     for (const double speed : {3.0, 40.0}) {

@@ -39,6 +39,15 @@ inline Table peak_and_work_table() {
   return table;
 }
 
+// The sliding distance by both of its names: that of a law, and that of a traced effect.
+inline Table two_slips_table() {
+  Table table = constant_table();
+  table.combine =
+      Expr::symbol("sigma_n_MPa") * (Expr::symbol("value") + Expr(2e-3) * Expr::symbol("s_mm") +
+                                     Expr(3e-3) * Expr::symbol("sliding_distance"));
+  return table;
+}
+
 // To the order of operations only.
 #define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, 1e-13 * std::abs(b))
 

@@ -22,7 +22,7 @@ const SolverGives& gives(const ExportRequest&) {
                  {.state = "s_mm",
                   .text = "STATEV(1), accumulated slip at the end of the increment",
                   .read = "(s0(1) + ds)",
-                  .slope = "if (ds .gt. zero) flims = dy(@{index})@{to_solver}@{convert}"},
+                  .slope = "if (ds .gt. zero) flims = flims + dy(@{index})@{to_solver}@{convert}"},
                  {.state = "friction_work",
                   .text = "STATEV(2), friction work at the start of the increment",
                   .read = "s0(2)"},

@@ -41,7 +41,7 @@ SolverGives given(bool release_2024) {
   all.states.push_back({.state = "s_mm",
                         .text = "slipData(:,4), equivalent slip",
                         .read = "s",
-                        .slope = "dmus = dy(@{index})/peval@{convert}"});
+                        .slope = "dmus = dmus + dy(@{index})/peval@{convert}"});
   all.states.push_back({.state = "friction_work",
                         .text = "state variable 1, at the start of the increment",
                         .read = "s0(1)"});
