@@ -6,6 +6,16 @@
 
 namespace frictab {
 
+namespace {
+
+// Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
+std::size_t numbers_per_node(const Table& table) {
+  if (table.is_direct()) return 1;
+  return is_cubic(table) ? 18 : 2;
+}
+
+} // namespace
+
 bool is_cubic(const Table& table) {
   return table.interpolation == Interpolation::cubic && !table.axes.empty();
 }
@@ -25,10 +35,8 @@ std::vector<double> baked_values(const Table& table) {
 
 std::size_t baked_numbers(const Table& table) {
   std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
-  // Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
-  const std::size_t per_node = table.is_direct() ? 1 : is_cubic(table) ? 18 : 2;
   for (const TableAxis& axis : table.axes)
-    numbers += axis.nodes.size() * per_node;
+    numbers += axis.nodes.size() * numbers_per_node(table);
   if (!table.extension) return numbers;
   const LayeredFormula law = split_layer(*table.extension);
   return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);

@@ -26,14 +26,12 @@ std::size_t number_of(const Table& table, const std::string& name) {
   return at == inputs.end() ? 0 : static_cast<std::size_t>(at - inputs.begin()) + 1;
 }
 
-// All inputs at the low end, in the middle or at the high end of what is known of them.
-std::vector<double> state_at(const Table& table, int place) {
+// All inputs at `share` (0 the low end, 1 the high end) of what is known of them.
+std::vector<double> state_at(const Table& table, double share) {
   std::vector<double> state;
   for (const std::string& name : table.inputs()) {
-    const auto range = table.range(name).value_or(std::pair{400.0, 600.0});
-    state.push_back(place == 0   ? range.first
-                    : place == 1 ? 0.5 * (range.first + range.second)
-                                 : range.second);
+    const auto [low, high] = table.range(name).value_or(std::pair{400.0, 600.0});
+    state.push_back((1 - share) * low + share * high);
   }
   return state;
 }
@@ -59,8 +57,8 @@ bool same_at_every_pressure(const Table& table, Coefficient kind) {
   for (const TableAxis& axis : table.axes)
     if (axis.name == "sigma_n_MPa") return false;
   const TableFunction tau(table);
-  for (const int place : {0, 1, 2}) {
-    std::vector<double> state = state_at(table, place);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    std::vector<double> state = state_at(table, share);
     double first = 0;
     for (const double p : {1e-6, 1.0, 1e3, 1e6, 1e12}) { // a shear limit would bind at the last
       state[pressure - 1] = p;

@@ -211,8 +211,8 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
                             std::string_view units, bool gradient) {
   const std::vector<HistoryState> states = history_states(inputs, units);
   values.flags["has_histories"] = !states.empty();
-  values.text["past_now"] = "0.0D0";
-  values.text["past_text"] = "";
+  values.text["temperature_now"] = "0.0D0";
+  values.text["histories_text"] = "";
   if (states.empty()) return;
   TemplateValues own;
   const std::size_t time = time_state(inputs);
@@ -229,13 +229,15 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
                                    [r = rule](const SolverInput& input) { return is(input, r); });
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const SolverInput& input = inputs[i];
-    if (input.argument.name == "T_contact_C") values.text["past_now"] = fmt::format("x({})", i + 1);
+    if (input.argument.name == "T_contact_C")
+      values.text["temperature_now"] = fmt::format("x({})", i + 1);
     if (input.source != Source::history) continue;
     if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
     own.lists["inputs"].push_back(filled(input, i + 1, time, units));
   }
   own.text = {{"n", std::to_string(states.size())}, {"time", std::to_string(time)}};
-  values.text["past_text"] = without_last_break(render_template("fortran/frictab_past.f", own));
+  values.text["histories_text"] =
+      without_last_break(render_template("fortran/frictab_past.f", own));
 }
 
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,

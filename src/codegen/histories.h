@@ -48,8 +48,8 @@ bool follows_temperature(const std::string& name);
 
 namespace fortran {
 
-// Adds to the values of a source in fixed form: flag has_histories; texts past_now ("x(5)" or a
-// zero: the temperature now) and past_text, the units
+// Adds to the values of a source in fixed form: flag has_histories; texts temperature_now ("x(5)",
+// or a zero where none follows it) and histories_text, the units
 //   ftpast(h, p, v, t, x): those states x (canonical) from the state variables h before the
 //     increment and the present pressure and speed (solver's units) and temperature (degC),
 //   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;

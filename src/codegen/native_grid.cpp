@@ -76,6 +76,19 @@ struct Sampled {
   std::vector<double> coefficient;
 };
 
+// Places evenly spread on each axis that its nodes are chosen from.
+std::size_t candidates(std::size_t axes) {
+  if (axes == 1) return 8193;
+  return axes == 2 ? 2049 : 1025;
+}
+
+// A grid that meets the aim before one that does not; then fewer values, or the smaller error.
+bool better(const NativeGrid& a, const NativeGrid& b) {
+  if (a.met != b.met) return a.met;
+  if (a.met) return a.values.value.size() < b.values.value.size();
+  return a.found_MPa < b.found_MPa;
+}
+
 class Maker {
 public:
   Maker(const NativeProblem& problem, const NativeGoal& goal);
@@ -139,7 +152,7 @@ std::vector<double> Maker::coefficients(const States& given) const {
 }
 
 void Maker::place_candidates() {
-  const std::size_t count = axes_.size() == 1 ? 8193 : axes_.size() == 2 ? 2049 : 1025;
+  const std::size_t count = candidates(axes_.size());
   for (std::size_t d = 0; d < axes_.size(); ++d) {
     const NativeAxis& axis = problem_.axes[d];
     const bool log = axis.log && axis.low > 0;
@@ -329,10 +342,7 @@ NativeGrid Maker::make() {
     States worst;
     compare(made, worst);
     made.met = made.found_MPa <= goal_.aim_MPa;
-    const bool better = made.met != best.met ? made.met
-                        : made.met           ? made.values.value.size() < best.values.value.size()
-                                             : made.found_MPa < best.found_MPa;
-    if (better) best = made;
+    if (better(made, best)) best = made;
     if (made.met && (made.found_MPa >= 0.8 * goal_.aim_MPa || count <= 2)) break;
     add_lines(worst);
     const double ratio = made.found_MPa > 0 ? 0.93 * goal_.aim_MPa / made.found_MPa : 2;

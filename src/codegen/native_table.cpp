@@ -325,23 +325,24 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
   std::vector<const double*> sources;
   for (const NativeColumn& column : columns)
     sources.push_back(column_of(column.argument.name));
+  const auto state_in = [&](std::size_t column, std::size_t row) {
+    if (sources[column]) return sources[column][row];
+    if (!is_pressure(columns[column])) return 0.0;
+    // A pressure that the law does not ask for: all of its range in turn.
+    const double w = static_cast<double>(row % 97) / 96;
+    return range.first + w * (range.second - range.first);
+  };
   std::vector<double> x(columns.size());
   for (std::size_t i = 0; i < rows; ++i) {
-    double pressure = 0;
+    double factor = 0; // solver's unit
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      // A pressure that the law does not ask for: all of its range in turn.
-      const double w = static_cast<double>(i % 97) / 96;
-      const double state = sources[c] ? sources[c][i]
-                           : is_pressure(columns[c])
-                               ? range.first + w * (range.second - range.first)
-                               : 0;
-      x[c] = columns[c].argument.solver.from_canonical(state);
-      if (is_pressure(columns[c])) pressure = x[c];
+      x[c] = columns[c].argument.solver.from_canonical(state_in(c, i));
+      if (is_pressure(columns[c])) factor = x[c];
     }
-    const double factor = form.factor == NativeFactor::pressure
-                              ? pressure
-                              : stress.from_canonical(shear_yield(
-                                    flow_stress ? flow_stress[i] : held.at("sigma_f_MPa")));
+    if (form.factor == NativeFactor::shear_yield) {
+      const double flow = flow_stress ? flow_stress[i] : held.at("sigma_f_MPa");
+      factor = stress.from_canonical(shear_yield(flow));
+    }
     double answer = factor * values.at(x);
     if (values.limit && answer > *values.limit) answer = *values.limit;
     tau[i] = stress.to_canonical(answer);

@@ -49,10 +49,12 @@ public:
     const std::string& name = input.argument.name;
     given_ = gives.find(state_of(name));
     const bool kept = is_further_history(name) && !gives.history.empty();
-    input.source = kept                           ? Source::history
-                   : given_                       ? Source::given
-                   : !gives.property.text.empty() ? Source::property
-                                                  : Source::constant;
+    if (kept)
+      input.source = Source::history;
+    else if (given_)
+      input.source = Source::given;
+    else
+      input.source = gives.property.text.empty() ? Source::constant : Source::property;
     if (kept || given_) own_ = choice_of(name);
     if (given_) input.given = given_->state;
   }
@@ -71,10 +73,7 @@ public:
     } else if (choice == "property" && !gives_.property.text.empty()) {
       input_.source = Source::property;
     } else if (own_.empty() || choice != own_) {
-      fault(fmt::format("'{}' is no source of a state", choice),
-            fmt::format(
-                "known: constant:VALUE{}{}{}", gives_.property.text.empty() ? "" : ", property",
-                gives_.field.text.empty() ? "" : ", field:N", own_.empty() ? "" : ", " + own_));
+      fault(fmt::format("'{}' is no source of a state", choice), "known: " + known_choices());
     }
   }
 
@@ -107,6 +106,14 @@ public:
   }
 
 private:
+  std::string known_choices() const {
+    std::string all = "constant:VALUE";
+    if (!gives_.property.text.empty()) all += ", property";
+    if (!gives_.field.text.empty()) all += ", field:N";
+    if (!own_.empty()) all += ", " + own_;
+    return all;
+  }
+
   void fault(const std::string& what, const std::string& hint) {
     faults_.add(place(input_.argument.name), what, hint);
   }

@@ -52,7 +52,7 @@ C     at once, which spares most points the calls.
         if (dtime .gt. 0.0D0) speed = slip/dtime
 @{reads}
 @if has_histories
-        call ftpast(hist(4), press, speed, @{past_now}, x)
+        call ftpast(hist(4), press, speed, @{temperature_now}, x)
 @end
 @if refuses
         fric = ftqnan()
@@ -82,7 +82,7 @@ C       and the force now, times its slip.
 @for sum in sums
         from(@{sum.number}) = 0.0D0
 @end
-        call ftnext(from, press, speed, @{past_now}, pmax, fric/area,
+        call ftnext(from, press, speed, @{temperature_now}, pmax, fric/area,
      &    slip, dtime, add(5))
 @end
       end if
@@ -189,5 +189,5 @@ C     The bits of infinity; above them lies NaN.
       end
 C
 @if has_histories
-@{past_text}
+@{histories_text}
 @end

@@ -23,9 +23,21 @@ using fortran::Coefficient;
 constexpr const char* main_file = "frictab_usrbcc.f";
 constexpr const char* update_file = "frictab_usrupd.f";
 
+// As FRCFAC counts the types of friction.
+const char* friction_type(Coefficient kind) {
+  switch (kind) {
+  case Coefficient::shear:
+    return "1";
+  case Coefficient::coulomb:
+    return "2";
+  case Coefficient::stress:
+    break;
+  }
+  return "3";
+}
+
 std::string keyword(Coefficient kind) {
-  const char* type = kind == Coefficient::shear ? "1" : kind == Coefficient::coulomb ? "2" : "3";
-  return std::string("FRCFAC <workpiece>, <die>, ") + type + ", -1, 0\n";
+  return std::string("FRCFAC <workpiece>, <die>, ") + friction_type(kind) + ", -1, 0\n";
 }
 
 json result(Coefficient kind, const SolverUnit& stress) {

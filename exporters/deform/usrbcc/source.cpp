@@ -72,9 +72,8 @@ std::string result_text(Coefficient kind, const std::string& stress) {
 
 Coefficient coefficient_kind(const ExportRequest& request) {
   const std::string& word = find_exporter("deform_usrbcc")->option(request, "deform_friction");
-  return word == "shear"      ? Coefficient::shear
-         : word == "constant" ? Coefficient::stress
-                              : Coefficient::coulomb;
+  if (word == "shear") return Coefficient::shear;
+  return word == "constant" ? Coefficient::stress : Coefficient::coulomb;
 }
 
 const SolverGives& gives(const ExportRequest&) {

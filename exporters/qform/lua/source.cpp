@@ -198,6 +198,15 @@ void add_axes(TemplateValues& values, const Table& table) {
   add_values(values, baked_values(table));
 }
 
+// What stands where nothing is interpolated; empty where something is.
+std::string only_value(const Table& table) {
+  if (table.is_direct())
+    return fmt::format("ft_piece({})", join(names_up_to(table.inputs().size()), ", "));
+  if (!table.axes.empty()) return "";
+  const std::string value = number(table.value[0]);
+  return table.log_value ? "exp(" + value + ")" : value;
+}
+
 void add_interpolation(TemplateValues& values, const Table& table) {
   const bool interpolates = !table.is_direct() && !table.axes.empty();
   values.flags["interpolates"] = interpolates;
@@ -210,13 +219,19 @@ void add_interpolation(TemplateValues& values, const Table& table) {
   values.text["value_comment"] = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
                   table.log_value ? "ln " : "", table.quantity));
-  values.text["only_value"] =
-      table.is_direct()
-          ? fmt::format("ft_piece({})", join(names_up_to(table.inputs().size()), ", "))
-      : table.axes.empty() && table.log_value ? "exp(" + number(table.value[0]) + ")"
-      : table.axes.empty()                    ? number(table.value[0])
-                                              : "";
+  values.text["only_value"] = only_value(table);
   if (interpolates) add_axes(values, table);
+}
+
+// What the solver gives under the argument's name, or what stands for it.
+std::string source_text(const SolverInput& input) {
+  const InputArgument& argument = input.argument;
+  if (input.source != Source::constant && input.source != Source::property)
+    return argument.argument;
+  const std::string value =
+      input.fallback ? number(argument.solver.from_canonical(*input.fallback)) : "ft_nan";
+  if (input.source == Source::constant) return value;
+  return fmt::format("parameter(\"{}\", {})", argument.argument, value);
 }
 
 std::string canonical(const SolverInput& input) {
@@ -243,18 +258,8 @@ void add_entry(TemplateValues& values, const ExportRequest& request,
     const auto input = std::find_if(inputs.begin(), inputs.end(), [&](const SolverInput& i) {
       return i.argument.name == argument.name;
     });
-    std::string from = "nil";
-    if (input != inputs.end() && input->source != Source::constant &&
-        input->source != Source::property) {
-      from = argument.argument;
-      given.push_back(from);
-    } else if (input != inputs.end()) {
-      const std::string value =
-          input->fallback ? number(argument.solver.from_canonical(*input->fallback)) : "ft_nan";
-      from = input->source == Source::constant
-                 ? value
-                 : fmt::format("parameter(\"{}\", {})", argument.argument, value);
-    }
+    const std::string from = input == inputs.end() ? "nil" : source_text(*input);
+    if (from == argument.argument) given.push_back(from);
     call.push_back(item(from + (&argument == &all.back() ? "" : ",")));
   }
   for (const SolverInput& input : inputs)

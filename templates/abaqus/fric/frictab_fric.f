@@ -200,7 +200,7 @@ C     The law's states
       do i = 1, @{n_x}
         dy(i) = zero
       end do
-      call ftpast(s0(8), p, speed, @{past_now}, x)
+      call ftpast(s0(8), p, speed, @{temperature_now}, x)
 @end
 @if refuses
       if (ftstop(x)) then
@@ -230,7 +230,7 @@ C     The limit and its derivatives
 @if has_histories
       hv = zero
       ht = zero
-      call ftlive(s0(8), p, speed, @{past_now}, dy, dpeak, hv, ht)
+      call ftlive(s0(8), p, speed, @{temperature_now}, dy, dpeak, hv, ht)
       flimv = flimv + hv@{to_solver}@{to_mm}
 @if knows_temperature
       flimt = flimt + ht@{to_solver}
@@ -315,7 +315,7 @@ C
 @end
         s1(7) = amu
 @if has_histories
-        call ftnext(s0(8), p, speed, @{past_now}, s1(3), gain*gtn,
+        call ftnext(s0(8), p, speed, @{temperature_now}, s1(3), gain*gtn,
      &    ds, dtime, s1(8))
 @end
         call ftkeep(statev, kstep, kinc, s0, s1)
@@ -334,6 +334,6 @@ C
 @{states_text}
 C
 @if has_histories
-@{past_text}
+@{histories_text}
 @end
 @{core}

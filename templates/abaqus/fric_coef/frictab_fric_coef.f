@@ -158,7 +158,7 @@ C       than 1D30 is as good as infinite.
           do i = 1, @{n_x}
             dy(i) = zero
           end do
-          call ftpast(s0(6), p, rate, @{past_now}, x)
+          call ftpast(s0(6), p, rate, @{temperature_now}, x)
 @end
 @if refuses
           if (p .gt. zero) then
@@ -190,7 +190,7 @@ C           A point that does not press cannot stop the analysis.
 @if has_histories
           hv = zero
           ht = zero
-          call ftlive(s0(6), p, rate, @{past_now}, dy, dpeak, hv, ht)
+          call ftlive(s0(6), p, rate, @{temperature_now}, dy, dpeak, hv, ht)
           dmuv = dmuv + hv/peval@{to_mm}
 @if knows_temperature
           if (nTemp .gt. 0) dmut = dmut + ht/peval
@@ -225,7 +225,7 @@ C           The coefficient that the last increment left
             if (p .gt. zero)
      &        s1(1) = s0(1) + amu*p*max(s - s0(5), zero)
 @if has_histories
-            if (p .gt. zero) call ftnext(s0(6), p, rate, @{past_now},
+            if (p .gt. zero) call ftnext(s0(6), p, rate, @{temperature_now},
      &        s1(2), amu*p, max(s - s0(5), zero), dtime, s1(6))
 @end
             call ftkeep(rData(i_rfc_StateV), iData(i_ifc_KStep),
@@ -253,7 +253,7 @@ C
 @{states_text}
 @if has_histories
 C
-@{past_text}
+@{histories_text}
 @end
 @end
 @{core}

@@ -88,18 +88,18 @@ C     Magnitudes: the signs of PRESS and SLDVEL are not relied upon.
       end do
 @for state in warmest
 C     K; a node that was never in contact is as warm as now.
-      h(@{state.text}) = ftmost(h(@{state.text}), @{past_now} + 273.15D0)
-      h2(@{state.text}) = ftmost(h2(@{state.text}), @{past_now} + 273.15D0)
+      h(@{state.text}) = ftmost(h(@{state.text}), @{temperature_now} + 273.15D0)
+      h2(@{state.text}) = ftmost(h2(@{state.text}), @{temperature_now} + 273.15D0)
 @end
 @for state in started
 C     K; a node that was never in contact starts now.
-      h(@{state.text}) = ftfrst(h(@{state.text}), @{past_now})
-      h2(@{state.text}) = ftfrst(h2(@{state.text}), @{past_now})
+      h(@{state.text}) = ftfrst(h(@{state.text}), @{temperature_now})
+      h2(@{state.text}) = ftfrst(h2(@{state.text}), @{temperature_now})
 @end
       do i = 1, @{n_histories}
         h(i) = 0.5D0*(h(i) + h2(i))
       end do
-      call ftpast(h, abs(press), speed, @{past_now}, x)
+      call ftpast(h, abs(press), speed, @{temperature_now}, x)
 @end
 @if given_flow
 C     k of the law's own flow stress.
@@ -138,7 +138,7 @@ C     The larger of both; NaN where one is.
 C
 @end
 @if has_histories
-@{past_text}
+@{histories_text}
 @end
 @{constants}
 @{coefficient}

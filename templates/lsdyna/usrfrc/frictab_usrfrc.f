@@ -159,7 +159,7 @@ C         A contact of another type: tau_R has nothing to act on.
               past(i) = past(i) + ufhist(4+i,j)
             end if
           end do
-          call ftpast(past, press, speed, @{past_now}, x)
+          call ftpast(past, press, speed, @{temperature_now}, x)
 @end
 @if refuses
           if (ftstop(x)) then
@@ -190,7 +190,7 @@ C             Work: mean of the force before and the force now.
               if (nhv .ge. @{n_history}) then
                 dtime = 0.0D0
                 if (rate .gt. 0.0D0) dtime = 1.0D0/rate
-                call ftnext(past, press, speed, @{past_now}, pmax,
+                call ftnext(past, press, speed, @{temperature_now}, pmax,
      &            fric/area, slip, dtime, next)
                 do i = 1, @{n_histories}
                   ufhist(4+i,j) = real(next(i), kind(ufhist))
@@ -239,6 +239,6 @@ C     A pressed node without area ends the analysis.
       end
 C
 @if has_histories
-@{past_text}
+@{histories_text}
 @end
 @{core}
