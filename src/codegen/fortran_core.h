@@ -1,4 +1,24 @@
 // The part of a Fortran source that is the same for every solver: tau_R of a state, in fixed form.
+//
+//   tau_R = combine(value, x)
+//
+// x are the law's inputs, `combine` is the law's formula around what is tabulated (table/table.h).
+// The value is looked up: every axis has a coordinate u = x or ln x, and between nodes the value is
+// interpolated in u, linearly over the 2^n corners of a cell, or by a tensor product of cubic
+// B-splines (table/spline.h). Where a table holds the logarithm, the value is exp of that. Beyond
+// an end of an axis it is the value at the end, the law's own formula, or NaN, as the axis says. In
+// the direct form the value is the law's formula everywhere.
+//
+// The derivatives are those of the very interpolation, not of the law behind it, so that a solver's
+// tangent fits its residual:
+//
+//   dtau_R/dx_i = dcombine/dx_i + dcombine/dvalue * dvalue/du_i * du_i/dx_i
+//
+// Statements stand in the order of the C kernels (table/frictab_kernel.h, frictab_cubic.h), and
+// nothing contracts them, so that Fortran, C and frictab itself agree to the last bits. They are
+// written out for one table, with its sizes and strides as numbers: a Fortran compiler does not
+// find these by itself. All names start with ft, because a program has one space of names for
+// subroutines, which the solver's own are in.
 #pragma once
 
 #include "codegen/exporter.h"

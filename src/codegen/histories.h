@@ -1,9 +1,28 @@
 // Histories that a law takes beyond slip, friction work and peak pressure: a routine keeps state
-// variables for them, in the solver's units, where its law takes them and only there. To first
-// order in the increment they are what data/derived.h takes along rows. Integrals and means end
-// before the present increment, peaks include it. Means are over the time under pressure, which is
-// a mean over rows where these are evenly spaced in time; in the first increment of a contact they
-// are the present value.
+// variables for them, in the solver's units, where its law takes them and only there.
+//
+// Calibration computes a history along the rows of an experiment (data/derived.h). A simulation has
+// no rows, but increments, so a contact point keeps what continues it, h, and the law's input x
+// follows from h and the state now. With the pressure p, the speed v, the temperature T, the slip
+// ds and the time dt of an increment under pressure, and q one of p, v and T:
+//
+//   integral over the slip     h' = h + p ds                      x = h
+//   time under pressure        h' = h + dt                        x = h
+//   dwell                      h' = h + dt where p >= peak/2      x = h
+//   slip since the peak        h' = h + ds; 0 at p >= 0.95 peak   x = h
+//   mean                       h' = h + q dt                      x = h/time
+//   lag                        h' = h + T dt                      x = T - h/time
+//   peak                       h' = max(h, q)                     x = max(h, q)
+//   load over its peak         h' = max(h, p)                     x = p/max(h, p)
+//   rise                       h' = T of the first increment      x = T - h
+//   friction power, flash      h' = tau v, tau sqrt(v)            x = h
+//
+// Integrals and means end before the present increment, so that the law's stress does not depend
+// on itself and no iteration is needed. Peaks include it: its pressure, speed and temperature are
+// known. To first order in the increment this is what rows give. Means are over the time under
+// pressure, which is a mean over rows where these are evenly spaced in time; in the first increment
+// of a contact they are the present value. The first and the highest temperature are kept in K: 0,
+// with which a solver begins, then stands for "no contact yet".
 #pragma once
 
 #include <span>

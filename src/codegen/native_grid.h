@@ -2,6 +2,15 @@
 // over states in plain units; the solver interpolates it linearly and multiplies it by pressure (or
 // by the shear yield stress), so the nodes of a frictab table, which are made for other
 // coordinates, do not fit.
+//
+// The error that counts is that of the stress: |factor * interpolated - tau_R| in MPa, both cut at
+// the limit where the solver knows one. It is measured, since laws have kinks, where an estimate by
+// second derivatives fails. Along lines parallel to each axis (through the corners of the ranges
+// and through states inside) the coefficient is read at many places. From the low end on, every
+// cell is the longest whose error on all these lines stays below what is allowed. Then the whole
+// grid is checked, at the centres of its cells and at points that fill the ranges. What is allowed
+// on a line is changed by aim over found, the worst states become lines, and the grid is made
+// again, until the aim is met closely or the rounds are used up.
 #pragma once
 
 #include <functional>
