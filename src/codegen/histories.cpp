@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "codegen/fortran_parts.h"
+#include "codegen/history_rules.h"
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
 #include "data/derived.h"
@@ -42,77 +43,59 @@ std::size_t time_state(const std::vector<SolverInput>& inputs) {
   return mean ? last + 1 : 0;
 }
 
-const char* unit_of(C::Of of) {
-  return of == C::pressure ? "MPa" : of == C::speed ? "mm/s" : "degC";
-}
-
-const char* name_of(C::Of of) {
-  return of == C::pressure ? "pressure" : of == C::speed ? "sliding speed" : "temperature (degC)";
-}
-
 HistoryState state_of(const SolverInput& input, std::string_view units) {
-  const Continuation how = continuation(input);
-  switch (how.rule) {
-  case C::mean:
-  case C::lag:
-    return {how.of == C::speed ? solver_unit("mm", units).name
-                               : solver_unit(unit_of(how.of), units).name + " s",
-            fmt::format("{} times time under pressure", name_of(how.of))};
-  case C::peak:
-    if (how.of == C::temperature) return {"K", "peak temperature; 0: none yet", false};
-    return {input.argument.solver.name, fmt::format("peak {}", name_of(how.of)), false};
-  case C::ratio:
-    return {solver_unit("MPa", units).name, "peak pressure that the load is compared with", false};
-  case C::rise:
-    return {"K", "temperature at the start of contact; 0: none yet", false};
-  case C::since_peak:
-    return {input.argument.solver.name, "slip since the pressure was last within 5 % of its peak",
-            false};
-  case C::last:
-    if (how.of == C::flash)
-      return {input.argument.solver.name,
-              "tau sqrt(v), v in mm/s, in the last increment under pressure", false};
-    return {input.argument.solver.name,
-            "friction power per area in the last increment under pressure", false};
-  case C::per_slip:
-    return {input.argument.solver.name, "pressure times slip, summed"};
-  case C::dwell:
-    return {"s", "time at no less than half of the peak pressure"};
-  default:
-    return {"s", "time under pressure"};
+  const HistoryRule rule = history_rule(continuation(input));
+  const std::string unit =
+      rule.unit.empty() ? input.argument.solver.name : solver_unit(rule.unit, units).name;
+  return {rule.times_time ? unit + " s" : unit, rule.meaning, rule.grows};
+}
+
+// The statements of one history, the law's input number `index`, in fixed form.
+class RuleText {
+public:
+  RuleText(const SolverInput& input, std::size_t index, std::size_t time, std::string_view units)
+      : rule_(history_rule(continuation(input))), comment_(fortran::clip(input.argument.name)),
+        names_{{"x", fmt::format("x({})", index)},
+               {"dy", fmt::format("dy({})", index)},
+               {"h", fmt::format("h({})", input.history)},
+               {"h1", fmt::format("h1({})", input.history)},
+               {"time", fmt::format("h({})", time)},
+               {"q", followed(continuation(input).of).argument},
+               {"convert", fortran_conversion(input.argument.solver)},
+               {"from_stress", fortran_conversion(solver_unit("MPa", units))},
+               {"from_speed", fortran_conversion(solver_unit("mm/s", units))},
+               {"at_peak", fortran_number(at_peak)}} {}
+
+  TemplateValues values() const {
+    TemplateValues out;
+    out.text = {{"comment", comment_},
+                {"now", statements(rule_.now)},
+                {"next", statements(rule_.next)},
+                {"slope", statements(rule_.slope)}};
+    return out;
   }
-}
 
-// What a peak or a mean is of: the Fortran argument, and how its slope is named.
-const char* argument(C::Of of) {
-  return of == C::pressure ? "p" : of == C::speed ? "v" : "t";
-}
+private:
+  std::string statements(std::string_view lines) const {
+    std::string out;
+    while (!lines.empty()) {
+      const std::size_t end = std::min(lines.find('\n'), lines.size());
+      out += (out.empty() ? "      " : "\n      ") + insert_names(lines.substr(0, end), names_);
+      lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
+    return out;
+  }
 
-TemplateValues filled(const SolverInput& input, std::size_t index, std::size_t time,
-                      std::string_view units) {
-  const Continuation how = continuation(input);
-  TemplateValues values;
-  const std::string shift =
-      how.rule == C::peak && how.of == C::temperature ? fortran_number(zero_celsius) : "";
-  values.text = {{"index", std::to_string(index)},
-                 {"state", std::to_string(input.history)},
-                 {"time", std::to_string(time)},
-                 {"comment", fortran::clip(input.argument.name)},
-                 {"convert", fortran_conversion(input.argument.solver)},
-                 {"of", argument(how.of)},
-                 {"pressure", fortran_conversion(solver_unit("MPa", units))},
-                 {"speed", fortran_conversion(solver_unit("mm/s", units))},
-                 {"at_peak", fortran_number(at_peak)},
-                 {"above", shift.empty() ? "" : " + " + shift},
-                 {"below", shift.empty() ? "" : " - " + shift}};
-  values.flags = {{"is_sum", how.rule == C::per_slip}, {"is_time", how.rule == C::per_time},
-                  {"is_dwell", how.rule == C::dwell},  {"is_mean", how.rule == C::mean},
-                  {"is_peak", how.rule == C::peak},    {"is_last", how.rule == C::last},
-                  {"is_ratio", how.rule == C::ratio},  {"is_since", how.rule == C::since_peak},
-                  {"is_rise", how.rule == C::rise},    {"is_lag", how.rule == C::lag},
-                  {"is_flash", how.of == C::flash},    {"sums_mean", takes_mean(input)},
-                  {"shifts", !shift.empty()}};
-  return values;
+  HistoryRule rule_;
+  std::string comment_;
+  std::map<std::string, std::string> names_;
+};
+
+// Whether any of these texts calls a function.
+bool calls(const Lines& histories, const char* part, const std::string& function) {
+  return std::any_of(histories.begin(), histories.end(), [&](const TemplateValues& one) {
+    return one.text.at(part).find(function + "(") != std::string::npos;
+  });
 }
 
 // The column of a name; null where it is none.
@@ -126,9 +109,7 @@ const double* column_of(const std::string& name, const std::vector<SolverInput>&
 // What a driver presents now, canonical, where the law does not take the quantity itself.
 double present(C::Of of, const std::vector<SolverInput>& inputs,
                std::span<const double* const> columns, std::size_t row) {
-  const std::string name = of == C::pressure ? "sigma_n_MPa"
-                           : of == C::speed  ? "v_rel_mm_s"
-                                             : "T_contact_C";
+  const std::string name = followed(of).state;
   if (const double* column = column_of(name, inputs, columns)) return column[row];
   for (const SolverInput& input : inputs)
     if (input.argument.name == name && input.source == Source::constant)
@@ -204,40 +185,38 @@ std::vector<std::size_t> start_temperatures(const std::vector<SolverInput>& inpu
 }
 
 std::size_t history_count(const std::vector<SolverInput>& inputs) {
-  return history_states(inputs, "mm-t-s").size();
+  std::size_t last = 0;
+  for (const SolverInput& input : inputs)
+    if (input.source == Source::history) last = std::max(last, input.history);
+  return std::max(last, time_state(inputs));
 }
 
 void fortran::add_histories(TemplateValues& values, const std::vector<SolverInput>& inputs,
                             std::string_view units, bool gradient) {
-  const std::vector<HistoryState> states = history_states(inputs, units);
-  values.flags["has_histories"] = !states.empty();
+  const std::size_t count = history_count(inputs), time = time_state(inputs);
+  values.flags["has_histories"] = count > 0;
   values.text["temperature_now"] = "0.0D0";
   values.text["histories_text"] = "";
-  if (states.empty()) return;
+  if (count == 0) return;
   TemplateValues own;
-  const std::size_t time = time_state(inputs);
   own.flags = {{"gradient", gradient}, {"time_of_its_own", time > 0}};
-  for (const auto& [flag, rule] : {std::pair{"has_mean", C::mean},
-                                   {"has_mean", C::lag},
-                                   {"has_most", C::peak},
-                                   {"has_most", C::ratio},
-                                   {"has_ratio", C::ratio},
-                                   {"has_rise", C::rise},
-                                   {"asks_nan", C::dwell},
-                                   {"asks_nan", C::since_peak}})
-    own.flags[flag] |= std::any_of(inputs.begin(), inputs.end(),
-                                   [r = rule](const SolverInput& input) { return is(input, r); });
+  Lines& histories = own.lists["inputs"];
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const SolverInput& input = inputs[i];
     if (input.argument.name == "T_contact_C")
       values.text["temperature_now"] = fmt::format("x({})", i + 1);
     if (input.source != Source::history) continue;
     if (is(input, C::per_time)) own.flags["time_of_its_own"] = false;
-    own.lists["inputs"].push_back(filled(input, i + 1, time, units));
+    histories.push_back(RuleText(input, i + 1, time, units).values());
   }
-  own.text = {{"n", std::to_string(states.size())}, {"time", std::to_string(time)}};
+  own.flags["has_mean"] = calls(histories, "now", "ftmean");
+  own.flags["has_most"] = calls(histories, "now", "ftmost");
+  own.flags["has_ratio"] = calls(histories, "now", "ftrat");
+  own.flags["has_rise"] = calls(histories, "now", "ftrise");
+  own.flags["asks_nan"] = calls(histories, "next", "ftnan");
+  own.text = {{"n", std::to_string(count)}, {"time", std::to_string(time)}};
   values.text["histories_text"] =
-      without_last_break(render_template("fortran/frictab_past.f", own));
+      without_last_break(render_template("fortran/frictab_histories.f", own));
 }
 
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,

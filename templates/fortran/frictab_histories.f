@@ -22,32 +22,7 @@ C     increment, and the pressure p, speed v and temperature t now.
 @end
 @for in in inputs
 C     @{in.comment}
-@if in.is_mean
-      x(@{in.index}) = ftmean(h(@{in.state}), h(@{in.time}), @{in.of})@{in.convert}
-@else
-@if in.is_peak
-@if in.shifts
-      x(@{in.index}) = ftmost(h(@{in.state}), @{in.of}@{in.above})
-      x(@{in.index}) = x(@{in.index})@{in.below}
-@else
-      x(@{in.index}) = ftmost(h(@{in.state}), @{in.of})@{in.convert}
-@end
-@else
-@if in.is_ratio
-      x(@{in.index}) = ftrat(p, ftmost(h(@{in.state}), p))
-@else
-@if in.is_rise
-      x(@{in.index}) = ftrise(h(@{in.state}), t)
-@else
-@if in.is_lag
-      x(@{in.index}) = t - ftmean(h(@{in.state}), h(@{in.time}), t)
-@else
-      x(@{in.index}) = h(@{in.state})@{in.convert}
-@end
-@end
-@end
-@end
-@end
+@{in.now}
 @end
       return
       end
@@ -71,51 +46,7 @@ C     frictional stress tau; pmax: the peak pressure so far.
 @end
 @for in in inputs
 C     @{in.comment}
-@if in.is_sum
-      h1(@{in.state}) = h(@{in.state})
-      if (ds .gt. 0.0D0) h1(@{in.state}) = h(@{in.state}) + p*ds
-@end
-@if in.is_time
-      h1(@{in.state}) = h(@{in.state}) + dt
-@end
-@if in.is_dwell
-      h1(@{in.state}) = h(@{in.state})
-      if (ftnan(pmax)) then
-        h1(@{in.state}) = pmax
-      else if (p .ge. 0.5D0*pmax) then
-        h1(@{in.state}) = h(@{in.state}) + dt
-      end if
-@end
-@if in.is_ratio
-      h1(@{in.state}) = ftmost(h(@{in.state}), p)
-@end
-@if in.is_since
-      h1(@{in.state}) = h(@{in.state})
-      if (ds .gt. 0.0D0) h1(@{in.state}) = h(@{in.state}) + ds
-      if (ftnan(pmax)) then
-        h1(@{in.state}) = pmax
-      else if (p .ge. @{in.at_peak}*pmax) then
-        h1(@{in.state}) = 0.0D0
-      end if
-@end
-@if in.is_rise
-      h1(@{in.state}) = ftfrst(h(@{in.state}), t)
-@end
-@if in.sums_mean
-      h1(@{in.state}) = h(@{in.state})
-      if (dt .gt. 0.0D0) h1(@{in.state}) = h(@{in.state}) + @{in.of}*dt
-@end
-@if in.is_peak
-      h1(@{in.state}) = ftmost(h(@{in.state}), @{in.of}@{in.above})
-@end
-@if in.is_last
-      h1(@{in.state}) = 0.0D0
-@if in.is_flash
-      if (v .gt. 0.0D0) h1(@{in.state}) = tau*sqrt(v@{in.speed})
-@else
-      if (v .gt. 0.0D0) h1(@{in.state}) = tau*v
-@end
-@end
+@{in.next}
 @end
 @if time_of_its_own
 C     time that means are taken over
@@ -131,21 +62,7 @@ C     yet, add to the derivatives of the law (dy, by its states).
       implicit none
       double precision h(@{n}), p, v, t, dy(*), dp, dv, dt
 @for in in inputs
-@if in.is_mean
-      if (h(@{in.time}) .le. 0.0D0) d@{in.of} = d@{in.of} + dy(@{in.index})
-@end
-@if in.is_peak
-      if (@{in.of}@{in.above} .gt. h(@{in.state})) d@{in.of} = d@{in.of} + dy(@{in.index})
-@end
-@if in.is_ratio
-      if (h(@{in.state}) .gt. p) dp = dp + dy(@{in.index})/(h(@{in.state})@{in.pressure})
-@end
-@if in.is_rise
-      if (h(@{in.state}) .gt. 0.0D0) dt = dt + dy(@{in.index})
-@end
-@if in.is_lag
-      if (h(@{in.time}) .gt. 0.0D0) dt = dt + dy(@{in.index})
-@end
+@{in.slope}
 @end
       return
       end

@@ -1,0 +1,38 @@
+// The rules by which a routine continues histories (the table in histories.h), each with the
+// Fortran that does it.
+#pragma once
+
+#include <string>
+
+#include "data/derived.h"
+
+namespace frictab {
+
+// Statements, a line each. They may hold @{x} (the law's input), @{h} and @{h1} (the state variable
+// before and behind the increment), @{time} (the state variable of the time that means are taken
+// over), @{q} (the argument p, v or t that the rule follows), @{dy} (the derivative of tau_R by x),
+// and the conversions from the solver's units @{convert} (of x), @{from_stress} and @{from_speed}.
+struct HistoryRule {
+  std::string now = {};   // sets @{x} by @{h} and the pressure p, speed v and temperature t now
+  std::string next = {};  // sets @{h1}; knows the peak pmax, tau, slip ds and time dt as well
+  std::string slope = {}; // adds to dp, dv and dt what x changes by p, v and t
+
+  std::string meaning = {};
+  std::string unit = {};   // of h, canonical; empty: that of x
+  bool times_time = false; // that unit times s
+  bool grows = true;       // as in HistoryState
+};
+
+// Throws std::logic_error for the rule `none`.
+HistoryRule history_rule(const Continuation& how);
+
+// A quantity that a rule may follow.
+struct Followed {
+  const char* state; // canonical name
+  const char* unit;
+  const char* name;     // for people
+  const char* argument; // of the Fortran routines
+};
+const Followed& followed(Continuation::Of of);
+
+} // namespace frictab
