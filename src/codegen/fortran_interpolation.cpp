@@ -71,10 +71,10 @@ Strings linear_names(std::size_t axes) {
 }
 
 // Statements of ft_sum_N for axes `axis` and behind, into r(1..4), with the first coefficient at
-// `at`; as there, rows are added in pairs, further axes one tap after the other.
+// `at`; as there, rows are added in pairs, further axes one coefficient after the other.
 void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
           const std::string& at, const std::string& indent, Strings& out) {
-  const std::size_t n = table.axes[axis].nodes.size(), taps = std::min<std::size_t>(n, 4);
+  const std::size_t n = table.axes[axis].nodes.size(), support = std::min<std::size_t>(n, 4);
   const std::size_t number = axis + 1;
   const auto line = [&](const std::string& text) { out.push_back(indent + text); };
   if (axis + 1 == stride.size()) {
@@ -84,20 +84,20 @@ void sums(const Table& table, const std::vector<long>& stride, std::size_t axis,
     return;
   }
   if (axis + 2 == stride.size()) {
-    const auto tap = [&](long j) {
+    const auto term = [&](long j) {
       return fmt::format("w({},{})*tv({}+l{:+})", j + 1, number, at, j * stride[axis] - 1);
     };
     line("do l = 1, 4");
-    line(fmt::format("  r(l) = {} + {}", tap(0), tap(1)));
-    if (n == 3) line(fmt::format("  r(l) = r(l) + {}", tap(2)));
-    if (n > 3) line(fmt::format("  r(l) = r(l) + ({} + {})", tap(2), tap(3)));
+    line(fmt::format("  r(l) = {} + {}", term(0), term(1)));
+    if (n == 3) line(fmt::format("  r(l) = r(l) + {}", term(2)));
+    if (n > 3) line(fmt::format("  r(l) = r(l) + ({} + {})", term(2), term(3)));
     line("end do");
     return;
   }
   line("do l = 1, 4");
   line(fmt::format("  s{}(l) = 0.0D0", number));
   line("end do");
-  line(fmt::format("do j{} = 0, {}", number, taps - 1));
+  line(fmt::format("do j{} = 0, {}", number, support - 1));
   line(fmt::format("  i{0} = {1} + j{0}*{2}", number, at, stride[axis]));
   sums(table, stride, axis + 1, fmt::format("i{}", number), indent + "  ", out);
   line("  do l = 1, 4");

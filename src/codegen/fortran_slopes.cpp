@@ -12,9 +12,9 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-// As ft_fan_N, depth first. p and q: the two ends on the last axis; "a" and "b": the two sides of
-// the axis before; p2a: the value along axes 2 and further, p2a3: its derivative by axis 3's
-// weight.
+// As ft_corners_gradient_N, depth first. p and q: the two ends on the last axis; "a" and "b": the
+// two sides of the axis before; p2a: the value along axes 2 and further, p2a3: its derivative by
+// axis 3's weight.
 class Fan {
 public:
   Fan(const std::vector<long>& stride, Slopes& out) : stride_(stride), out_(out) {}
@@ -56,15 +56,15 @@ private:
   Slopes& out_;
 };
 
-// As ft_bundle_N: rr(1..4,0) is the value left on the last axis, rr(1..4,k) its derivative by axis
-// k; a1, a2, ... gather it along the axes before.
+// As ft_sum_gradient_N: rr(1..4,0) is the value left on the last axis, rr(1..4,k) its derivative by
+// axis k; a1, a2, ... gather it along the axes before.
 class Bundle {
 public:
   Bundle(const Table& table, const std::vector<long>& stride, Slopes& out)
       : table_(table), stride_(stride), out_(out) {}
 
   void write(std::size_t axis, const std::string& at) {
-    const std::size_t number = axis + 1, taps = std::min<std::size_t>(nodes(axis), 4);
+    const std::size_t number = axis + 1, support = std::min<std::size_t>(nodes(axis), 4);
     if (number == stride_.size()) return each({fmt::format("rr(l,0) = tv({}+l-1)", at)});
     if (number + 1 == stride_.size()) {
       Strings lines;
@@ -73,7 +73,7 @@ public:
       return each(lines);
     }
     each(columns(number, "a{0}(l,{1}) = 0.0D0"));
-    out_.steps.push_back(fmt::format("do j{} = 0, {}", number, taps - 1));
+    out_.steps.push_back(fmt::format("do j{} = 0, {}", number, support - 1));
     out_.steps.push_back(fmt::format("i{0} = {1} + j{0}*{2}", number, at, stride_[axis]));
     write(axis + 1, fmt::format("i{}", number));
     Strings lines = columns(number, "a{0}(l,{1}) = a{0}(l,{1}) + w(j{0}+1,{0})*rr(l,{1})");
@@ -105,13 +105,13 @@ private:
             Strings& out) const {
     const std::size_t n = nodes(axis);
     const std::string to = fmt::format("rr(l,{})", column);
-    const auto tap = [&](long j) {
+    const auto term = [&](long j) {
       return fmt::format("{}({},{})*tv({}+l{:+})", weight, j + 1, axis + 1, at,
                          j * stride_[axis] - 1);
     };
-    out.push_back(fmt::format("{} = {} + {}", to, tap(0), tap(1)));
-    if (n == 3) out.push_back(fmt::format("{0} = {0} + {1}", to, tap(2)));
-    if (n > 3) out.push_back(fmt::format("{0} = {0} + ({1} + {2})", to, tap(2), tap(3)));
+    out.push_back(fmt::format("{} = {} + {}", to, term(0), term(1)));
+    if (n == 3) out.push_back(fmt::format("{0} = {0} + {1}", to, term(2)));
+    if (n > 3) out.push_back(fmt::format("{0} = {0} + ({1} + {2})", to, term(2), term(3)));
   }
 
   const Table& table_;

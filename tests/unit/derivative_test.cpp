@@ -88,23 +88,21 @@ TEST(Derivative, OfWhatDoesNotDependOnTheSymbolIsTheConstantZero) {
 // The two of every law: its piece and what makes tau_R of it, under the shear limit.
 TEST(Derivative, OfEveryLawIsThatOfTheSweep) {
   for (const Law& law : all_laws()) {
-    const Model model = test::plausible_model(law);
-    const Expr tau = tau_formula(model);
-    std::vector<std::string> states;
-    for (const std::string& name : inputs(law, model.conventions))
-      states.push_back(name);
-    const Program program(tau, states, parameter_names(law));
+    const AssembledLaw assembled(test::plausible_model(law));
+    const Expr& tau = assembled.tau_R;
+    const std::vector<std::string>& states = assembled.inputs;
+    const Program program(tau, states, assembled.parameters);
     std::vector<Program> slopes;
     for (const Expr& slope : derivatives(tau, states))
-      slopes.emplace_back(slope, states, parameter_names(law));
+      slopes.emplace_back(slope, states, assembled.parameters);
     const auto columns = test::random_states(states, 300, 5);
     for (std::size_t i = 0; i < 300; ++i) {
       std::vector<double> row, swept(states.size());
       for (const auto& column : columns)
         row.push_back(column[i]);
-      const double value = program.gradient(row, model.parameters, swept);
+      const double value = program.gradient(row, assembled.model.parameters, swept);
       for (std::size_t s = 0; s < states.size(); ++s)
-        EXPECT_NEAR(slopes[s](row, model.parameters), swept[s],
+        EXPECT_NEAR(slopes[s](row, assembled.model.parameters), swept[s],
                     1e-13 * (std::abs(swept[s]) + std::abs(value / row[s])))
             << law.name << " by " << states[s];
     }

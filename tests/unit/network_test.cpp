@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "expr/program.h"
+#include "models/assembled_law.h"
 #include "support/sample_data.h"
 
 namespace frictab {

@@ -170,13 +170,13 @@ void add_values(TemplateValues& values, const std::vector<double>& numbers) {
 void add_axes(TemplateValues& values, const Table& table) {
   const bool cubic = is_cubic(table);
   const auto rename = symbol_names(table);
-  std::vector<std::string> strides, taps, weights, coordinates;
+  std::vector<std::string> strides, supports, weights, coordinates;
   long stride = static_cast<long>(table.nodes());
   bool logarithm = false;
   for (const TableAxis& axis : table.axes) {
     const std::size_t n = axis.nodes.size();
     strides.push_back(std::to_string(stride /= static_cast<long>(n)));
-    taps.push_back(std::to_string(std::min<std::size_t>(n, 4)));
+    supports.push_back(std::to_string(std::min<std::size_t>(n, 4)));
     weights.push_back(cubic ? "{}" : "0.0");
     const std::string& x = rename.at(axis.name);
     coordinates.push_back(axis.log ? "ft_log(" + x + ")" : x);
@@ -191,7 +191,7 @@ void add_axes(TemplateValues& values, const Table& table) {
   }
   values.text["n_axes"] = std::to_string(table.axes.size());
   values.text["strides"] = join(strides, ", ");
-  values.text["taps"] = join(taps, ", ");
+  values.text["supports"] = join(supports, ", ");
   values.text["no_weights"] = join(weights, ", ");
   values.text["coordinates"] = join(coordinates, ", ");
   values.flags["uses_log"] = logarithm;
@@ -214,7 +214,7 @@ void add_interpolation(TemplateValues& values, const Table& table) {
   values.flags["log_value"] = table.log_value;
   values.lists["axes"], values.lists["chunks"];
   values.flags["uses_log"] = false;
-  for (const char* text : {"n_axes", "strides", "taps", "no_weights", "coordinates"})
+  for (const char* text : {"n_axes", "strides", "supports", "no_weights", "coordinates"})
     values.text[text] = "";
   values.text["value_comment"] = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",

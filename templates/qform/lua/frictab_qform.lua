@@ -103,7 +103,7 @@ local ft_basis = {
   },
 @end
 }
-local ft_taps = {@{taps}}
+local ft_support = {@{supports}}
 @end
 -- @{value_comment}
 local ft_value = {}
@@ -135,7 +135,7 @@ local ft_weight = {@{no_weights}} -- of the query at hand
 local function ft_sum(d, at)
   if d > @{n_axes} then return ft_value[at] end
   local w, step, sum = ft_weight[d], ft_stride[d], 0.0
-  for j = 1, ft_taps[d] do
+  for j = 1, ft_support[d] do
     sum = sum + w[j] * ft_sum(d + 1, at + (j - 1) * step)
   end
   return sum
