@@ -199,6 +199,13 @@ ModelFit fit_law(const Law& law, const Conventions& conventions, const Calibrati
   return fit;
 }
 
+// k over the flow stress.
+double shear_yield_ratio(const std::string& convention) {
+  if (convention == "tresca") return 0.5;
+  if (convention == "flow_stress") return 1.0;
+  return 1 / std::sqrt(3.0); // mises
+}
+
 } // namespace
 
 std::string LeftOut::text() const {
@@ -208,9 +215,7 @@ std::string LeftOut::text() const {
 Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
   Conventions conventions;
   conventions.shear_yield = models.shear_yield;
-  conventions.k_over_sigma_f = models.shear_yield == "tresca"        ? 0.5
-                               : models.shear_yield == "flow_stress" ? 1.0
-                                                                     : 1 / std::sqrt(3.0);
+  conventions.k_over_sigma_f = shear_yield_ratio(models.shear_yield);
   conventions.shear_limit = models.shear_limit && data.has("sigma_f_MPa");
   return conventions;
 }

@@ -20,7 +20,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* loss_name(Loss loss) {
-  return loss == Loss::l2 ? "L2" : loss == Loss::l1 ? "L1" : "huber";
+  switch (loss) {
+  case Loss::l2:
+    return "L2";
+  case Loss::l1:
+    return "L1";
+  case Loss::huber:
+    break;
+  }
+  return "huber";
+}
+
+Loss parse_loss(const std::string& name) {
+  if (name == "L1") return Loss::l1;
+  return name == "huber" ? Loss::huber : Loss::l2;
 }
 
 int whole_seconds_above(double seconds) {
@@ -270,8 +283,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
     calibration.data_hash = j.at("data_hash");
     calibration.synthetic = j.at("synthetic_data");
     calibration.seed = j.at("seed");
-    const std::string loss = j.at("loss");
-    calibration.loss = loss == "L1" ? Loss::l1 : loss == "huber" ? Loss::huber : Loss::l2;
+    calibration.loss = parse_loss(j.at("loss").get<std::string>());
     for (const Json& one : j.at("left_out"))
       calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
     calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));

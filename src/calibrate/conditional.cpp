@@ -78,7 +78,8 @@ ConditionalFit fit_of(const Model& model, const CalibrationInput& input, double 
   const std::vector<LawErrors> both = {
       {"conditional", error_sums(rest.measured, rest.gained, rest.first_row)},
       {"unconditional", error_sums(rest.measured, rest.plain, rest.first_row)}};
-  const auto [resamples, seed] = std::pair{input.options.bootstrap, input.options.seed};
+  const std::size_t resamples = input.options.bootstrap;
+  const std::uint64_t seed = input.options.seed;
   ConditionalFit fit;
   fit.law = model.law->name;
   fit.usual_first = prior.usual_first;

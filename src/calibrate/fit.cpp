@@ -104,7 +104,15 @@ double mean_square(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-// One fit: where it is, what it knows there, how bold it is.
+// What damping is multiplied with after a step that gained `ratio` of what the quadratic model had
+// promised.
+double damping_change(double ratio) {
+  if (ratio > 0.9) return 0.01;
+  if (ratio > 0.5) return 0.2;
+  return ratio > 0.1 ? 1 : 3;
+}
+
+// One fit: its parameters, the normal equations there, and the damping of the next step.
 class Solver {
 public:
   Solver(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
@@ -217,8 +225,7 @@ private:
         there.cost = cost(step.to);
       if (there.cost < here_.cost) {
         const double ratio = (here_.cost - there.cost) / step.predicted;
-        const double change = ratio > 0.9 ? 0.01 : ratio > 0.5 ? 0.2 : ratio > 0.1 ? 1 : 3;
-        damping_ = std::max(damping_ * change, 1e-12);
+        damping_ = std::max(damping_ * damping_change(ratio), 1e-12);
         if (attempt > 0) there = evaluate(step.to);
         if (close_) learn(step.to, there);
         x_ = step.to;

@@ -31,21 +31,23 @@ std::vector<double> column_of(std::span<const ErrorSums> sums, double ErrorSums:
   return values;
 }
 
+// Infinite where the error is no more than rounding of `size`: a resample that drew one experiment
+// every time has no scatter.
+double in_standard_errors(double step, double error, double size) {
+  if (error > 1e-12 * size) return step / error;
+  if (step == 0 || std::isnan(step)) return 0;
+  return std::copysign(std::numeric_limits<double>::infinity(), step);
+}
+
 // The 2.5 % and 97.5 % quantiles of (resampled - value) / resampled standard error.
 Interval studentised(std::span<const double> x, std::span<const double> n, Measure measure,
                      double value, Draws draws) {
   std::vector<double> t, influence(x.size()), times(x.size());
-  const double infinite = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < draws.count; ++b) {
     resample(draws.seed, b, times);
     const double again = ratio_of(x, n, times, measure, influence);
     const double se = standard_error(influence, times);
-    const double step = again - value;
-    // One experiment drawn every time: no scatter, infinitely many standard errors off.
-    t.push_back(se > 1e-12 * std::abs(again) ? step / se
-                : step > 0                   ? infinite
-                : step < 0                   ? -infinite
-                                             : 0);
+    t.push_back(in_standard_errors(again - value, se, std::abs(again)));
   }
   const double low = quantile_of(t, 0.025); // sorts
   return {low, quantile_of(t, 0.975)};

@@ -196,15 +196,17 @@ std::string noise_floor_name(const NoiseFloor& floor) {
   return "scatter within experiments only";
 }
 
+std::string noise_floor_limits(const NoiseFloor& floor) {
+  if (floor.lower_bound) return ", scatter between experiments not included";
+  return floor.part == "training" ? ", of the training data" : "";
+}
+
 std::string noise_floor_sentence(const Calibration& calibration, int decimals) {
   if (calibration.noise_floors.empty())
     return "noise floor unknown: no repeated tests, and experiments too short to see their scatter";
   const NoiseFloor& floor = calibration.noise_floors.front();
   return fmt::format("noise floor {}{:.{}f} MPa: {}{}", floor.lower_bound ? "above " : "",
-                     floor.mae_MPa, decimals, noise_floor_name(floor),
-                     floor.lower_bound          ? ", scatter between experiments not included"
-                     : floor.part == "training" ? ", of the training data"
-                                                : "");
+                     floor.mae_MPa, decimals, noise_floor_name(floor), noise_floor_limits(floor));
 }
 
 std::string noise_floor_advice(const Calibration& calibration) {

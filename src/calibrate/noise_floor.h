@@ -33,6 +33,9 @@ void add_noise_floors(Calibration& calibration, const CalibrationInput& input);
 // "noise floor 8.34 MPa: ...", in one sentence without a full stop: what it is and what it is not.
 // `decimals` of the MPa.
 std::string noise_floor_sentence(const Calibration& calibration, int decimals);
+// What a reader has to know of it, to be put behind the name: ", of the training data"; may be
+// empty.
+std::string noise_floor_limits(const NoiseFloor& floor);
 // Where it is only a lower bound: what would give the floor itself. Empty otherwise.
 std::string noise_floor_advice(const Calibration& calibration);
 // "the twin's own truth" -> table cell: "oracle (synthetic data only)".

@@ -38,8 +38,11 @@ double ratio_of(std::span<const double> x, std::span<const double> n, std::span<
     rows += times[e] * n[e];
   }
   const double mean = sum / rows;
-  const double value = measure == Measure::mean ? mean : std::sqrt(mean);
-  const double slope = measure == Measure::mean ? 1 : value > 0 ? 0.5 / value : 0;
+  double value = mean, slope = 1; // of the mean
+  if (measure == Measure::root_mean) {
+    value = std::sqrt(mean);
+    slope = value > 0 ? 0.5 / value : 0;
+  }
   for (std::size_t e = 0; e < x.size(); ++e)
     influence[e] = slope * (x[e] - mean * n[e]) / rows;
   return value;

@@ -154,6 +154,11 @@ std::vector<Finding> examine() {
   return out;
 }
 
+const char* mark_of(const Finding& finding) {
+  if (finding.ok) return "ok";
+  return finding.needed ? "MISSING" : "absent";
+}
+
 void print_text(const std::vector<Finding>& findings) {
   std::size_t width = 0;
   for (const Finding& finding : findings)
@@ -162,8 +167,7 @@ void print_text(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
     if (finding.topic != topic) fmt::print("{}{}\n", topic.empty() ? "" : "\n", finding.topic);
     topic = finding.topic;
-    const char* mark = finding.ok ? "ok" : finding.needed ? "MISSING" : "absent";
-    fmt::print("  {:<7}  {:<{}}  {}\n", mark, finding.name, width, finding.text);
+    fmt::print("  {:<7}  {:<{}}  {}\n", mark_of(finding), finding.name, width, finding.text);
     if (!finding.mend.empty())
       fmt::print("  {:<7}  {:<{}}  mend: {}\n", "", "", width, finding.mend);
   }

@@ -28,7 +28,8 @@ int run(const Options& options, const CommonOptions& common) {
     throw InputError({}, "--along is given more than twice", "hold the other states by --at");
   const Table table = read_table(options.file);
   const HeldStates held = held_states(options.at, table.inputs());
-  const std::size_t points = options.points ? options.points : options.along.size() == 2 ? 41 : 101;
+  std::size_t points = options.points;
+  if (points == 0) points = options.along.size() == 2 ? 41 : 101;
   const Slice result = slice(table, held, options.along, points);
   for (const std::string& line : check_held(table, held))
     note(common, "note: " + line);

@@ -93,7 +93,8 @@ Bounds apply(Op op, const Bounds& a, const Bounds& b, const Bounds& c, const Bou
   case Op::maximum:
     return {std::max(a.low, b.low), std::max(a.high, b.high)};
   case Op::where_le:
-    return a.high <= b.low ? c : b.high < a.low ? d : hull(c, d);
+    if (a.high <= b.low) return c;
+    return b.high < a.low ? d : hull(c, d);
   case Op::constant:
   case Op::symbol:
     break;

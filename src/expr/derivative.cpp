@@ -23,7 +23,8 @@ Expr times(const Expr& a, const Expr& b) {
   return a * b;
 }
 Expr minus(const Expr& a, const Expr& b) {
-  return is_zero(a) ? (is_zero(b) ? Expr(0.0) : -b) : a - b;
+  if (!is_zero(a)) return a - b;
+  return is_zero(b) ? Expr(0.0) : -b;
 }
 Expr over(const Expr& a, const Expr& b) {
   return is_zero(a) ? Expr(0.0) : a / b;
@@ -61,12 +62,17 @@ Expr never_zero(const Expr& a) {
   return surely_positive(a) ? a : where_le(a, 0.0, where_le(0.0, a, 1.0, a), a);
 }
 
-Expr power_slope(const Expr& e, const Expr& by_base, const Expr& by_exponent) {
+// Of a power e = a^b, by its base alone.
+Expr base_slope(const Expr& e, const Expr& by_base) {
   const Expr &a = e.operands()[0], &b = e.operands()[1];
-  Expr slope = b.is_constant(1)   ? by_base
-               : b.is_constant(2) ? times(2.0 * a, by_base)
-               : is_zero(by_base) ? Expr(0.0)
-                                  : times(b * e / never_zero(a), by_base);
+  if (b.is_constant(1)) return by_base;
+  if (b.is_constant(2)) return times(2.0 * a, by_base);
+  return is_zero(by_base) ? Expr(0.0) : times(b * e / never_zero(a), by_base);
+}
+
+Expr power_slope(const Expr& e, const Expr& by_base, const Expr& by_exponent) {
+  const Expr& a = e.operands()[0];
+  const Expr slope = base_slope(e, by_base);
   if (is_zero(by_exponent)) return slope;
   const Expr by_b =
       surely_positive(a) ? e * log(a) : where_le(a, 0.0, 0.0, e * log(where_le(a, 0.0, 1.0, a)));

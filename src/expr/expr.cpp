@@ -180,9 +180,11 @@ Expr share(const Expr& e, std::map<NodeKey, Expr>& known, Replaced& done) {
     std::get<3>(key).push_back(operands.back().id());
   }
   const auto found = known.find(key);
-  const Expr result = found != known.end() ? found->second
-                      : operands.empty()   ? e
-                                           : rebuild(e.op(), operands);
+  Expr result = e;
+  if (found != known.end())
+    result = found->second;
+  else if (!operands.empty())
+    result = rebuild(e.op(), operands);
   known.emplace(std::move(key), result);
   done.emplace(e.id(), result);
   return result;

@@ -21,7 +21,8 @@ double partial(Op op, std::size_t which, const double* v, double result) {
   case Op::divide:
     return which == 0 ? 1 / v[1] : -result / v[1];
   case Op::power:
-    if (which == 0) return v[0] == 0 ? (v[1] == 1 ? 1 : 0) : v[1] * result / v[0];
+    if (which == 0 && v[0] == 0) return v[1] == 1 ? 1 : 0;
+    if (which == 0) return v[1] * result / v[0];
     return v[0] > 0 ? result * std::log(v[0]) : 0;
   case Op::exp:
     return result;

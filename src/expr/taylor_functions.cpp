@@ -15,6 +15,12 @@ namespace {
 
 using std::numbers::pi;
 
+// The distance of 0 from the interval low .. high.
+double distance_from_zero(double low, double high) {
+  if (low > 0) return low;
+  return high < 0 ? -high : 0;
+}
+
 double value_of(Op op, double x) {
   return op == Op::divide ? 1 / x : apply(op, x, 0, 0, 0);
 }
@@ -29,7 +35,7 @@ double whole_power(double x, std::size_t n) {
 // |d^n tanh / n!| over low .. high, n >= 1, from its poles at (k - 1/2) pi i: each pair
 // contributes at most 2 |x - pole|^-(n+1).
 double tanh_derivative(double low, double high, std::size_t n) {
-  const double x = low > 0 ? low : high < 0 ? -high : 0;
+  const double x = distance_from_zero(low, high);
   double sum = 0;
   constexpr int pairs = 4;
   for (int k = 0; k < pairs; ++k) {
@@ -55,7 +61,7 @@ double derivative_bound(Op op, double low, double high, std::size_t n) {
   case Op::log:
     return above ? whole_power(1 / low, n) / order : HUGE_VAL;
   case Op::divide: {
-    const double nearest = above ? low : high < 0 ? -high : 0;
+    const double nearest = distance_from_zero(low, high);
     return nearest > 0 ? whole_power(1 / nearest, n + 1) : HUGE_VAL;
   }
   case Op::sqrt: {
@@ -92,8 +98,9 @@ Interpolation interpolation(std::size_t n) {
       for (std::size_t i = 0; i < n; ++i)
         out.power[i * n + j] += share * now[i];
     }
+    const int twice = k == 0 ? 1 : 2; // T_k+1 = 2 y T_k - T_k-1, but T_1 = y T_0
     for (std::size_t i = 0; i < n; ++i)
-      next[i] = (i > 0 ? (k == 0 ? 1 : 2) * now[i - 1] : 0) - before[i];
+      next[i] = (i > 0 ? twice * now[i - 1] : 0) - before[i];
     before.swap(now);
     now.swap(next);
   }

@@ -314,7 +314,8 @@ std::vector<KeyRule> proof_keys() {
 
 Loss Kind<Loss>::from(KeyValue& v) {
   const std::string& text = std::get<std::string>(v); // as spelled in losses()
-  return text == "L2" ? Loss::l2 : text == "L1" ? Loss::l1 : Loss::huber;
+  if (text == "L2") return Loss::l2;
+  return text == "L1" ? Loss::l1 : Loss::huber;
 }
 
 Interpolation Kind<Interpolation>::from(KeyValue& v) {

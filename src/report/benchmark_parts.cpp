@@ -80,10 +80,7 @@ std::string floor_row(const Calibration& calibration, int decimals) {
   return fmt::format("| | *noise floor* | {}{} | {} | {} | | | | {}{} |\n",
                      f.lower_bound ? "\\> " : "", fixed(f.mae_MPa, decimals),
                      interval_text(f.mae_interval, decimals), fixed(f.rmse_MPa, decimals),
-                     noise_floor_name(f),
-                     f.lower_bound          ? ", scatter between experiments not included"
-                     : f.part == "training" ? ", of the training data"
-                                            : "");
+                     noise_floor_name(f), noise_floor_limits(f));
 }
 
 void add_all_errors(std::string& out, const Calibration& calibration, int decimals) {

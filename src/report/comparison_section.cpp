@@ -14,7 +14,8 @@ namespace {
 
 // Three classes, told apart by shade and by the cell's own sign.
 const char* class_of(const Difference& d) {
-  return d.p_value < 0.001 ? "clear" : d.distinguishable() ? "better" : "open";
+  if (d.p_value < 0.001) return "clear";
+  return d.distinguishable() ? "better" : "open";
 }
 
 std::string cell(const Comparison& pair, int decimals) {

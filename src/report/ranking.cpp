@@ -33,9 +33,8 @@ std::string kind_text(const Law& law) {
 }
 
 std::string bar_colour(const Law& law) {
-  return law.calibrated == Calibrated::fixed  ? "#9aa4af"
-         : law.calibrated == Calibrated::mean ? "#86b0d6"
-                                              : "#3f83bd";
+  if (law.calibrated == Calibrated::fixed) return "#9aa4af";
+  return law.calibrated == Calibrated::mean ? "#86b0d6" : "#3f83bd";
 }
 
 // Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
@@ -135,17 +134,28 @@ TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
   return row;
 }
 
-std::string made_by(const Calibration& calibration) {
-  const char* loss = calibration.loss == Loss::l2   ? "L2 (least squares)"
-                     : calibration.loss == Loss::l1 ? "L1 (least absolute errors)"
-                                                    : "Huber";
+const char* loss_text(Loss loss) {
+  switch (loss) {
+  case Loss::l2:
+    return "L2 (least squares)";
+  case Loss::l1:
+    return "L1 (least absolute errors)";
+  case Loss::huber:
+    break;
+  }
+  return "Huber";
+}
+
+// How the parameters in the ranking were found.
+std::string method_text(const Calibration& calibration) {
   std::vector<std::string> methods;
   for (const ModelFit& fit : calibration.fits)
     if (fit.model.law->calibrated != Calibrated::fixed && !fit.std_error_method.empty() &&
         std::find(methods.begin(), methods.end(), fit.std_error_method) == methods.end())
       methods.push_back(fit.std_error_method);
-  std::string text = fmt::format("Loss: {}. Seed {}. Data fingerprint {}.", loss, calibration.seed,
-                                 svg::escape(calibration.data_hash));
+  std::string text =
+      fmt::format("Loss: {}. Seed {}. Data fingerprint {}.", loss_text(calibration.loss),
+                  calibration.seed, svg::escape(calibration.data_hash));
   if (!methods.empty()) text += " Standard errors: " + svg::escape(join(methods, "; ")) + ".";
   return text;
 }
@@ -175,7 +185,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   std::vector<TemplateValues>& laws = page.lists["laws"];
   page.lists["floor_rows"] = {};
   page.flags["has_laws"] = has_laws;
-  page.text["made_by"] = made_by(calibration);
+  page.text["made_by"] = method_text(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
   if (has_laws) {
     const Metrics& v = calibration.fits.front().validation;

@@ -286,12 +286,10 @@ std::string bar_scale(const Axis& axis, double width, double height) {
   for (const double tick : axis.ticks) {
     const double x = tick / axis.high * width;
     marks += fmt::format("M{} {}v4", pixel(std::clamp(x, 0.5, width - 0.5)), pixel(height - 4));
-    const bool first = tick <= 0, last = tick >= axis.high;
-    text += label_at(x, height - 7,
-                     first  ? "start"
-                     : last ? "end"
-                            : "middle",
-                     tick_label(axis, tick));
+    const char* anchor = "middle"; // labels at the ends stay inside the scale
+    if (tick >= axis.high) anchor = "end";
+    if (tick <= 0) anchor = "start";
+    text += label_at(x, height - 7, anchor, tick_label(axis, tick));
   }
   return text + fmt::format("<path stroke=\"#444\" d=\"{}\"/></svg>", marks);
 }

@@ -175,11 +175,28 @@ Rival rival_of(const Search& search, const Option& option, const NoiseModel& noi
 
 } // namespace
 
+namespace {
+
+// A text column comes first among a cause's columns.
+bool starts_with_text(const Cause& cause, const Candidates& candidates) {
+  return !candidates.columns[cause.columns[0]].levels.empty();
+}
+
+const char* plain_form(const Cause& cause, bool text) {
+  if (cause.several()) return text ? "category_slope" : "product";
+  return text ? "category" : "linear";
+}
+
+const char* smooth_form(const Cause& cause, bool text) {
+  if (cause.columns.size() == 3) return "product3";
+  if (cause.columns.size() == 2) return text ? "spline_by_level" : "surface";
+  return text ? "category" : "spline";
+}
+
+} // namespace
+
 PlacedEffect plain_effect(const Search& search, const Cause& cause) {
-  const bool text = !search.candidates.columns[cause.columns[0]].levels.empty();
-  const char* form = cause.several() ? text ? "category_slope" : "product"
-                     : text          ? "category"
-                                     : "linear";
+  const char* form = plain_form(cause, starts_with_text(cause, search.candidates));
   const bool both = search.sensitivities()[on_both].size() > 0;
   return start_effect(*find_effect(form), cause, search.candidates, places[both ? on_both : on_mu],
                       search.tau_scale_MPa);
@@ -187,14 +204,7 @@ PlacedEffect plain_effect(const Search& search, const Cause& cause) {
 
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, ActsOn acts_on) {
   const Candidates& candidates = search.candidates;
-  std::size_t text = 0;
-  for (const std::size_t c : cause.columns)
-    text += !candidates.columns[c].levels.empty();
-  const char* form = cause.columns.size() == 3               ? "product3"
-                     : cause.columns.size() == 2 && text > 0 ? "spline_by_level"
-                     : cause.columns.size() == 2             ? "surface"
-                     : text > 0                              ? "category"
-                                                             : "spline";
+  const char* form = smooth_form(cause, starts_with_text(cause, candidates));
   return start_effect(*find_effect(form), cause, candidates, acts_on, search.tau_scale_MPa);
 }
 

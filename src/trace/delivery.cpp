@@ -66,9 +66,7 @@ private:
     d_.findings.resize(effects);
     std::iota(d_.findings.begin(), d_.findings.end(), 0);
     d_.baseline = weighted(s_.base);
-    d_.rival = effects == 0                    ? d_.baseline
-               : effects == s_.findings.size() ? weighted(s_.last())
-                                               : weighted(s_.findings[effects - 1].rival);
+    d_.rival = effects == 0 ? d_.baseline : weighted(s_.with_first(effects));
   }
 
   Metrics errors(const Dataset& data, const Rival& rival) const {

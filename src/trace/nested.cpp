@@ -89,9 +89,7 @@ FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset
       }
       continue;
     }
-    const Rival& rival = k == 0                         ? search->base
-                         : k == search->findings.size() ? search->last()
-                                                        : search->findings[k - 1].rival;
+    const Rival& rival = search->with_first(k);
     evaluate(rival, 0);
     evaluate(with_weights(search->campaign(), rival, rows_alike(rival.noise)), 1);
   }

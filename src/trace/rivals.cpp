@@ -137,6 +137,17 @@ Law bounded_law(const Campaign& campaign, const Rival& rival) {
   return law;
 }
 
+namespace {
+
+// Share of the cost below which a step's gain ends a fit. Loose where a search is repeated for
+// every fold, tight where the result is handed on.
+double fit_tolerance(const Campaign& campaign, NoiseSearch search) {
+  if (campaign.quick) return 1e-5;
+  return search == NoiseSearch::kept ? 1e-8 : 1e-11;
+}
+
+} // namespace
+
 Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, NoiseSearch search) {
@@ -152,7 +163,7 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
   const MatrixXd penalty = penalty_of(rival);
-  const double enough = campaign.quick ? 1e-5 : search == NoiseSearch::kept ? 1e-8 : 1e-11;
+  const double enough = fit_tolerance(campaign, search);
   const auto refit = [&](const LawOnBlocks& with) {
     rival.predicted = with.predict(rival.parameters);
     const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);

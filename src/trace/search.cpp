@@ -202,6 +202,11 @@ void Search::fit_again() {
                     NoiseSearch::again));
 }
 
+const Rival& Search::with_first(std::size_t count) const {
+  if (count == 0) return base;
+  return count == findings.size() ? last_ : findings[count - 1].rival;
+}
+
 Whitener Search::whitener() const {
   return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
 }

@@ -49,6 +49,9 @@ public:
   bool negligible() const;
 
   const Rival& last() const { return last_; }
+  // The law with the first `count` findings: without any, with all of them, or as it stood when
+  // that many had been found.
+  const Rival& with_first(std::size_t count) const;
   const Sensitivities& sensitivities() const { return sensitivities_; }
   // Directions of everything that is fitted in `last`, or could have been.
   const Eigen::MatrixXd& known() const { return known_; }

@@ -66,6 +66,12 @@ std::string excess_sentence(const Trace& t) {
                      t.repeatability_from == "given" ? "given" : "from repeated tests");
 }
 
+Verdict verdict_of(const Trace& t) {
+  if (!t.effects.empty()) return Verdict::effect_added;
+  if (t.remaining.structure) return Verdict::unexplained_structure;
+  return agrees_with_repeats(t) ? Verdict::nothing_missing : Verdict::nothing_found;
+}
+
 } // namespace
 
 void add_verdict(Trace& t, const Search& search, bool contradicted) {
@@ -81,10 +87,7 @@ void add_verdict(Trace& t, const Search& search, bool contradicted) {
     notes.push_back("what the training tests show, the validation tests contradict");
   if (!excess) notes.push_back(scatter_sentence(t));
   t.remaining.note = join(notes, "; ");
-  t.verdict = !t.effects.empty()       ? Verdict::effect_added
-              : t.remaining.structure  ? Verdict::unexplained_structure
-              : agrees_with_repeats(t) ? Verdict::nothing_missing
-                                       : Verdict::nothing_found;
+  t.verdict = verdict_of(t);
 }
 
 } // namespace frictab

@@ -53,11 +53,13 @@ Rows rows_of(const Program& program, const Dataset& data, const TauPieces& piece
   Rows rows;
   for (const double shift : pieces.shift)
     rows.shifted.push_back(1.0 + shift);
-  for (const std::string& name : program.columns())
-    rows.columns.push_back(name == "planted_mu"    ? pieces.tau0.data()
-                           : name == "planted_m"   ? pieces.limit.data()
-                           : name == "planted_tau" ? rows.shifted.data()
-                                                   : data.values(name).data());
+  const std::map<std::string, const double*> planted = {{"planted_mu", pieces.tau0.data()},
+                                                        {"planted_m", pieces.limit.data()},
+                                                        {"planted_tau", rows.shifted.data()}};
+  for (const std::string& name : program.columns()) {
+    const auto found = planted.find(name);
+    rows.columns.push_back(found != planted.end() ? found->second : data.values(name).data());
+  }
   return rows;
 }
 
