@@ -42,12 +42,12 @@ QuantileRange attainable_quantiles(std::size_t experiments) {
   return {1 / (count + 1), count / (count + 1)};
 }
 
-std::optional<double> gain_at(std::span<const double> gains, double quantile) {
+std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile) {
   constexpr double rounding = 1e-12; // 0.05 of 19 experiments is the first, not a bit below it
-  const double place = quantile * (static_cast<double>(gains.size()) + 1) - 1;
+  const double rank = quantile * (static_cast<double>(gains.size()) + 1) - 1;
   const double last = static_cast<double>(gains.size()) - 1;
-  if (gains.empty() || place < -rounding || place > last + rounding) return std::nullopt;
-  const double at = std::clamp(place, 0.0, last);
+  if (gains.empty() || rank < -rounding || rank > last + rounding) return std::nullopt;
+  const double at = std::clamp(rank, 0.0, last);
   const auto i = static_cast<std::size_t>(at);
   const double next = gains[std::min(i + 1, gains.size() - 1)];
   return gains[i] * std::pow(next / gains[i], at - static_cast<double>(i));
@@ -57,7 +57,7 @@ Model at_quantile(const Model& model, double quantile, const Place& place) {
   Model end = model;
   end.quantile = quantile;
   if (quantile == 0.5) return end;
-  const auto gain = gain_at(model.experiment_gains, quantile);
+  const auto gain = gain_at_quantile(model.experiment_gains, quantile);
   if (!gain) {
     const std::size_t experiments = model.experiment_gains.size();
     const QuantileRange range = attainable_quantiles(experiments);
@@ -74,8 +74,8 @@ Model at_quantile(const Model& model, double quantile, const Place& place) {
 }
 
 BandCheck check_band(const Model& model, std::span<const double> predicted, const Dataset& data) {
-  BandCheck check{gain_at(model.experiment_gains, 0.05), gain_at(model.experiment_gains, 0.95), 0,
-                  data.experiments.size()};
+  BandCheck check{gain_at_quantile(model.experiment_gains, 0.05),
+                  gain_at_quantile(model.experiment_gains, 0.95), 0, data.experiments.size()};
   if (!check.low || !check.high) return check;
   for (const double gain : experiment_gains(data.values("tau_R_MPa"), predicted, data.first_row))
     if (gain >= *check.low && gain <= *check.high) ++check.inside;

@@ -33,7 +33,7 @@ QuantileRange attainable_quantiles(std::size_t experiments);
 
 // The factor that a share `quantile` of new experiments stays below, linear between the order
 // statistics in the logarithm; nothing where there are too few experiments.
-std::optional<double> gain_at(std::span<const double> gains, double quantile);
+std::optional<double> gain_at_quantile(std::span<const double> gains, double quantile);
 
 // The law at a quantile of the experiments; 0.5 is the law itself. Throws InputError (at `place`)
 // where there are too few experiments for it.

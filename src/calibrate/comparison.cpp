@@ -115,10 +115,10 @@ double share_beyond(std::size_t beyond, std::size_t resamples) {
 
 // The value that fewer than 5 % of all values, and the one tested, exceed: an interval made with it
 // leaves 0 out exactly where p < 0.05.
-double critical(std::vector<double> size) {
-  const double place = std::ceil(0.95 * (static_cast<double>(size.size()) + 1));
-  if (place > static_cast<double>(size.size())) return infinite;
-  const auto at = size.begin() + static_cast<long>(place) - 1;
+double critical_value(std::vector<double> size) {
+  const double rank = std::ceil(0.95 * (static_cast<double>(size.size()) + 1));
+  if (rank > static_cast<double>(size.size())) return infinite;
+  const auto at = size.begin() + static_cast<long>(rank) - 1;
   std::nth_element(size.begin(), at, size.end());
   return *at;
 }
@@ -133,7 +133,7 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   d.value_MPa = s.difference[pair];
   d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
   const bool equal = s.t[pair] == 0 && s.error[pair] == 0;
-  const double half = equal ? 0 : critical(std::move(size)) * s.error[pair];
+  const double half = equal ? 0 : critical_value(std::move(size)) * s.error[pair];
   d.interval = {d.value_MPa - half, d.value_MPa + half};
   return d;
 }

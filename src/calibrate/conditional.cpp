@@ -74,7 +74,8 @@ ConditionalFit fit_of(const Model& model, const CalibrationInput& input, double 
   const Dataset& data = input.validation;
   const std::vector<double> plain = predict(model, data);
   const Rest rest =
-      rest_of(data, plain, conditioned(data, plain, shear_limit(model, data), prior, x_mm), x_mm);
+      rest_of(data, plain,
+              conditioned_predictions(data, plain, shear_limit(model, data), prior, x_mm), x_mm);
   const std::vector<LawErrors> both = {
       {"conditional", error_sums(rest.measured, rest.gained, rest.first_row)},
       {"unconditional", error_sums(rest.measured, rest.plain, rest.first_row)}};
@@ -156,8 +157,8 @@ GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
   return prior;
 }
 
-std::vector<double> conditioned(const Dataset& data, Rows predicted, Rows limit,
-                                const GainPrior& prior, double x_mm) {
+std::vector<double> conditioned_predictions(const Dataset& data, Rows predicted, Rows limit,
+                                            const GainPrior& prior, double x_mm) {
   const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
   std::vector<double> out(predicted.begin(), predicted.end());
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {

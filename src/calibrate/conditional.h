@@ -38,8 +38,9 @@ GainPrior gain_prior(const Dataset& training, std::span<const double> predicted,
 
 // Predictions times the gain of their experiment's rest, kept to tau_R <= `limit` (per row;
 // empty: no limit).
-std::vector<double> conditioned(const Dataset& data, std::span<const double> predicted,
-                                std::span<const double> limit, const GainPrior& prior, double x_mm);
+std::vector<double> conditioned_predictions(const Dataset& data, std::span<const double> predicted,
+                                            std::span<const double> limit, const GainPrior& prior,
+                                            double x_mm);
 
 // Throws InputError where the data have no s_mm, or x leaves no rows beyond it.
 void check_conditional(const CalibrationInput& input);

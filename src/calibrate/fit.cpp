@@ -29,7 +29,7 @@ double from_step_scale(const Parameter& p, double moved) {
 
 // Parameters that may move: not those at a bound that the descent pushes them against, nor those
 // without any influence.
-std::vector<Index> free_parameters(const FitProblem& problem, const Normal& n,
+std::vector<Index> free_parameters(const FitProblem& problem, const NormalEquations& n,
                                    const std::vector<double>& x) {
   std::vector<Index> free;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -42,8 +42,8 @@ std::vector<Index> free_parameters(const FitProblem& problem, const Normal& n,
 }
 
 // Damped and scaled normal equations: independent of the parameters' units.
-VectorXd solve_damped(const Normal& n, const std::vector<Index>& free, const VectorXd& descent,
-                      const VectorXd& damping) {
+VectorXd solve_damped(const NormalEquations& n, const std::vector<Index>& free,
+                      const VectorXd& descent, const VectorXd& damping) {
   const auto size = static_cast<Index>(free.size());
   MatrixXd h(size, size);
   VectorXd g(size), scale(size);
@@ -64,7 +64,7 @@ struct Step {
 };
 
 // A parameter that would leave its bounds is put on the bound, and the others are solved again.
-Step bounded_step(const FitProblem& problem, const Normal& n, std::vector<Index> free,
+Step bounded_step(const FitProblem& problem, const NormalEquations& n, std::vector<Index> free,
                   const std::vector<double>& x, const VectorXd& damping) {
   VectorXd step = VectorXd::Zero(n.descent.size());
   while (!free.empty()) {
@@ -142,9 +142,9 @@ private:
     return mean_cost(problem_, loss_, x);
   }
 
-  Normal evaluate(const std::vector<double>& x) {
+  NormalEquations evaluate(const std::vector<double>& x) {
     ++evaluations_;
-    Normal n = normal_equations(problem_, loss_, x);
+    NormalEquations n = normal_equations(problem_, loss_, x);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (is_scale(problem_.parameters[i])) {
         const auto at = static_cast<Index>(i);
@@ -177,8 +177,8 @@ private:
   }
 
   // The normal equations with the correction, where that leaves a minimum to step to.
-  Normal corrected(const std::vector<Index>& free) {
-    Normal model = here_;
+  NormalEquations corrected(const std::vector<Index>& free) {
+    NormalEquations model = here_;
     const auto size = static_cast<Index>(free.size());
     MatrixXd h(size, size);
     for (Index a = 0; a < size; ++a)
@@ -193,7 +193,7 @@ private:
   }
 
   // What the step has shown of the curvature: symmetric rank one, in scaled parameters.
-  void learn(const std::vector<double>& to, const Normal& there) {
+  void learn(const std::vector<double>& to, const NormalEquations& there) {
     const Index size = correction_.rows();
     VectorXd step(size), scale(size);
     for (Index i = 0; i < size; ++i) {
@@ -217,7 +217,7 @@ private:
     double growth = 4;
     for (int attempt = 0; attempt < 25; ++attempt) {
       const Step step = bounded_step(problem_, model_, free, x_, damping_ * largest_);
-      Normal there{std::numeric_limits<double>::infinity(), {}, {}};
+      NormalEquations there{std::numeric_limits<double>::infinity(), {}, {}};
       const bool downhill = step.predicted > 0;
       if (downhill && attempt == 0) // likely to be accepted: value and derivatives in one sweep
         there = evaluate(step.to);
@@ -244,13 +244,13 @@ private:
   const FitOptions& options_;
   std::size_t evaluations_ = 0;
   std::vector<double> x_;
-  Normal here_;
+  NormalEquations here_;
   double damping_;
   double exact_; // L2 below which only rounding is left
   MatrixXd correction_;
-  VectorXd largest_;   // curvature seen by each parameter: what damping is measured in (More 1978)
-  Normal model_;       // here_ with the correction
-  bool close_ = false; // to the minimum: gradients tell about curvature
+  VectorXd largest_; // curvature seen by each parameter: what damping is measured in (More 1978)
+  NormalEquations model_; // here_ with the correction
+  bool close_ = false;    // to the minimum: gradients tell about curvature
   int small_gains_ = 0;
 };
 

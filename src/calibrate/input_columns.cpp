@@ -20,7 +20,7 @@ constexpr double settled = 1e-12; // relative change between two rounds
 constexpr int plain_rounds = 20, most_rounds = 80;
 
 // (A column that has the name of a history is not it.)
-const Column* recorded(const std::string& name, const Dataset& data) {
+const Column* recorded_column(const std::string& name, const Dataset& data) {
   if (find_derived(name)) return nullptr;
   if (const Column* column = data.find(name)) return column;
   for (const Column& column : data.columns)
@@ -29,7 +29,7 @@ const Column* recorded(const std::string& name, const Dataset& data) {
 }
 
 // What a history lacks to be derived.
-std::vector<std::string> lacks(const DerivedQuantity& derived, const Dataset& data) {
+std::vector<std::string> missing_needs(const DerivedQuantity& derived, const Dataset& data) {
   std::vector<std::string> names;
   for (const std::string& need : derived.needs)
     if (need != "tau" && !data.has(need)) names.push_back(need);
@@ -73,9 +73,9 @@ std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
                                         const Dataset& data) {
   std::vector<std::string> missing;
   for (const std::string& name : names) {
-    if (recorded(name, data)) continue;
+    if (recorded_column(name, data)) continue;
     const DerivedQuantity* derived = find_derived(name);
-    const auto from = derived ? lacks(*derived, data) : std::vector<std::string>{};
+    const auto from = derived ? missing_needs(*derived, data) : std::vector<std::string>{};
     if (!derived)
       missing.push_back(name);
     else if (!from.empty())
@@ -100,7 +100,7 @@ InputColumns::InputColumns(const Law& law, std::vector<std::string> names, const
 
 const double* InputColumns::find(const Law& law, std::size_t input) {
   const std::string& name = names_[input];
-  const Column* column = recorded(name, *data_);
+  const Column* column = recorded_column(name, *data_);
   const auto levels = law.levels.find(name);
   if (column && levels == law.levels.end()) {
     if (!column->levels.empty())
@@ -123,7 +123,7 @@ bool InputColumns::need_tau() const {
   return std::find(follows_.begin(), follows_.end(), true) != follows_.end();
 }
 
-void InputColumns::follow(std::span<const double> tau) {
+void InputColumns::derive_from_tau(std::span<const double> tau) {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!follows_[i]) continue;
     own_[i] = derive(*find_derived(names_[i]), *data_, tau);
@@ -152,7 +152,7 @@ double largest(std::span<const double> values) {
 }
 
 // One round: `tau` becomes `next`, or half of both where rounds swing. The change, relative.
-double step(std::vector<double>& tau, const std::vector<double>& next, bool half) {
+double replace_tau(std::vector<double>& tau, const std::vector<double>& next, bool half) {
   double change = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
     change = std::max(change, std::abs(next[i] - tau[i]));
@@ -170,8 +170,8 @@ double step(std::vector<double>& tau, const std::vector<double>& next, bool half
 }
 
 // The inputs of the law among more columns.
-std::vector<const double*> chosen(const InputColumns& columns,
-                                  const std::vector<std::string>& names) {
+std::vector<const double*> pointers_to(const InputColumns& columns,
+                                       const std::vector<std::string>& names) {
   std::vector<const double*> out;
   for (const std::string& name : names) {
     const auto at = std::find(columns.names().begin(), columns.names().end(), name);
@@ -188,15 +188,16 @@ Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string>
   const Program program(law.tau_R, law.inputs, law.parameters);
   Predicted out{InputColumns(*model.law, std::move(names), data), std::vector<double>(data.rows())};
   const auto evaluate = [&](std::vector<double>& tau) {
-    program.evaluate(data.rows(), chosen(out.columns, law.inputs), model.parameters, tau.data());
+    program.evaluate(data.rows(), pointers_to(out.columns, law.inputs), model.parameters,
+                     tau.data());
   };
   evaluate(out.tau_MPa);
   if (!out.columns.need_tau()) return out;
   std::vector<double> next(data.rows());
   for (int round = 0; round < most_rounds; ++round) {
-    out.columns.follow(out.tau_MPa);
+    out.columns.derive_from_tau(out.tau_MPa);
     evaluate(next);
-    const double change = step(out.tau_MPa, next, round >= plain_rounds);
+    const double change = replace_tau(out.tau_MPa, next, round >= plain_rounds);
     if (!(change > settled)) return out;
     if (round + 1 == most_rounds) does_not_settle(model, data, change);
   }

@@ -28,10 +28,10 @@ public:
   InputColumns& operator=(InputColumns&&) = default;
 
   // Some follow the shear stress of the law itself: friction work and power. They are 0 until
-  // follow().
+  // derive_from_tau().
   bool need_tau() const;
   // Derives those from it.
-  void follow(std::span<const double> tau);
+  void derive_from_tau(std::span<const double> tau);
 
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<const double*>& pointers() const { return pointers_; }

@@ -64,7 +64,7 @@ std::vector<double> direct_start(const FitProblem& problem, const LossFunction& 
   return x;
 }
 
-// Best first, without those that came to the same place, without hopeless ones.
+// Best first, without those that came to the same minimum, without hopeless ones.
 void keep_best(std::vector<FitResult>& fits, double slack) {
   std::stable_sort(fits.begin(), fits.end(),
                    [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
@@ -78,7 +78,7 @@ void keep_best(std::vector<FitResult>& fits, double slack) {
   fits = std::move(kept);
 }
 
-// The few that lie lowest: neighbours lead to the same place.
+// The few that lie lowest: neighbours lead to the same minimum.
 std::vector<std::vector<double>> best_starts(const FitProblem& problem,
                                              std::vector<std::vector<double>> starts) {
   constexpr std::size_t few = 4;
@@ -149,7 +149,7 @@ LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dat
   levels_.push_back(std::move(all));
 }
 
-LawProblem::Starts LawProblem::offered() const {
+LawProblem::Starts LawProblem::law_starts() const {
   if (!law_.starts) return {};
   TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
   for (const std::string& name : names_)
@@ -224,7 +224,7 @@ std::vector<FitResult> LawProblem::search(const Level& level, const Starts& offe
 
 LawFit LawProblem::fit(Loss kind, double huber_delta_MPa) const {
   LossFunction loss{kind, huber_delta_MPa};
-  const Starts starts = offered();
+  const Starts starts = law_starts();
   if (kind == Loss::l2 && !starts.empty()) {
     const double cost = mean_cost(problem(levels_.back()), loss, starts.front());
     return {{starts.front(), cost, 1, "converged: closed form", {}}, {}};

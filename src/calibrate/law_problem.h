@@ -46,7 +46,7 @@ private:
   std::vector<FitResult> search(const Level& level, const Starts& offered,
                                 LossFunction& loss) const;
 
-  Starts offered() const; // the law's own
+  Starts law_starts() const; // the law's own
 
   const Law& law_;
   Conventions conventions_;

@@ -30,14 +30,14 @@ NoiseFloor floor_of(const std::string& method, const std::vector<ErrorSums>& sum
   return floor;
 }
 
-void add(ErrorSums& sums, double r) {
+void add_residual(ErrorSums& sums, double r) {
   sums.absolute += std::abs(r);
   sums.square += r * r;
   sums.residual += r;
   ++sums.rows;
 }
 
-constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+constexpr std::size_t no_row = static_cast<std::size_t>(-1);
 
 // Row of experiment `other` that stands at row `row` of experiment `own`; the same position where
 // its sliding distance fits, else the nearest distance. `s` may be empty: position alone counts.
@@ -49,17 +49,17 @@ public:
     const auto [low, high] = std::minmax_element(s_.begin(), s_.end());
     tolerance_ = replicate_tolerance * (*high - *low);
   }
-  std::size_t of(std::size_t own, std::size_t row, std::size_t other) const {
+  std::size_t row_of(std::size_t own, std::size_t row, std::size_t other) const {
     const std::size_t begin = first_[other], end = first_[other + 1];
     const std::size_t same = begin + row - first_[own];
-    if (s_.empty()) return same < end ? same : nowhere;
+    if (s_.empty()) return same < end ? same : no_row;
     if (same < end && std::abs(s_[same] - s_[row]) <= 1e-6 * tolerance_) return same;
     // Sliding distance does not shrink along an experiment.
     const auto at = std::lower_bound(s_.begin() + static_cast<long>(begin),
                                      s_.begin() + static_cast<long>(end), s_[row]);
     std::size_t best = std::min(static_cast<std::size_t>(at - s_.begin()), end - 1);
     if (best > begin && std::abs(s_[best - 1] - s_[row]) < std::abs(s_[best] - s_[row])) --best;
-    return std::abs(s_[best] - s_[row]) <= tolerance_ ? best : nowhere;
+    return std::abs(s_[best] - s_[row]) <= tolerance_ ? best : no_row;
   }
 
 private:
@@ -75,12 +75,12 @@ void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std
   for (std::size_t i = data.first_row[own]; i < data.first_row[own + 1]; ++i) {
     double sum = 0, others = 0;
     for (const std::size_t other : group) {
-      const std::size_t j = other == own ? nowhere : partner.of(own, i, other);
-      if (j == nowhere) continue;
+      const std::size_t j = other == own ? no_row : partner.row_of(own, i, other);
+      if (j == no_row) continue;
       sum += tau[j];
       ++others;
     }
-    if (others > 0) add(sums, (tau[i] - sum / others) * std::sqrt(others / (others + 1)));
+    if (others > 0) add_residual(sums, (tau[i] - sum / others) * std::sqrt(others / (others + 1)));
   }
 }
 
@@ -122,7 +122,7 @@ ErrorSums scatter_within(Rows tau) {
       window.take(at(end), tau[end], 1);
     for (; begin < want; ++begin)
       window.take(at(begin), tau[begin], -1);
-    add(sums, window.scatter(at(i), tau[i]));
+    add_residual(sums, window.scatter(at(i), tau[i]));
   }
   return sums;
 }

@@ -127,10 +127,10 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
   return finite_or_infinity(total / static_cast<double>(problem.law.rows()));
 }
 
-Normal normal_equations(const FitProblem& problem, const LossFunction& loss,
-                        std::span<const double> parameters) {
+NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
+                                 std::span<const double> parameters) {
   const auto size = static_cast<Eigen::Index>(parameters.size());
-  Normal n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
+  NormalEquations n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   Terms terms;
   problem.law.sweep(parameters, true, [&](const BoundProgram::Block& b) {
     fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, true, true);

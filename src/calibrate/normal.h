@@ -12,7 +12,7 @@
 namespace frictab {
 
 // Mean loss and what a step needs to lower it, at one set of parameters.
-struct Normal {
+struct NormalEquations {
   double cost = 0;         // infinity where the law is not finite
   Eigen::VectorXd descent; // mean of loss'(r) J: minus the gradient
   Eigen::MatrixXd hessian; // mean of step curvature J'J
@@ -20,8 +20,8 @@ struct Normal {
 
 double mean_cost(const FitProblem& problem, const LossFunction& loss,
                  std::span<const double> parameters);
-Normal normal_equations(const FitProblem& problem, const LossFunction& loss,
-                        std::span<const double> parameters);
+NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
+                                 std::span<const double> parameters);
 
 // Scores and curvature (loss.curvature, not the step's) of each experiment, at the optimum.
 std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const LossFunction& loss,

@@ -47,10 +47,10 @@ std::string how_calibrated(Calibrated how) {
 std::string remarks_of(const Law& law) {
   std::vector<std::string> remarks;
   if (law.log_value) remarks.push_back("tabulated as its logarithm");
-  for (const auto& [axis, places] : law.kinks) {
+  for (const auto& [axis, positions] : law.kinks) {
     std::vector<std::string> at;
-    for (const double place : places)
-      at.push_back(shortest(place));
+    for (const double position : positions)
+      at.push_back(shortest(position));
     remarks.push_back(fmt::format("kink on {} at {}: gets a node", axis, join(at, ", ")));
   }
   remarks.push_back(

@@ -40,7 +40,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "Table file (HDF5)")->required();
   app.add_option("--to", options->to, "Format, see below")->type_name("FORMAT")->required();
-  add_held(app, options->at);
+  add_held_states_option(app, options->at);
   output_is_a_file(app);
   app.footer(formats_text() + "\n" + app.get_footer());
   return [options, &common] { return run(*options, common); };

@@ -43,7 +43,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("A", options->a, "Table file (HDF5)")->required();
   app.add_option("B", options->b, "Another one")->required();
-  add_held(app, options->at);
+  add_held_states_option(app, options->at);
   app.add_option("--max-MPa", options->max_MPa, "Exit with 1 where they are further apart")
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);

@@ -42,7 +42,7 @@ int run(const Options& options, const CommonOptions& common) {
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   app.add_option("FILE", options->file, "Table file (HDF5)")->required();
-  add_held(app, options->at);
+  add_held_states_option(app, options->at);
   app.add_option("--along", options->along, "A state that runs over its range; twice for two")
       ->type_name("NAME")
       ->required()

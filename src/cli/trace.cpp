@@ -26,7 +26,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       p.trace();
       if (arguments->power && !common.json)
         for (const Trace& trace : p.traces())
-          power += power_text(trace);
+          power += detectable_text(trace);
     });
     fmt::print("{}", power);
     return code;

@@ -11,7 +11,7 @@ namespace frictab {
 void enable_progress(bool on);
 
 // A piece of work of `total` steps, from construction to destruction; tick() from any thread. One
-// within another is shown in its place. `before`: steps that an earlier run has done.
+// within another is shown instead of it. `before`: steps that an earlier run has done.
 class Progress {
 public:
   Progress(std::string title, std::size_t total, std::size_t before = 0);

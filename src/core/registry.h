@@ -9,7 +9,7 @@
 
 namespace frictab {
 
-// T has `std::string name` and `int order` (the place in listings).
+// T has `std::string name` and `int order` (the position in listings).
 template <class T> class Registry {
 public:
   static Registry& instance() {

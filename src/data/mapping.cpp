@@ -88,26 +88,27 @@ private:
 
   const CsvColumn* by_name(const std::string& name) {
     const CsvColumn* found = nullptr;
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> column_numbers;
     for (std::size_t i = 0; i < raw_.columns.size(); ++i)
       if (raw_.columns[i].name == name) {
         if (!found) found = &raw_.columns[i];
-        places.push_back(i + 1);
+        column_numbers.push_back(i + 1);
       }
-    if (places.size() > 1 && ambiguous_.insert(name).second)
+    if (column_numbers.size() > 1 && ambiguous_.insert(name).second)
       faults_.add(header(),
-                  fmt::format("there are {} columns '{}': {}", places.size(), name,
-                              fmt::join(places, ", ")),
-                  fmt::format("take one by its number: {{ column = {} }}", places.front()));
+                  fmt::format("there are {} columns '{}': {}", column_numbers.size(), name,
+                              fmt::join(column_numbers, ", ")),
+                  fmt::format("take one by its number: {{ column = {} }}", column_numbers.front()));
     return found;
   }
 
   // `what` follows the column's name and, in HDF5, the row.
-  void cell_fault(std::size_t row, std::size_t place, const std::string& name,
+  void cell_fault(std::size_t row, std::size_t cell_column, const std::string& name,
                   const std::string& what, const std::string& hint) {
     const std::string where = raw_.header_line > 0 ? "" : fmt::format(" (row {})", raw_.line[row]);
     out_.cell_faults.push_back(
-        {row, {row_place(raw_, row, place), fmt::format("{}{}: {}", name, where, what), hint}});
+        {row,
+         {row_place(raw_, row, cell_column), fmt::format("{}{}: {}", name, where, what), hint}});
   }
 
   std::string number_hint(const std::string& text) const {
@@ -145,9 +146,9 @@ private:
     return column.numbers;
   }
 
-  void not_finite(std::size_t row, std::size_t place, const std::string& canonical,
+  void not_finite(std::size_t row, std::size_t cell_column, const std::string& canonical,
                   const std::string& text) {
-    cell_fault(row, place, canonical, text + " is not a finite number",
+    cell_fault(row, cell_column, canonical, text + " is not a finite number",
                "leave the row out, or repair it");
   }
 

@@ -16,9 +16,9 @@ Expr factor() {
 std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
   const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
-  for (const double place : places_to_try(s, 8))
+  for (const double position : positions_to_try(s, 8))
     for (const double share : {0.06, 0.15})
-      shapes.push_back({place, share * (s.maximum - s.minimum)});
+      shapes.push_back({position, share * (s.maximum - s.minimum)});
   return shapes;
 }
 

@@ -21,7 +21,7 @@ Expr factor(const PlacedEffect& effect) {
   std::vector<Expr> changes{0.0};
   for (const Parameter& parameter : parameters(effect))
     changes.push_back(Expr::symbol(parameter.name));
-  return 1.0 + by_level(Expr::symbol("x"), changes);
+  return 1.0 + value_by_level(Expr::symbol("x"), changes);
 }
 
 std::string text(const PlacedEffect& effect) {
@@ -44,7 +44,7 @@ EffectForm make() {
   form.parameters_of = parameters;
   form.build = factor;
   form.text = text;
-  form.pattern = growing;
+  form.pattern = growing_pattern;
   return form;
 }
 

@@ -24,7 +24,7 @@ Expr factor(const PlacedEffect& effect) {
   std::vector<Expr> slopes;
   for (const Parameter& parameter : parameters(effect))
     slopes.push_back(Expr::symbol(parameter.name));
-  return 1.0 + by_level(Expr::symbol("x"), slopes) *
+  return 1.0 + value_by_level(Expr::symbol("x"), slopes) *
                    ((Expr::symbol("x2") - 0.5 * (y.low + y.high)) / range);
 }
 
@@ -51,7 +51,7 @@ EffectForm make() {
   form.parameters_of = parameters;
   form.build = factor;
   form.text = text;
-  form.pattern = growing;
+  form.pattern = growing_pattern;
   return form;
 }
 

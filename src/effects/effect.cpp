@@ -17,8 +17,8 @@ constexpr std::array<const char*, 4> acts_on_names = {"mu", "m", "tau", "mu+m"};
 
 } // namespace
 
-const char* acts_on_name(ActsOn place) {
-  return acts_on_names[static_cast<std::size_t>(place)];
+const char* acts_on_name(ActsOn acts_on) {
+  return acts_on_names[static_cast<std::size_t>(acts_on)];
 }
 
 std::optional<ActsOn> find_acts_on(std::string_view name) {
@@ -50,20 +50,20 @@ Spread spread_of(std::span<const double> values) {
   return {sorted.front(), quantile(0.1), quantile(0.5), quantile(0.9), sorted.back()};
 }
 
-void place_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values) {
+void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values) {
   for (std::size_t i = 0; i < effect.form->knots.size(); ++i)
     if (effect.form->knots[i] > 0)
       effect.inputs[i].knots = spline_knots(values[i], effect.form->knots[i]);
 }
 
-Expr by_level(const Expr& x, std::span<const Expr> values) {
+Expr value_by_level(const Expr& x, std::span<const Expr> values) {
   Expr chosen = values.back();
   for (std::size_t level = values.size() - 1; level-- > 0;)
     chosen = where_le(x, static_cast<double>(level) + 0.5, values[level], chosen);
   return chosen;
 }
 
-std::vector<double> growing(const PlacedEffect& effect) {
+std::vector<double> growing_pattern(const PlacedEffect& effect) {
   std::vector<double> values(amplitudes_of(effect));
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = static_cast<double>(i + 1) / static_cast<double>(values.size());
@@ -111,12 +111,12 @@ std::vector<double> start_values(const EffectForm& form, const std::vector<Sprea
   return values;
 }
 
-std::vector<double> places_to_try(const Spread& spread, int count) {
-  std::vector<double> places;
+std::vector<double> positions_to_try(const Spread& spread, int count) {
+  std::vector<double> positions;
   for (int i = 0; i < count; ++i)
-    places.push_back(spread.minimum +
-                     (spread.maximum - spread.minimum) * (0.05 + 0.9 * (i + 0.5) / count));
-  return places;
+    positions.push_back(spread.minimum +
+                        (spread.maximum - spread.minimum) * (0.05 + 0.9 * (i + 0.5) / count));
+  return positions;
 }
 
 const std::vector<EffectForm>& all_effects() {

@@ -53,11 +53,12 @@ enum class ActsOn {
   tau,  // added, in units of tau_scale_MPa
   mu_m, // both mu and m, where a law has a limit of its own
 };
-const char* acts_on_name(ActsOn place); // "mu", "m", "tau", "mu+m", as jobs and files have it
+const char* acts_on_name(ActsOn acts_on); // "mu", "m", "tau", "mu+m", as jobs and files have it
 std::optional<ActsOn> find_acts_on(std::string_view name);
 
-// One effect and its place in a law. The factor goes into `combine`, which is evaluated exactly
-// after interpolation: a table needs no axis for it, and its drift does not grow.
+// One effect form with the columns it follows and the part of the law it acts on. The factor goes
+// into `combine`, which is evaluated exactly after interpolation: a table needs no axis for it, and
+// its drift does not grow.
 struct PlacedEffect {
   const EffectForm* form = nullptr;
   std::vector<EffectInput> inputs; // as many as the form takes: x, x2, x3
@@ -101,12 +102,12 @@ struct EffectForm {
 };
 
 // Gives every input the knots that its form asks for; `values` of one column each.
-void place_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
+void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
 
 // The value of a text column's level, whose number is x.
-Expr by_level(const Expr& x, std::span<const Expr> values);
-// A pattern: amplitudes that grow in equal steps up to 1.
-std::vector<double> growing(const PlacedEffect& effect);
+Expr value_by_level(const Expr& x, std::span<const Expr> values);
+// Amplitudes of a planted effect of levels: they grow in equal steps up to 1.
+std::vector<double> growing_pattern(const PlacedEffect& effect);
 
 // All parameters of a form that is placed, and how many of them, in front, it is linear in.
 std::vector<Parameter> parameters_of(const PlacedEffect& effect);
@@ -124,8 +125,9 @@ std::vector<std::string> input_symbols(const EffectForm& form);
 // Start values of all parameters but the amplitude, which is 0; one spread per column.
 std::vector<double> start_values(const EffectForm& form, const std::vector<Spread>& spreads);
 
-// Evenly spaced inside the 5 % .. 95 % part of a column's range: places that a grid tries.
-std::vector<double> places_to_try(const Spread& spread, int count);
+// Evenly spaced inside the 5 % .. 95 % part of a column's range: where a grid tries thresholds,
+// humps and steps.
+std::vector<double> positions_to_try(const Spread& spread, int count);
 
 // In listing order.
 const std::vector<EffectForm>& all_effects();

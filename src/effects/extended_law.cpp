@@ -24,14 +24,16 @@ bool is_fitted(const EffectForm& form, std::size_t parameter) {
   return form.parameters_of || parameter == 0 || form.shapes[parameter - 1].fitted;
 }
 
-// Numbers of levels need no holding: each is one that was seen.
-Expr held(const EffectInput& input) {
+// A column's value, held at the ends of the range in which the effect was learned. Numbers of
+// levels need no holding: each is one that was seen.
+Expr clamped_input(const EffectInput& input) {
   const Expr x = Expr::symbol(symbol_of(input.column));
   return input.levels.empty() ? minimum(maximum(x, input.low), input.high) : x;
 }
 
-// Below that pressure what is added fades with it.
-Expr fading(const PlacedEffect& effect) {
+// What an effect that is added is multiplied with: below the lowest pressure tested it fades in
+// proportion to the pressure, since without load there is no friction.
+Expr pressure_fading(const PlacedEffect& effect) {
   return effect.pressure_MPa > 0
              ? minimum(Expr(1.0), Expr::symbol("sigma_n_MPa") / effect.pressure_MPa)
              : Expr(1.0);
@@ -58,21 +60,21 @@ struct Factors {
   bool on_mu = false, on_m = false, on_tau = false;
 };
 
-Factors collect(std::span<const PlacedEffect> effects) {
+Factors collect_factors(std::span<const PlacedEffect> effects) {
   Factors all;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Expr factor = factor_of(effects[i], prefix_of(i));
-    const ActsOn place = effects[i].acts_on;
-    if (place == ActsOn::mu || place == ActsOn::mu_m) {
+    const ActsOn acts_on = effects[i].acts_on;
+    if (acts_on == ActsOn::mu || acts_on == ActsOn::mu_m) {
       all.mu = all.on_mu ? all.mu * factor : factor;
       all.on_mu = true;
     }
-    if (place == ActsOn::m || place == ActsOn::mu_m) {
+    if (acts_on == ActsOn::m || acts_on == ActsOn::mu_m) {
       all.m = all.on_m ? all.m * factor : factor;
       all.on_m = true;
     }
-    if (place == ActsOn::tau) {
-      const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * fading(effects[i]);
+    if (acts_on == ActsOn::tau) {
+      const Expr shift = effects[i].tau_scale_MPa * (factor - 1.0) * pressure_fading(effects[i]);
       all.tau = all.on_tau ? all.tau + shift : shift;
       all.on_tau = true;
     }
@@ -160,7 +162,7 @@ Expr factor_of(const PlacedEffect& effect, const std::string& prefix) {
                                        symbols.size(), effect.inputs.size()));
   std::map<std::string, Expr> replacements;
   for (std::size_t i = 0; i < symbols.size(); ++i)
-    replacements.emplace(symbols[i], held(effect.inputs[i]));
+    replacements.emplace(symbols[i], clamped_input(effect.inputs[i]));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::string& name = parameters[i].name;
     replacements.emplace(name, is_fitted(*effect.form, i) ? Expr::symbol(prefix + name)
@@ -246,7 +248,7 @@ Law extended_law(const Law& law, const Conventions& conventions, std::span<const
       extended.parameters.push_back(std::move(own[p]));
     }
   }
-  const Factors factors = collect(effects);
+  const Factors factors = collect_factors(effects);
   const Formula base = law.build(conventions);
   if (factors.on_m && !own_limit(law, base))
     extended.parameters.push_back({added_limit, "1", "friction factor of the limit", 1, 0.01, 1,

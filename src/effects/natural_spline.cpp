@@ -116,7 +116,7 @@ Expr NaturalSpline::operator()(std::span<const Expr> values) const {
   return sum;
 }
 
-std::vector<double> roughness(std::span<const double> knots) {
+std::vector<double> spline_roughness(std::span<const double> knots) {
   const std::size_t n = knots.size();
   std::vector<double> matrix(n * n, 0.0);
   if (n < 3) return matrix;
@@ -165,7 +165,7 @@ std::vector<double> scaled_penalty(std::vector<double> matrix) {
   return matrix;
 }
 
-std::vector<double> half_wave(std::span<const double> knots) {
+std::vector<double> half_wave_pattern(std::span<const double> knots) {
   std::vector<double> values;
   for (const double knot : knots)
     values.push_back(knots.size() < 2 ? 1.0

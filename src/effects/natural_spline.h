@@ -22,8 +22,8 @@ public:
   Expr operator()(std::span<const Expr> values) const;
 
 private:
-  // Between two knots, of the place t that runs from 0 to 1: what one unit of the second derivative
-  // at its ends adds there.
+  // Between two knots, with a coordinate t that runs from 0 to 1: what one unit of the second
+  // derivative at its ends adds there.
   struct Piece {
     Expr t, left, right;
   };
@@ -33,7 +33,7 @@ private:
 
 // Roughness of a spline over its values at the knots, row by row: the integral of its squared
 // second derivative, in the coordinate that runs from 0 to 1.
-std::vector<double> roughness(std::span<const double> knots);
+std::vector<double> spline_roughness(std::span<const double> knots);
 
 // Roughness matrices of several coordinates, each of the grid's values (the last coordinate runs
 // fastest): sum of I kron P kron I.
@@ -43,7 +43,7 @@ std::vector<double> tensor_roughness(const std::vector<std::vector<double>>& rou
 std::vector<double> scaled_penalty(std::vector<double> matrix);
 
 // 0 at the outer knots, 1 in their middle.
-std::vector<double> half_wave(std::span<const double> knots);
+std::vector<double> half_wave_pattern(std::span<const double> knots);
 
 // "(0, 1.02), (2.5, 0.97)": factors at knots.
 std::string knots_text(std::span<const double> knots, std::span<const double> changes);

@@ -11,8 +11,8 @@ Expr factor() {
 
 std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
   std::vector<std::vector<double>> shapes;
-  for (const double place : places_to_try(spreads.front(), 5))
-    shapes.push_back({place, spreads.front().span()});
+  for (const double position : positions_to_try(spreads.front(), 5))
+    shapes.push_back({position, spreads.front().span()});
   return shapes;
 }
 

@@ -29,11 +29,11 @@ std::string text(const PlacedEffect& effect) {
 }
 
 std::vector<double> penalty(const PlacedEffect& effect) {
-  return scaled_penalty(roughness(effect.inputs[0].knots));
+  return scaled_penalty(spline_roughness(effect.inputs[0].knots));
 }
 
 std::vector<double> pattern(const PlacedEffect& effect) {
-  return half_wave(effect.inputs[0].knots);
+  return half_wave_pattern(effect.inputs[0].knots);
 }
 
 EffectForm make() {

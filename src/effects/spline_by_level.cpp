@@ -30,7 +30,7 @@ Expr factor(const PlacedEffect& effect) {
     std::vector<Expr> of_level;
     for (std::size_t level = 0; level < levels; ++level)
       of_level.push_back(Expr::symbol(name_of(level, k)));
-    values.push_back(by_level(Expr::symbol("x"), of_level));
+    values.push_back(value_by_level(Expr::symbol("x"), of_level));
   }
   return 1.0 + NaturalSpline(Expr::symbol("x2"), effect.inputs[1].knots)(values);
 }
@@ -50,7 +50,7 @@ std::string text(const PlacedEffect& effect) {
 std::vector<double> penalty(const PlacedEffect& effect) {
   const std::size_t levels = effect.inputs[0].levels.size();
   return scaled_penalty(tensor_roughness(
-      {std::vector<double>(levels * levels, 0.0), roughness(effect.inputs[1].knots)}));
+      {std::vector<double>(levels * levels, 0.0), spline_roughness(effect.inputs[1].knots)}));
 }
 
 // Grows from level to level.
@@ -58,7 +58,7 @@ std::vector<double> pattern(const PlacedEffect& effect) {
   const double last = static_cast<double>(effect.inputs[0].levels.size() - 1);
   std::vector<double> values;
   for (std::size_t level = 0; level < effect.inputs[0].levels.size(); ++level)
-    for (const double a : half_wave(effect.inputs[1].knots))
+    for (const double a : half_wave_pattern(effect.inputs[1].knots))
       values.push_back(static_cast<double>(level) / std::max(last, 1.0) * a);
   return values;
 }

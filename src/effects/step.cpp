@@ -15,8 +15,8 @@ Expr factor() {
 std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
   const Spread& s = spreads.front();
   std::vector<std::vector<double>> shapes;
-  for (const double place : places_to_try(s, 9))
-    shapes.push_back({place, 0.08 * (s.maximum - s.minimum)});
+  for (const double position : positions_to_try(s, 9))
+    shapes.push_back({position, 0.08 * (s.maximum - s.minimum)});
   return shapes;
 }
 

@@ -47,14 +47,14 @@ std::string text(const PlacedEffect& effect) {
 }
 
 std::vector<double> penalty(const PlacedEffect& effect) {
-  return scaled_penalty(
-      tensor_roughness({roughness(effect.inputs[0].knots), roughness(effect.inputs[1].knots)}));
+  return scaled_penalty(tensor_roughness(
+      {spline_roughness(effect.inputs[0].knots), spline_roughness(effect.inputs[1].knots)}));
 }
 
 std::vector<double> pattern(const PlacedEffect& effect) {
   std::vector<double> values;
-  for (const double a : half_wave(effect.inputs[0].knots))
-    for (const double b : half_wave(effect.inputs[1].knots))
+  for (const double a : half_wave_pattern(effect.inputs[0].knots))
+    for (const double b : half_wave_pattern(effect.inputs[1].knots))
       values.push_back(a * b);
   return values;
 }

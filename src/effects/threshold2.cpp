@@ -14,9 +14,9 @@ Expr factor() {
 std::vector<std::vector<double>> grid(const std::vector<Spread>& spreads) {
   const Spread &x = spreads[0], &y = spreads[1];
   std::vector<std::vector<double>> shapes;
-  for (const double place : places_to_try(x, 5))
+  for (const double position : positions_to_try(x, 5))
     for (const double b : {-1.0, -0.4, 0.4, 1.0})
-      shapes.push_back({place, 0.5 * x.span(), b, y.median, y.span()});
+      shapes.push_back({position, 0.5 * x.span(), b, y.median, y.span()});
   return shapes;
 }
 

@@ -34,7 +34,7 @@ BoundProgram::BoundProgram(const Program& program, std::size_t rows,
   for (std::size_t first = 0; first < rows; first += Program::block)
     for (const std::size_t i : order) {
       const auto& in = program.code_[i];
-      const auto place = [&](std::size_t node) {
+      const auto rows_of = [&](std::size_t node) {
         return kept[node] ? cached_[node].data() + first : passing.data() + node * Program::block;
       };
       Operands operands;
@@ -45,9 +45,9 @@ BoundProgram::BoundProgram(const Program& program, std::size_t rows,
         else if (from.op == Op::symbol)
           operands.r[k] = {columns_[from.index] + first, 1};
         else
-          operands.r[k] = {place(in.a[k]), 1};
+          operands.r[k] = {rows_of(in.a[k]), 1};
       }
-      run_operation(in.op, std::min(Program::block, rows - first), operands, place(i));
+      run_operation(in.op, std::min(Program::block, rows - first), operands, rows_of(i));
     }
 }
 

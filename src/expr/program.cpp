@@ -28,7 +28,7 @@ Program::Program(const Expr& formula, std::vector<std::string> columns,
   assign_steps();
 }
 
-// A result's place is free again behind its last use, so that the blocks of a long formula stay in
+// A result's slot is free again behind its last use, so that the blocks of a long formula stay in
 // the cache.
 void Program::assign_slots() {
   std::vector<std::size_t> last(code_.size(), code_.size()), free;
@@ -52,20 +52,20 @@ void Program::assign_slots() {
 }
 
 void Program::assign_steps() {
-  std::vector<std::pair<Place, std::size_t>> found;
+  std::vector<std::pair<Source, std::size_t>> found;
   for (const Instruction& in : code_) {
     if (in.op == Op::constant) {
-      found.emplace_back(Place::constant, constants_.size());
+      found.emplace_back(Source::constant, constants_.size());
       constants_.push_back(in.value);
     } else if (in.op == Op::symbol) {
-      found.emplace_back(in.kind == Kind::data ? Place::row : Place::scalar, in.index);
+      found.emplace_back(in.kind == Kind::data ? Source::row : Source::scalar, in.index);
     } else {
-      found.emplace_back(Place::result, steps_.size());
+      found.emplace_back(Source::result, steps_.size());
       Step step{.op = in.op};
       for (std::size_t k = 0; k < 4;
            ++k) { // what an operation leaves alone reads its first operand
-        const auto& [place, index] = found[in.a[k < in.operands ? k : 0]];
-        step.place[k] = place;
+        const auto& [source, index] = found[in.a[k < in.operands ? k : 0]];
+        step.source[k] = source;
         step.index[k] = static_cast<std::uint32_t>(index);
       }
       steps_.push_back(step);
@@ -134,11 +134,11 @@ double Program::operator()(std::span<const double> row, std::span<const double> 
   double small[64];
   std::vector<double> large(steps_.size() > 64 ? steps_.size() : 0);
   double* result = large.empty() ? small : large.data();
-  const double* const places[] = {row.data(), scalars.data(), constants_.data(), result};
+  const double* const sources[] = {row.data(), scalars.data(), constants_.data(), result};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Step& step = steps_[i];
     const auto operand = [&](std::size_t k) {
-      return places[static_cast<std::size_t>(step.place[k])][step.index[k]];
+      return sources[static_cast<std::size_t>(step.source[k])][step.index[k]];
     };
     result[i] = step.op == Op::where_le
                     ? apply(step.op, operand(0), operand(1), operand(2), operand(3))

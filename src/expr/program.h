@@ -46,10 +46,10 @@ private:
     std::size_t operands = 0;
   };
   // One operation of the one-row path: where each operand lies.
-  enum class Place : std::uint8_t { row, scalar, constant, result };
+  enum class Source : std::uint8_t { row, scalar, constant, result };
   struct Step {
     Op op;
-    Place place[4] = {};
+    Source source[4] = {};
     std::uint32_t index[4] = {};
   };
   void assign_slots();

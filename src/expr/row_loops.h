@@ -15,7 +15,7 @@ struct Register {
   double operator[](std::size_t i) const { return data[i * stride]; }
 };
 
-// What an operation reads; unused places read zero.
+// What an operation reads; unused operands read zero.
 struct Operands {
   static constexpr double zero = 0;
   Register r[4] = {{&zero, 0}, {&zero, 0}, {&zero, 0}, {&zero, 0}};

@@ -373,7 +373,7 @@ public:
   void operator()(std::span<const Bounds> box) {
     for (std::size_t i = 0; i < program_.steps_.size(); ++i) {
       step(i, box);
-      if (program_.steps_[i].changes != no_variable) change(i);
+      if (program_.steps_[i].changes != no_variable) change_variable(i);
     }
     const Model last = model(program_.steps_.size() - 1);
     for (const std::size_t v : changed_)
@@ -382,7 +382,7 @@ public:
 
 private:
   // The result of this step becomes the variable: from -1 to 1 again.
-  void change(std::size_t i) {
+  void change_variable(std::size_t i) {
     const Model a = model(i);
     const std::size_t v = program_.steps_[i].changes;
     if (unknown(a) || a.degree <= 1) return;
@@ -433,7 +433,7 @@ private:
   }
 
   // One operand, moved by what the other may add to it.
-  void take(const Model& one, const Bounds& more, const Model& out) const {
+  void take_operand(const Model& one, const Bounds& more, const Model& out) const {
     if (unknown(one) || !more.finite()) return give_up(out);
     with_.copy(one, out);
     if (more.low != 0 || more.high != 0) with_.shift(more, out);
@@ -443,21 +443,23 @@ private:
   void extreme(bool largest, const Model& a, const Model& b, const Model& out) const {
     with_.add(b, a, -1, t1_);
     const Bounds d = with_.range(t1_);
-    if (largest ? d.high <= 0 : d.low >= 0) return take(a, {0, 0}, out);
-    if (largest ? d.low >= 0 : d.high <= 0) return take(b, {0, 0}, out);
-    if (largest) return d.high < -d.low ? take(a, {0, d.high}, out) : take(b, {0, -d.low}, out);
-    return -d.low < d.high ? take(a, {d.low, 0}, out) : take(b, {-d.high, 0}, out);
+    if (largest ? d.high <= 0 : d.low >= 0) return take_operand(a, {0, 0}, out);
+    if (largest ? d.low >= 0 : d.high <= 0) return take_operand(b, {0, 0}, out);
+    if (largest)
+      return d.high < -d.low ? take_operand(a, {0, d.high}, out)
+                             : take_operand(b, {0, -d.low}, out);
+    return -d.low < d.high ? take_operand(a, {d.low, 0}, out) : take_operand(b, {-d.high, 0}, out);
   }
 
   void branch(const Model& a, const Model& b, const Model& x, const Model& y,
               const Model& out) const {
     with_.add(a, b, -1, t1_);
     const Bounds beyond = with_.range(t1_);
-    if (beyond.high <= 0) return take(x, {0, 0}, out);
-    if (beyond.low > 0) return take(y, {0, 0}, out);
+    if (beyond.high <= 0) return take_operand(x, {0, 0}, out);
+    if (beyond.low > 0) return take_operand(y, {0, 0}, out);
     if (unknown(x) || unknown(y)) return give_up(out);
     with_.add(y, x, -1, t1_);
-    take(x, hull({0, 0}, with_.range(t1_)), out);
+    take_operand(x, hull({0, 0}, with_.range(t1_)), out);
   }
 
   const TaylorProgram& program_;

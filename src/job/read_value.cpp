@@ -115,7 +115,7 @@ struct ValueReader {
     }
     bool good = true;
     std::set<std::string> seen;
-    // A few fixed words say something by their place, not by being there.
+    // A few fixed words say something by their position in the list, not by being there.
     const bool may_repeat = rule.allowed.names && rule.allowed.noun.empty();
     for (const TomlNode& item : node.items) {
       const auto one = text(item);

@@ -22,7 +22,7 @@ inline constexpr const char* published_warning =
     "The published figures refer to the paper's own measured data, not to yours; they show the "
     "order of magnitude.";
 
-// What this calibration has in the place of published_figures()[index]: "24.2 to 94.8", or empty
+// What this calibration has to stand beside published_figures()[index]: "24.2 to 94.8", or empty
 // where it has nothing of the kind.
 std::string counterpart(const Calibration& calibration, std::size_t index);
 

@@ -22,7 +22,7 @@ std::string held_text(const Slice& slice) {
   return text;
 }
 
-// Places of the inner state that get a line: all, or seven spread evenly.
+// Values of the inner state that get a line: all, or seven spread evenly.
 std::vector<std::size_t> lines_of(const Slice& slice) {
   if (slice.along.size() == 1) return {0};
   const std::size_t count = slice.values[1].size(), most = std::min<std::size_t>(count, 7);

@@ -7,7 +7,7 @@
 
 namespace frictab {
 
-// One line of tau_R; for two states lines along the first one, at up to seven places of the second.
+// One line of tau_R; for two states lines along the first one, at up to seven values of the second.
 std::string slice_svg(const Slice& slice);
 
 } // namespace frictab

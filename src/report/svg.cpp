@@ -153,11 +153,11 @@ std::string class_colour(std::size_t index, std::size_t classes) {
 Plot::Plot(double width, double height, Axis x, Axis y)
     : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {}
 
-double Plot::place_x(double value) const {
+double Plot::pixel_x(double value) const {
   return (value - x_.low) / (x_.high - x_.low) * width_;
 }
 
-double Plot::place_y(double value) const {
+double Plot::pixel_y(double value) const {
   return height_ - (value - y_.low) / (y_.high - y_.low) * height_;
 }
 
@@ -184,8 +184,8 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
       continue;
     }
     // Far beyond the edge is as good as beyond it, and keeps the numbers short.
-    const double px = std::clamp(place_x(x[i]), -10 * width_, 10 * width_);
-    const double py = std::clamp(place_y(y[i]), -10 * height_, 10 * height_);
+    const double px = std::clamp(pixel_x(x[i]), -10 * width_, 10 * width_);
+    const double py = std::clamp(pixel_y(y[i]), -10 * height_, 10 * height_);
     path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', pixel(px), pixel(py));
     pen_down = true;
   }
@@ -202,18 +202,18 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
 
 void Plot::label(double x, double y, std::string_view text, std::string_view colour) {
   body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"end\" style=\"fill:{}\">{}</text>",
-                       pixel(place_x(x) - 3), pixel(place_y(y) - 3), colour, escape(text));
+                       pixel(pixel_x(x) - 3), pixel(pixel_y(y) - 3), colour, escape(text));
 }
 
 std::string Plot::axes() const {
   std::string grid, labels;
   for (const double tick : x_.ticks) {
-    const double x = left + place_x(tick);
+    const double x = left + pixel_x(tick);
     grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
     labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, tick));
   }
   for (const double tick : y_.ticks) {
-    const double y = top + place_y(tick);
+    const double y = top + pixel_y(tick);
     grid += fmt::format("M{} {}h{}", pixel(left - 4), pixel(y), pixel(width_ + 4));
     labels += label_at(left - 8, y + 4, "end", tick_label(y_, tick));
   }
@@ -252,12 +252,12 @@ std::string Plot::file(std::string_view title, std::string_view caption) const {
 }
 
 std::string bar(const Bar& b, const Axis& axis, double width, double height) {
-  const auto place = [&](double value) { return value / axis.high * width; };
+  const auto along_bar = [&](double value) { return value / axis.high * width; };
   std::string text = begin_svg(width, height, "bar", b.description, "");
   const double middle = height / 2;
   if (std::isfinite(b.value)) {
     const bool cut = b.value > axis.high;
-    const double end = std::clamp(place(b.value), 0.0, width);
+    const double end = std::clamp(along_bar(b.value), 0.0, width);
     text += fmt::format("<rect x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>",
                         pixel(middle - 5), pixel(end), pixel(10), b.colour);
     if (cut)
@@ -268,14 +268,15 @@ std::string bar(const Bar& b, const Axis& axis, double width, double height) {
   }
   if (std::isfinite(b.reference))
     text += fmt::format("<path stroke=\"#b45309\" stroke-dasharray=\"2 2\" d=\"M{} 0v{}\"/>",
-                        pixel(place(b.reference)), pixel(height));
+                        pixel(along_bar(b.reference)), pixel(height));
   if (std::isfinite(b.low) && std::isfinite(b.high) && b.low < axis.high) {
     // An end beyond the axis has no cap: the interval goes on.
     const bool whole = b.high <= axis.high;
     text += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.3\" "
                         "d=\"M{} {}v8M{} {}H{}{}\"/>",
-                        pixel(place(b.low)), pixel(middle - 4), pixel(place(b.low)), pixel(middle),
-                        pixel(std::min(place(b.high), width)), whole ? "m0 -4v8" : "");
+                        pixel(along_bar(b.low)), pixel(middle - 4), pixel(along_bar(b.low)),
+                        pixel(middle), pixel(std::min(along_bar(b.high), width)),
+                        whole ? "m0 -4v8" : "");
   }
   return text + "</svg>";
 }

@@ -80,8 +80,8 @@ public:
   std::string file(std::string_view title, std::string_view caption) const;
 
 private:
-  double place_x(double value) const;
-  double place_y(double value) const;
+  double pixel_x(double value) const;
+  double pixel_y(double value) const;
   std::string axes() const;
 
   double width_, height_;

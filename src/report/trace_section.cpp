@@ -77,7 +77,7 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
   const PlacedEffect& placed = effect.placed;
   const std::string what = placed.acts_on == ActsOn::tau
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
-                               : std::string("factor ") + place_text(placed.acts_on);
+                               : std::string("factor ") + site_text(placed.acts_on);
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
@@ -197,7 +197,7 @@ TemplateValues effect_values(const ReportInput& input, const Trace& trace,
   TemplateValues values;
   values.text = {{"cause", svg::escape(cause_text(effect))},
                  {"form", effect.placed.form->title},
-                 {"place", place_text(effect.placed.acts_on)},
+                 {"place", site_text(effect.placed.acts_on)},
                  {"formula", svg::escape(formula_text(effect.placed))},
                  {"parameters", parameters_of(effect)},
                  {"p", p_text(effect.p_value)},

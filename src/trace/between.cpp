@@ -143,11 +143,11 @@ private:
     std::vector<TestShape> all;
     std::set<Cause> seen;
     for (const TestShape& a : in) {
-      if (a.cause.several()) continue;
+      if (a.cause.is_joint()) continue;
       for (const TestShape& b : in_.shapes) {
-        const Cause both = joined(a.cause, b.cause.columns[0], in_.candidates);
+        const Cause both = joined_cause(a.cause, b.cause.columns[0], in_.candidates);
         const bool plain = b.form == "line" || b.form == "levels";
-        if (a.cause == b.cause || !plain || !may_join(both, in_.candidates) ||
+        if (a.cause == b.cause || !plain || !may_act_together(both, in_.candidates) ||
             !seen.insert(both).second)
           continue;
         all.push_back({both, "product", products(a.columns, b.columns)});
@@ -276,7 +276,7 @@ private:
   // Least BIC; within 2 of it the simplest, which come first.
   void choose_form(const VectorXd& y, const MatrixXd& known, const VectorXd& w,
                    BetweenFinding& finding) const {
-    if (finding.shape.cause.several()) return;
+    if (finding.shape.cause.is_joint()) return;
     const auto n = static_cast<double>(tests());
     double best = std::numeric_limits<double>::infinity();
     for (const TestShape& shape : in_.shapes) {
@@ -295,7 +295,7 @@ private:
     const auto n = static_cast<double>(tests());
     const double own = left_with(y, known, w, finding.shape.columns);
     std::vector<TestShape> rivals = in_.shapes;
-    if (finding.shape.cause.several()) rivals = pairs(others);
+    if (finding.shape.cause.is_joint()) rivals = pairs(others);
     for (const TestShape& shape : rivals) {
       if (shape.cause == finding.shape.cause || is_taken(shape.cause, others)) continue;
       const double further =

@@ -19,7 +19,7 @@ double median_rows(const Blocks& blocks) {
   return static_cast<double>(all[all.size() / 2]);
 }
 
-Eigen::VectorXd positions(const Blocks& blocks) {
+Eigen::VectorXd block_positions(const Blocks& blocks) {
   Eigen::VectorXd at(static_cast<Index>(blocks.count()));
   const auto& row = blocks.first_row;
   for (std::size_t e = 0; e < blocks.experiments(); ++e) {
@@ -68,7 +68,7 @@ Blocks make_blocks(const Dataset& data) {
     blocks.first.push_back(blocks.first_row.size());
   }
   blocks.first_row.push_back(data.rows());
-  blocks.position = positions(blocks);
+  blocks.position = block_positions(blocks);
   blocks.usual_rows = median_rows(blocks);
   return blocks;
 }

@@ -51,7 +51,7 @@ void add_value(Setting& setting, double value) {
 }
 
 // What has to be set for a column to change; "" where nothing can be.
-std::vector<std::string> set_for(const Dataset& data, const std::string& column) {
+std::vector<std::string> settings_that_change(const Dataset& data, const std::string& column) {
   if (column == "s_mm" || column == "time_s" || column == "psi" || column == "tau_R_MPa")
     return {"v_rel_mm_s", "sigma_n_MPa"};
   if (column == "T_contact_C" && data.has("T_tool_C")) return {"T_tool_C", "v_rel_mm_s"};
@@ -73,30 +73,30 @@ Range range_of(const std::vector<double>& values) {
   return {*low, *high};
 }
 
-class Maker {
+class CandidateTestBuilder {
 public:
-  Maker(const Dataset& data, std::vector<Setting> settings) : data_(data) {
-    made_.settings = std::move(settings);
-    if (made_.settings.size() > most_settings) made_.settings.resize(most_settings);
+  CandidateTestBuilder(const Dataset& data, std::vector<Setting> settings) : data_(data) {
+    built_.settings = std::move(settings);
+    if (built_.settings.size() > most_settings) built_.settings.resize(most_settings);
     choose_template();
   }
 
   CandidateTests run() {
-    made_.data.columns = data_.columns;
-    for (Column& column : made_.data.columns)
+    built_.data.columns = data_.columns;
+    for (Column& column : built_.data.columns)
       column.values.clear();
-    std::vector<std::size_t> at(made_.settings.size(), 0);
+    std::vector<std::size_t> at(built_.settings.size(), 0);
     do {
       add(at);
     } while (next(at));
-    return std::move(made_);
+    return std::move(built_);
   }
 
 private:
   // The next combination, the last setting running fastest.
   bool next(std::vector<std::size_t>& at) const {
     for (std::size_t s = at.size(); s-- > 0;) {
-      if (++at[s] < made_.settings[s].values.size()) return true;
+      if (++at[s] < built_.settings[s].values.size()) return true;
       at[s] = 0;
     }
     return false;
@@ -115,7 +115,7 @@ private:
         away[e] += std::pow((means[e] - median) / width, 2);
     }
     const auto nearest = std::min_element(away.begin(), away.end()) - away.begin();
-    made_.like = data_.experiments[static_cast<std::size_t>(nearest)];
+    built_.like = data_.experiments[static_cast<std::size_t>(nearest)];
     begin_ = data_.first_row[static_cast<std::size_t>(nearest)];
     rows_ = data_.first_row[static_cast<std::size_t>(nearest) + 1] - begin_;
   }
@@ -133,15 +133,15 @@ private:
     for (const Column& column : data_.columns)
       rows[column.name] = of_template(column);
     for (std::size_t s = 0; s < at.size(); ++s)
-      set(rows, made_.settings[s].column, made_.settings[s].values[at[s]]);
+      set(rows, built_.settings[s].column, built_.settings[s].values[at[s]]);
     if (!is_reachable(rows)) return;
-    for (Column& column : made_.data.columns) {
+    for (Column& column : built_.data.columns) {
       const std::vector<double>& values = rows.at(column.name);
       column.values.insert(column.values.end(), values.begin(), values.end());
     }
-    made_.data.experiments.push_back(fmt::format("candidate {}", made_.at.size() + 1));
-    made_.data.first_row.push_back(made_.data.first_row.back() + std::min(rows_, most_rows));
-    made_.at.push_back(at);
+    built_.data.experiments.push_back(fmt::format("candidate {}", built_.at.size() + 1));
+    built_.data.first_row.push_back(built_.data.first_row.back() + std::min(rows_, most_rows));
+    built_.at.push_back(at);
   }
 
   using Rows = std::map<std::string, std::vector<double>>;
@@ -176,7 +176,7 @@ private:
   }
 
   bool is_reachable(const Rows& rows) const {
-    return std::all_of(made_.settings.begin(), made_.settings.end(), [&](const Setting& setting) {
+    return std::all_of(built_.settings.begin(), built_.settings.end(), [&](const Setting& setting) {
       const Column& column = *data_.find(setting.column);
       if (!column.levels.empty()) return true;
       const Range all = range_of(column.values).widened(), own = range_of(rows.at(setting.column));
@@ -186,7 +186,7 @@ private:
   }
 
   const Dataset& data_;
-  CandidateTests made_;
+  CandidateTests built_;
   std::size_t begin_ = 0, rows_ = 0;
 };
 
@@ -214,13 +214,13 @@ std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::str
     if (setting.values.size() > 1) settings.push_back(std::move(setting));
   };
   for (const std::string& column : columns)
-    for (const std::string& name : set_for(data, column))
+    for (const std::string& name : settings_that_change(data, column))
       add(name);
   return settings;
 }
 
 CandidateTests candidate_tests(const Dataset& data, std::vector<Setting> settings) {
-  return Maker(data, std::move(settings)).run();
+  return CandidateTestBuilder(data, std::move(settings)).run();
 }
 
 } // namespace frictab

@@ -110,10 +110,11 @@ double widest_gap(const std::vector<double>& tested) {
   return widest;
 }
 
-class Finder {
+class CandidateFinder {
 public:
-  Finder(const Dataset& training, const Dataset& validation, const Blocks& blocks, Rows predicted,
-         const std::vector<std::string>& inputs, const TraceOptions& options)
+  CandidateFinder(const Dataset& training, const Dataset& validation, const Blocks& blocks,
+                  Rows predicted, const std::vector<std::string>& inputs,
+                  const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
         inputs_(inputs), options_(options) {}
 
@@ -273,7 +274,7 @@ private:
 };
 
 // A history that no routine follows by itself makes no pairs: most are nearly what others are.
-bool may_be_joined(const CandidateColumn& column) {
+bool may_act_with_others(const CandidateColumn& column) {
   const Spread& s = column.spread;
   const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);
   return (!column.levels.empty() || numbers) &&
@@ -286,7 +287,8 @@ bool may_be_joined(const CandidateColumn& column) {
 Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
                            Rows predicted, const std::vector<std::string>& inputs,
                            const TraceOptions& options) {
-  Candidates found = Finder(training, validation, blocks, predicted, inputs, options).run();
+  Candidates found =
+      CandidateFinder(training, validation, blocks, predicted, inputs, options).run();
   if (training.has("sigma_n_MPa")) { // which effects that are added fade with
     const auto sigma = training.values("sigma_n_MPa");
     found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
@@ -299,7 +301,7 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
   return found;
 }
 
-Cause joined(const Cause& cause, std::size_t column, const Candidates& candidates) {
+Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates) {
   Cause all = cause;
   all.columns.push_back(column);
   const auto is_text = [&](std::size_t c) { return !candidates.columns[c].levels.empty(); };
@@ -318,10 +320,10 @@ bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
 
 } // namespace
 
-bool may_join(const Cause& cause, const Candidates& candidates) {
+bool may_act_together(const Cause& cause, const Candidates& candidates) {
   std::size_t text = 0;
   for (const std::size_t c : cause.columns) {
-    if (!may_be_joined(candidates.columns[c])) return false;
+    if (!may_act_with_others(candidates.columns[c])) return false;
     text += !candidates.columns[c].levels.empty();
     for (const std::size_t other : cause.columns)
       if (other < c && run_alike(candidates.columns[other], candidates.columns[c])) return false;
@@ -335,8 +337,8 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
   for (std::size_t c = 0; c < columns.size(); ++c)
     all.push_back({{c}});
   const auto add = [&](const Cause& cause, std::size_t column) {
-    Cause more = joined(cause, column, candidates);
-    if (may_join(more, candidates)) all.push_back(std::move(more));
+    Cause more = joined_cause(cause, column, candidates);
+    if (may_act_together(more, candidates)) all.push_back(std::move(more));
   };
   for (std::size_t a = 0; a < columns.size(); ++a)
     for (std::size_t b = a + 1; b < columns.size(); ++b)
@@ -349,8 +351,8 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
         if (!is_state(a) || !is_state(b) || c == a || c == b || !columns[c].levels.empty() ||
             !columns[c].within)
           continue;
-        const Cause three = joined(joined({{a}}, b, candidates), c, candidates);
-        if (may_join(three, candidates) && seen.insert(three).second) all.push_back(three);
+        const Cause three = joined_cause(joined_cause({{a}}, b, candidates), c, candidates);
+        if (may_act_together(three, candidates) && seen.insert(three).second) all.push_back(three);
       }
   return all;
 }

@@ -44,18 +44,18 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
                            std::span<const double> predicted,
                            const std::vector<std::string>& inputs, const TraceOptions& options);
 
-// A quantity, or two or three of them that act together, as a place where an effect may act.
+// What an effect may follow: one column, or two or three of them that act together.
 struct Cause {
   std::vector<std::size_t> columns; // a text column first, else ascending
-  bool several() const { return columns.size() > 1; }
+  bool is_joint() const { return columns.size() > 1; }
   auto operator<=>(const Cause&) const = default;
 };
-Cause joined(const Cause& cause, std::size_t column, const Candidates& candidates);
+Cause joined_cause(const Cause& cause, std::size_t column, const Candidates& candidates);
 
 // All columns, then pairs of those that differ, then two states of the law with a third quantity.
 std::vector<Cause> all_causes(const Candidates& candidates);
 // Whether these columns together are another thing than one of them alone.
-bool may_join(const Cause& cause, const Candidates& candidates);
+bool may_act_together(const Cause& cause, const Candidates& candidates);
 
 std::string cause_name(const Cause& cause, const Candidates& candidates);
 // 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 2 more for

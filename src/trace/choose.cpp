@@ -23,9 +23,9 @@ constexpr float least_of_best = 0.6f;    // statistic
 constexpr std::size_t most_joined = 3;   // of them, tried together with other columns
 constexpr std::size_t fitted_rivals = 6; // of which a set is made
 constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
-// Of penalised log likelihood: where the data cannot tell places apart, an effect acts on mu.
-constexpr std::array<double, places.size()> place_margins = {0.0, 0.5, 1.5, 0.25};
-constexpr std::size_t forms_tried = 6; // in each place
+// Of penalised log likelihood: where the data cannot tell sites apart, an effect acts on mu.
+constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
+constexpr std::size_t forms_tried = 6; // at each site
 
 // One way to explain the residual, linear in its coefficients.
 struct Option {
@@ -44,12 +44,12 @@ bool is_numeric(const Cause& cause, const Candidates& candidates) {
                      [&](std::size_t c) { return candidates.columns[c].levels.empty(); });
 }
 
-// The best direction of each cause and place.
+// The best direction of each cause and site.
 std::map<std::pair<Cause, std::size_t>, const Direction*>
 best_directions(const Search& search, const ScreenResult& screened) {
   std::map<std::pair<Cause, std::size_t>, const Direction*> best;
   for (const Direction& d : screened.directions) {
-    const Direction*& here = best[{search.causes[d.cause], d.place}];
+    const Direction*& here = best[{search.causes[d.cause], d.site}];
     if (!here || std::abs(d.statistic) > std::abs(here->statistic)) here = &d;
   }
   return best;
@@ -88,8 +88,8 @@ std::vector<Cause> with_partners(const Search& search, const std::vector<Cause>&
   for (const Cause& cause : list) {
     if (cause.columns.size() != 1 || taken++ >= most_joined) continue;
     for (const std::size_t partner : partners) {
-      Cause both = joined(cause, partner, candidates);
-      if (partner == cause.columns[0] || !may_join(both, candidates)) continue;
+      Cause both = joined_cause(cause, partner, candidates);
+      if (partner == cause.columns[0] || !may_act_together(both, candidates)) continue;
       if (std::find(more.begin(), more.end(), both) == more.end()) more.push_back(both);
     }
   }
@@ -101,7 +101,7 @@ MatrixXd ridge(Index count) {
 }
 
 Option option_of(const Search& search, const Cause& cause, PlacedEffect effect) {
-  const VectorXd& sensitivity = search.sensitivities()[place_of(effect)];
+  const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
   Option option{cause, std::move(effect), {}, {}, {}, 0};
   option.basis =
       sensitivity.asDiagonal() * amplitude_basis(option.effect, search.candidates.by_symbol);
@@ -110,22 +110,22 @@ Option option_of(const Search& search, const Cause& cause, PlacedEffect effect) 
   return option;
 }
 
-// Per cause and place a smooth, and the shape that the screening liked best: a wave is no smooth.
+// Per cause and site a smooth, and the shape that the screening liked best: a wave is no smooth.
 Options all_options(const Search& search, const ScreenResult& screened,
                     const std::vector<Cause>& causes) {
   const auto best = best_directions(search, screened);
   Options options;
   for (const Cause& cause : causes)
-    for (std::size_t p = 0; p < places.size(); ++p) {
+    for (std::size_t p = 0; p < sites.size(); ++p) {
       if (search.sensitivities()[p].size() == 0) continue;
       const auto found = best.find({cause, p});
       if (p > 0 && found == best.end()) continue;
       if (cause.columns.size() < 3) // (three of them have one closed form)
-        options.push_back(option_of(search, cause, smooth_effect(search, cause, places[p])));
+        options.push_back(option_of(search, cause, smooth_effect(search, cause, sites[p])));
       if (found == best.end() || !is_numeric(cause, search.candidates)) continue;
       const Direction& d = *found->second;
       PlacedEffect shape = search.shapes[d.cause][d.shape].effect;
-      shape.acts_on = places[p];
+      shape.acts_on = sites[p];
       shape.tau_scale_MPa = search.tau_scale_MPa;
       options.push_back(option_of(search, cause, std::move(shape)));
     }
@@ -183,7 +183,7 @@ bool starts_with_text(const Cause& cause, const Candidates& candidates) {
 }
 
 const char* plain_form(const Cause& cause, bool text) {
-  if (cause.several()) return text ? "category_slope" : "product";
+  if (cause.is_joint()) return text ? "category_slope" : "product";
   return text ? "category" : "linear";
 }
 
@@ -198,7 +198,7 @@ const char* smooth_form(const Cause& cause, bool text) {
 PlacedEffect plain_effect(const Search& search, const Cause& cause) {
   const char* form = plain_form(cause, starts_with_text(cause, search.candidates));
   const bool both = search.sensitivities()[on_both].size() > 0;
-  return start_effect(*find_effect(form), cause, search.candidates, places[both ? on_both : on_mu],
+  return start_effect(*find_effect(form), cause, search.candidates, sites[both ? on_both : on_mu],
                       search.tau_scale_MPa);
 }
 
@@ -235,13 +235,12 @@ namespace {
 // What the effect `index` and the residual behind it come to: what any form of it has to explain.
 VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
   const PlacedEffect& effect = winner.effects[index];
-  const VectorXd& sensitivity = search.sensitivities()[place_of(effect)];
-  const VectorXd change =
-      factor_on(effect, search.candidates.by_symbol).array() - 1; // of the place
+  const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
+  const VectorXd change = factor_on(effect, search.candidates.by_symbol).array() - 1; // at its site
   return search.campaign().measured - winner.predicted + sensitivity.cwiseProduct(change);
 }
 
-// A start for each form and place, and how well its best shape of the grid does: larger is better.
+// A start for each form and site, and how well its best shape of the grid does: larger is better.
 struct Start {
   PlacedEffect effect;
   double explained;
@@ -256,7 +255,7 @@ public:
     append_columns(known, search.trained());
     for (std::size_t i = 0; i < winner.effects.size(); ++i)
       if (i != index)
-        append_columns(known, search.sensitivities()[place_of(winner.effects[i])].asDiagonal() *
+        append_columns(known, search.sensitivities()[site_of(winner.effects[i])].asDiagonal() *
                                   amplitude_basis(winner.effects[i], search.candidates.by_symbol));
     whitener_.apply(known);
     known_ = orthonormal(known);
@@ -268,7 +267,7 @@ public:
   std::vector<Start> run() const {
     std::vector<Start> starts;
     const auto shapes = shapes_of(cause_, s_.candidates);
-    for (std::size_t p = 0; p < places.size(); ++p) {
+    for (std::size_t p = 0; p < sites.size(); ++p) {
       if (s_.sensitivities()[p].size() == 0) continue;
       add_closed(shapes, p, starts);
       if (cause_.columns.size() < 3) add_smooth(p, starts);
@@ -279,13 +278,13 @@ public:
   }
 
 private:
-  void add_closed(const std::vector<GridShape>& shapes, std::size_t place,
+  void add_closed(const std::vector<GridShape>& shapes, std::size_t site,
                   std::vector<Start>& starts) const {
     std::map<const EffectForm*, Start> best;
     MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
     for (std::size_t i = 0; i < shapes.size(); ++i)
       basis.col(static_cast<Index>(i)) =
-          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[place]);
+          shapes[i].direction.cast<double>().cwiseProduct(s_.sensitivities()[site]);
     whitener_.apply(basis);
     basis -= known_ * (known_.transpose() * basis).eval();
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -293,7 +292,7 @@ private:
       const double size = column.squaredNorm(), along = column.dot(target_);
       if (!(size > 0)) continue;
       Start start{shapes[i].effect, along * along / size};
-      start.effect.acts_on = places[place];
+      start.effect.acts_on = sites[site];
       start.effect.tau_scale_MPa = s_.tau_scale_MPa;
       if (!start.effect.form->categorical)
         start.effect.parameters[0] = std::clamp(along / size, -0.5, 0.5);
@@ -305,8 +304,8 @@ private:
   }
 
   // With the stiffness that the residual asks for.
-  void add_smooth(std::size_t place, std::vector<Start>& starts) const {
-    Option option = option_of(s_, cause_, smooth_effect(s_, cause_, places[place]));
+  void add_smooth(std::size_t site, std::vector<Start>& starts) const {
+    Option option = option_of(s_, cause_, smooth_effect(s_, cause_, sites[site]));
     if (!option.effect.form->penalty) return; // a text column has one form
     whitener_.apply(option.basis);
     const SmoothFit fit = fit_smooth(target_, option.basis, option.penalty, known_);
@@ -337,10 +336,10 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
     rivals[i] = fit_rival(search.campaign(), winner, std::move(effects), winner.causes,
                           winner.noise, NoiseSearch::kept);
     if (starts[i].effect.form->penalty) rivals[i].penalised -= smooth_margin;
-    rivals[i].penalised -= place_margins[place_of(starts[i].effect)];
+    rivals[i].penalised -= site_margins[site_of(starts[i].effect)];
   });
   rivals.push_back(winner);
-  rivals.back().penalised -= place_margins[place_of(winner.effects[index])];
+  rivals.back().penalised -= site_margins[site_of(winner.effects[index])];
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.penalised > b.penalised; });
   return rivals;

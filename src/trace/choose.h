@@ -12,7 +12,7 @@ namespace frictab {
 std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
                                 const NoiseModel& noise);
 
-// The last effect of `winner` in every closed form that its columns allow and in the places where
+// The last effect of `winner` in every closed form that its columns allow and at the sites where
 // it may act; a closed form takes the place of a smooth where it is as good within the cost of
 // `smooth_margin` of penalised log likelihood. Best first; `index`: which effect.
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index);

@@ -50,7 +50,7 @@ double deviation(const Program& program, const PlacedEffect& effect, double x,
 }
 
 // x of a plot: along the first column.
-std::vector<double> places_of(const PlacedEffect& effect) {
+std::vector<double> plot_positions(const PlacedEffect& effect) {
   std::vector<double> x;
   const EffectInput& input = effect.inputs[0];
   if (effect.form->categorical) {
@@ -74,7 +74,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   const MatrixXd own =
       covariance.block(static_cast<Index>(parameter), static_cast<Index>(parameter), count, count);
   EffectCurve curve;
-  for (const double x : places_of(effect)) {
+  for (const double x : plot_positions(effect)) {
     const double f = factor_at(program, effect, x);
     const double d = 1.96 * deviation(program, effect, x, own);
     curve.x.push_back(x);
@@ -82,7 +82,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
     curve.low.push_back(f - d);
     curve.high.push_back(f + d);
   }
-  const VectorXd& sensitivity = sensitivities[place_of(effect)];
+  const VectorXd& sensitivity = sensitivities[site_of(effect)];
   if (effect.form->columns > 1 || sensitivity.size() == 0) return curve;
   const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.inputs[0].column));
   const VectorXd residual = campaign.measured - rival.predicted;

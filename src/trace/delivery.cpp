@@ -38,9 +38,9 @@ public:
       const NestedErrors::Gain gain = d_.nested.gain(shown, best.weights);
       t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score, gain.score_se, found};
     }
-    use(best.effects, best.weights);
+    take_findings(best.effects, best.weights);
     drop_contradicted();
-    judge();
+    compare_errors();
     if (!d_.findings.empty() && by_validation()) {
       Difference gain = against_calibrated();
       if (gain.value_MPa <= 0 && weights_ == 0) {
@@ -61,7 +61,7 @@ private:
     return weights_ == 0 ? rival : with_weights(s_.campaign(), rival, rows_alike(rival.noise));
   }
 
-  void use(std::size_t effects, std::size_t weights) {
+  void take_findings(std::size_t effects, std::size_t weights) {
     weights_ = weights;
     d_.findings.resize(effects);
     std::iota(d_.findings.begin(), d_.findings.end(), 0);
@@ -117,7 +117,7 @@ private:
   }
 
   // On the validation tests, or on left-out ones.
-  void judge() {
+  void compare_errors() {
     const bool nested = !by_validation() && d_.nested.folds > 0;
     if (nested) t_.unseen = "nested_cross_validation";
     const auto unseen = [&](const Rival& rival, std::size_t effects) {
@@ -163,7 +163,7 @@ private:
     d_.rival = weighted(d_.rival);
     d_.gain_MPa.clear();
     drop_contradicted();
-    judge();
+    compare_errors();
   }
 
   static Against no_better(const Difference& gain) {
@@ -177,8 +177,8 @@ private:
     for (const std::size_t f : d_.findings)
       against_[f] = against;
     d_.gain_MPa.clear();
-    use(0, 0);
-    judge();
+    take_findings(0, 0);
+    compare_errors();
   }
 
   void add_leads() {
@@ -235,10 +235,10 @@ Lead lead_of(const Search& search, const Cause& cause) {
   return lead;
 }
 
-WorldsApart worlds_apart(const Search& search, const Rival& rival) {
+ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   const TraceInput& in = search.input;
   const std::size_t tests = in.validation.experiments.size();
-  WorldsApart apart;
+  ValidationShift apart;
   if (tests < 3) return apart;
   const Model model = search.model_of(rival);
   const auto tau = in.validation.values("tau_R_MPa");

@@ -24,7 +24,7 @@ Delivery deliver(const Search& search, Trace& trace);
 
 // Whether the validation tests lie beside the training tests as a whole, by that rival: mean over
 // tests of the logarithm of measured over predicted, with what the training leaves open of it.
-WorldsApart worlds_apart(const Search& search, const Rival& rival);
+ValidationShift validation_shift_of(const Search& search, const Rival& rival);
 
 Lead lead_of(const Search& search, const Cause& cause);
 

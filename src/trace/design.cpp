@@ -221,19 +221,19 @@ private:
     return design;
   }
 
-  bool improve(std::vector<std::size_t>& design, std::size_t place) const {
+  bool improve(std::vector<std::size_t>& design, std::size_t slot) const {
     constexpr double clearly = 1e-6;
-    const std::size_t before = design[place];
+    const std::size_t before = design[slot];
     double most = log_det(design);
     std::size_t best = before;
     for (std::size_t c = 0; c < each_.size(); ++c) {
-      design[place] = c;
+      design[slot] = c;
       const double value = log_det(design);
       if (value <= most + clearly) continue;
       most = value;
       best = c;
     }
-    design[place] = best;
+    design[slot] = best;
     return best != before;
   }
 
@@ -351,7 +351,7 @@ Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gai
 
 // (A level of which no test is left, all of them being held out, has no mean.)
 Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
-  std::vector<std::pair<double, std::size_t>> means; // with the level's place in the setting
+  std::vector<std::pair<double, std::size_t>> means; // with the level's index in the setting
   for (std::size_t level = 0; level < setting.values.size(); ++level) {
     const Eigen::ArrayXd here = (x.array() == setting.values[level]).cast<double>();
     if (here.sum() > 0) means.emplace_back((here * gain.array()).sum() / here.sum(), level);
@@ -365,7 +365,7 @@ Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& ga
 Design design_in_turn(const Search& search, const Cause& cause, double scatter) {
   constexpr std::size_t least = 4; // two of each
   Design design;
-  if (cause.several()) return design;
+  if (cause.is_joint()) return design;
   const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
   const std::vector<Setting> settings = settings_of(search.input.training, column.recorded);
   if (settings.empty()) return design;

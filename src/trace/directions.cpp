@@ -12,14 +12,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Straight lines between seven places of a quantity: what any form of it could be.
+// Straight lines between seven values of a quantity: what any form of it could be.
 MatrixXd hat_functions(const VectorXd& x) {
-  constexpr int places = 7;
+  constexpr int knot_count = 7;
   std::vector<double> sorted(x.data(), x.data() + x.size());
   std::sort(sorted.begin(), sorted.end());
   std::set<double> knots;
-  for (int i = 0; i < places; ++i)
-    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (places - 1)]);
+  for (int i = 0; i < knot_count; ++i)
+    knots.insert(sorted[static_cast<std::size_t>(i) * (sorted.size() - 1) / (knot_count - 1)]);
   MatrixXd columns(x.size(), static_cast<Index>(knots.size()));
   Index next = 0;
   for (const double knot : knots)
@@ -38,7 +38,7 @@ MatrixXd level_functions(const VectorXd& x, std::size_t levels) {
 
 MatrixXd any_form(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.columns[0]];
-  if (!cause.several())
+  if (!cause.is_joint())
     return x.levels.empty() ? hat_functions(x.values) : level_functions(x.values, x.levels.size());
   MatrixXd levels = MatrixXd::Ones(x.values.size(), 1);
   VectorXd product = levels.col(0);
@@ -61,7 +61,7 @@ MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
                            const Sensitivities& sensitivities) {
   MatrixXd all = rival.jacobian;
   for (std::size_t i = 0; i < rival.effects.size(); ++i) {
-    const VectorXd& sensitivity = sensitivities[place_of(rival.effects[i])];
+    const VectorXd& sensitivity = sensitivities[site_of(rival.effects[i])];
     if (sensitivity.size() == 0) continue;
     append_columns(all, sensitivity.asDiagonal() * any_form(rival.causes[i], campaign.candidates));
   }
@@ -73,11 +73,11 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
   const std::size_t own = campaign.law.parameters.size();
   BlockColumns columns = campaign.candidates.by_symbol;
   columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
-  const auto change = [&](ActsOn place) {
+  const auto change = [&](ActsOn acts_on) {
     PlacedEffect everywhere;
     everywhere.form = find_effect("linear");
     everywhere.inputs = {{"everywhere", {}, 0, 1}};
-    everywhere.acts_on = place;
+    everywhere.acts_on = acts_on;
     everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
     std::vector<PlacedEffect> effects = rival.effects;
     effects.push_back(everywhere);

@@ -1,5 +1,5 @@
-// What a fit could move: the directions in which a law with effects gives way, and what effects in
-// each place would change.
+// What a fit could move: the directions in which a law with effects gives way, and what effects at
+// each site would change.
 #pragma once
 
 #include "trace/rivals.h"

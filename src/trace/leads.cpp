@@ -116,7 +116,7 @@ std::vector<std::size_t> plain_ones(const Search& search, const std::vector<std:
   std::map<std::vector<std::string>, std::size_t> at; // in `plain`
   for (const std::size_t d : sorted) {
     const Cause& cause = search.causes[all[d].cause];
-    if (cause.several()) continue;
+    if (cause.is_joint()) continue;
     const CandidateColumn& column = search.candidates.columns[cause.columns[0]];
     const auto [found, is_new] = at.try_emplace(column.recorded, plain.size());
     if (is_new) {
@@ -160,7 +160,7 @@ std::string rate_sentence(const Search& search, const Direction& d, double ampli
     return "";
   const VectorXd of_lead =
       amplitude * search.shapes[d.cause][d.shape].direction.cast<double>().cwiseProduct(
-                      search.sensitivities()[d.place]);
+                      search.sensitivities()[d.site]);
   const VectorXd pressure = sigma->second.cwiseMax(1e-300);
   const double lead = per_e_fold(search, of_lead.cwiseQuotient(pressure));
   const double law = per_e_fold(search, search.last().predicted.cwiseQuotient(pressure));

@@ -19,14 +19,14 @@ using Eigen::VectorXd;
 constexpr double least_share = 0.05; // of the mean tau: noise that grows with tau does not vanish
 
 // Random effects of one experiment as two columns, already within-whitened: their directions.
-struct Shared {
+struct RandomEffects {
   MatrixXd q;
   VectorXd c;
   double log_det = 0;
 };
 
-Shared shared_effects(const MatrixXd& columns) {
-  Shared shared;
+RandomEffects random_effects(const MatrixXd& columns) {
+  RandomEffects shared;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(columns.transpose() * columns);
   shared.q = MatrixXd::Zero(columns.rows(), 2);
   shared.c = VectorXd::Zero(2);
@@ -90,7 +90,7 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
   filter<double>(effects);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     const Part& part = parts_[e];
-    const Shared both = shared_effects(effects.middleRows(part.first, part.size));
+    const RandomEffects both = random_effects(effects.middleRows(part.first, part.size));
     directions_.q.push_back(both.q);
     directions_.qc.push_back(both.q * both.c.asDiagonal());
     directions_f_.q.push_back(both.q.cast<float>());

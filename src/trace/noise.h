@@ -101,13 +101,13 @@ NoiseFit fit_noise(const NoiseData& data);
 
 // The same for the growth of an earlier fit, from it and from nothing: noise fitted to the residual
 // of a law that lacked an effect has swallowed it, and does not let go by itself.
-NoiseFit fit_noise_again(const NoiseData& data, const NoiseModel& earlier);
+NoiseFit refit_noise(const NoiseData& data, const NoiseModel& earlier);
 
 // The same at its length, from it alone: where little has changed.
-NoiseFit fit_noise_near(const NoiseData& data, const NoiseModel& earlier);
+NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier);
 
 // From it and from nothing at its length, to what weights can show: where a search is repeated.
-NoiseFit fit_noise_quickly(const NoiseData& data, const NoiseModel& earlier);
+NoiseFit refit_noise_coarsely(const NoiseData& data, const NoiseModel& earlier);
 
 // An orthonormal basis of what the columns span; columns that others explain are left out.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);

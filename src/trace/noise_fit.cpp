@@ -122,7 +122,7 @@ public:
   }
 
   // Between-test scatter first, slow noise first; then along the lengths, each from its neighbour.
-  NoiseFit from_nothing() const {
+  NoiseFit from_scratch() const {
     const auto middle = static_cast<int>(slow_lengths.size() / 2);
     NoiseFit best = fit(slow_lengths[slow_lengths.size() / 2], usual, far);
     consider(fit(slow_lengths[slow_lengths.size() / 2], mostly_slow, far), best);
@@ -138,7 +138,7 @@ public:
   }
 
   // From an earlier fit, at its length and the two beside it, and from nothing.
-  NoiseFit near(const NoiseModel& earlier) const {
+  NoiseFit around(const NoiseModel& earlier) const {
     const auto at =
         std::min_element(slow_lengths.begin(), slow_lengths.end(), [&](double a, double b) {
           return std::abs(std::log(a / earlier.length)) < std::abs(std::log(b / earlier.length));
@@ -157,7 +157,7 @@ public:
     return best;
   }
 
-  NoiseFit nearest(const NoiseModel& earlier) const {
+  NoiseFit at_same_length(const NoiseModel& earlier) const {
     return fit(earlier.length, logs(earlier), close);
   }
 
@@ -241,21 +241,21 @@ private:
 } // namespace
 
 NoiseFit fit_noise(const NoiseData& data) {
-  const NoiseFit in_proportion = NoiseFitter(data, 1).from_nothing();
-  const NoiseFit alike = NoiseFitter(data, 0).from_nothing();
+  const NoiseFit in_proportion = NoiseFitter(data, 1).from_scratch();
+  const NoiseFit alike = NoiseFitter(data, 0).from_scratch();
   return alike.log_likelihood > in_proportion.log_likelihood + 1e-6 ? alike : in_proportion;
 }
 
-NoiseFit fit_noise_again(const NoiseData& data, const NoiseModel& earlier) {
-  return NoiseFitter(data, earlier.growth).near(earlier);
+NoiseFit refit_noise(const NoiseData& data, const NoiseModel& earlier) {
+  return NoiseFitter(data, earlier.growth).around(earlier);
 }
 
-NoiseFit fit_noise_quickly(const NoiseData& data, const NoiseModel& earlier) {
+NoiseFit refit_noise_coarsely(const NoiseData& data, const NoiseModel& earlier) {
   return NoiseFitter(data, earlier.growth).quickly(earlier);
 }
 
-NoiseFit fit_noise_near(const NoiseData& data, const NoiseModel& earlier) {
-  return NoiseFitter(data, earlier.growth).nearest(earlier);
+NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier) {
+  return NoiseFitter(data, earlier.growth).at_same_length(earlier);
 }
 
 } // namespace frictab

@@ -139,8 +139,8 @@ MatrixXd order_functions(std::span<const double> order, int count) {
   return functions;
 }
 
-MatrixXd on_blocks(const MatrixXd& functions, const VectorXd& sensitivity,
-                   std::span<const std::size_t> first) {
+MatrixXd functions_on_blocks(const MatrixXd& functions, const VectorXd& sensitivity,
+                             std::span<const std::size_t> first) {
   MatrixXd columns(sensitivity.size(), functions.cols());
   for (std::size_t e = 0; e + 1 < first.size(); ++e)
     for (std::size_t b = first[e]; b < first[e + 1]; ++b)

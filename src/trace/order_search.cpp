@@ -21,7 +21,7 @@ constexpr std::size_t order_permutations = 999;
 constexpr double declared_lead = 10; // of log likelihood, that a declared wear may lack
 constexpr int check_functions = 9;
 constexpr int nuisance_functions = 12;
-constexpr double suspicion = 0.05;    // p-value of the order's own test, in the rival's place
+constexpr double suspicion = 0.05;    // p-value of the order's own test, at the rival's site
 constexpr double beyond_order = 3;    // statistic that an effect keeps beside the order of tests
 constexpr std::size_t neighbours = 3; // that may still be alike behind the slow functions
 constexpr double most_slow =
@@ -35,13 +35,13 @@ MatrixXd slow_functions(const std::vector<double>& order, int most, std::size_t 
 }
 
 MatrixXd slow_directions(const Search& search, int most, std::size_t experiments_each,
-                         std::size_t place) {
-  return on_blocks(slow_functions(search.candidates.order, most, experiments_each),
-                   search.sensitivities()[place], search.first());
+                         std::size_t site) {
+  return functions_on_blocks(slow_functions(search.candidates.order, most, experiments_each),
+                             search.sensitivities()[site], search.first());
 }
 
-VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t place) {
-  return experiment_scores(search.residual(), search.sensitivities()[place], search.known(),
+VectorXd scores_of(const Search& search, const Whitener& whitener, std::size_t site) {
+  return experiment_scores(search.residual(), search.sensitivities()[site], search.known(),
                            whitener, search.first());
 }
 
@@ -51,7 +51,7 @@ void project_out(const MatrixXd& directions, MatrixXd& columns) {
 }
 
 // Root mean square of what the functions explain, by weighted least squares.
-void measure(Search& search, MatrixXd columns) {
+void measure_structure(Search& search, MatrixXd columns) {
   const MatrixXd raw = columns;
   MatrixXd residual = search.residual();
   const Whitener weights = search.whitener();
@@ -106,7 +106,7 @@ bool is_order_itself(const Search& search, const Cause& cause) {
   });
 }
 
-void forbid(Search& search, const std::function<bool(const Cause&)>& which) {
+void forbid_causes(Search& search, const std::function<bool(const Cause&)>& which) {
   for (std::size_t c = 0; c < search.causes.size(); ++c)
     if (which(search.causes[c])) search.shapes[c].clear();
   std::erase_if(search.test_shapes, [&](const TestShape& shape) { return which(shape.cause); });
@@ -117,7 +117,7 @@ void forbid(Search& search, const std::function<bool(const Cause&)>& which) {
 bool is_declared(const Search& search, const Cause& cause) {
   const std::string& name = search.candidates.columns[cause.columns[0]].name;
   const std::string& distance = search.input.options.tool_distance;
-  return !distance.empty() && !cause.several() &&
+  return !distance.empty() && !cause.is_joint() &&
          (name == distance || (name == "test_order" && distance == search.candidates.order_column));
 }
 
@@ -150,14 +150,14 @@ bool follows_order(const Search& search, const Rival& rival) {
   if (is_order_itself(search, rival.causes.back())) return true;
   if (search.order.found || !constant_in_experiments(rival.causes.back(), search.candidates))
     return false;
-  const std::size_t place = place_of(rival.effects.back());
+  const std::size_t site = site_of(rival.effects.back());
   const Whitener weights = search.whitener();
-  if (test_order(scores_of(search, weights, place), search.candidates.order, order_permutations,
+  if (test_order(scores_of(search, weights, site), search.candidates.order, order_permutations,
                  search.input.seed)
           .p_value > suspicion)
     return false;
   MatrixXd known = search.known();
-  MatrixXd waves = slow_directions(search, check_functions, 4, place);
+  MatrixXd waves = slow_directions(search, check_functions, 4, site);
   MatrixXd both(known.rows(), 2);
   both.col(0) = search.residual();
   both.col(1) = rival.predicted - search.last().predicted;
@@ -175,37 +175,37 @@ bool follows_order(const Search& search, const Rival& rival) {
   return statistic() < beyond_order;
 }
 
-void blame_order(Search& search, const Cause& cause, double p_value) {
+void attribute_to_order(Search& search, const Cause& cause, double p_value) {
   if (!is_order(search, cause))
     search.confounded.push_back(
         {cause, p_value, constant_in_experiments(cause, search.candidates)});
-  forbid(search, [&](const Cause& other) { return other == cause; });
-  take_order_out(search, p_value, 0);
+  forbid_causes(search, [&](const Cause& other) { return other == cause; });
+  remove_order_structure(search, p_value, 0);
 }
 
-void take_order_out(Search& search, double p_value, std::size_t place) {
+void remove_order_structure(Search& search, double p_value, std::size_t site) {
   if (search.order.found) return; // what is left behind the slow functions stays unexplained
-  forbid(search, [&](const Cause& cause) { return is_order(search, cause); });
+  forbid_causes(search, [&](const Cause& cause) { return is_order(search, cause); });
   search.order.found = true;
   search.order.p_value = p_value;
   search.order.reference = reference;
   const auto rank = ranks(search.candidates.order);
   for (std::size_t e = 0; e < rank.size(); ++e)
     search.units[e] = rank[e] / neighbours;
-  MatrixXd functions = slow_directions(search, nuisance_functions, 5, place);
-  measure(search, functions);
+  MatrixXd functions = slow_directions(search, nuisance_functions, 5, site);
+  measure_structure(search, functions);
   search.campaign().nuisance = std::move(functions);
   search.fit_again();
 }
 
-OrderFound look_along_order(const Search& search) {
+OrderFound test_along_order(const Search& search) {
   const Whitener weights = search.whitener();
   std::vector<std::size_t> tried;
   MatrixXd scores(static_cast<Index>(search.blocks.experiments()), 0);
-  for (std::size_t place = 0; place < places.size(); ++place) {
-    if (search.sensitivities()[place].size() == 0) continue;
-    append_columns(scores, scores_of(search, weights, place));
-    tried.push_back(place);
+  for (std::size_t site = 0; site < sites.size(); ++site) {
+    if (search.sensitivities()[site].size() == 0) continue;
+    append_columns(scores, scores_of(search, weights, site));
+    tried.push_back(site);
   }
   const OrderTest test =
       test_order(scores, search.candidates.order, order_permutations, search.input.seed);
@@ -215,10 +215,10 @@ OrderFound look_along_order(const Search& search) {
 bool find_order(Search& search) {
   if (search.order.found || search.candidates.order_column.empty() || search.negligible())
     return false;
-  const OrderFound found = look_along_order(search);
+  const OrderFound found = test_along_order(search);
   search.order.p_value = found.p_value;
   if (found.p_value > share_of_alpha * search.input.options.alpha) return false;
-  take_order_out(search, found.p_value, found.place);
+  remove_order_structure(search, found.p_value, found.site);
   return true;
 }
 
@@ -228,7 +228,7 @@ void reconsider_order(Search& search) {
   search.campaign().nuisance.resize(0, 0);
   Rival with_order = search.last();
   search.fit_again();
-  const double p = look_along_order(search).p_value;
+  const double p = test_along_order(search).p_value;
   if (p > share_of_alpha * search.input.options.alpha) {
     search.order = {};
     search.order.column = search.candidates.order_column;

@@ -19,17 +19,17 @@ bool follows_order(const Search& search, const Rival& rival);
 bool order_explains(const Search& search, const TestShape& shape);
 
 // The cause is out, and the order with it.
-void blame_order(Search& search, const Cause& cause, double p_value);
+void attribute_to_order(Search& search, const Cause& cause, double p_value);
 
-// From here on nothing is explained that slow functions of the order can explain, in the place
+// From here on nothing is explained that slow functions of the order can explain, at the site
 // (mu, limit, added) where it shows most.
-void take_order_out(Search& search, double p_value, std::size_t place);
+void remove_order_structure(Search& search, double p_value, std::size_t site);
 
 struct OrderFound {
   double p_value = 1;
-  std::size_t place = 0;
+  std::size_t site = 0;
 };
-OrderFound look_along_order(const Search& search);
+OrderFound test_along_order(const Search& search);
 
 // A second test, beside that of all candidates, where the order was declared: true where something
 // was found, which is then taken out.

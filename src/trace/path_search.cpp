@@ -88,8 +88,8 @@ public:
     return found;
   }
 
-  // The best shape of the `place`-th best name of one degree of freedom (0: the best).
-  std::size_t by_name(std::size_t place) const {
+  // The best shape of the `rank`-th best name of one degree of freedom (0: the best).
+  std::size_t best_of_name(std::size_t rank) const {
     std::vector<std::pair<double, std::size_t>> best; // per name
     std::vector<std::size_t> at;
     for (std::size_t s = 0; s < g_.usable.size(); ++s) {
@@ -103,12 +103,12 @@ public:
       } else if (r > best[at[name]].first)
         best[at[name]] = {r, s};
     }
-    if (best.size() <= place) return npos;
-    std::nth_element(best.begin(), best.begin() + static_cast<long>(place), best.end(),
+    if (best.size() <= rank) return npos;
+    std::nth_element(best.begin(), best.begin() + static_cast<long>(rank), best.end(),
                      [](const auto& a, const auto& b) {
                        return a.first > b.first || (a.first == b.first && a.second < b.second);
                      });
-    return best[place].second;
+    return best[rank].second;
   }
 
   void take(std::size_t s) {
@@ -183,7 +183,7 @@ Paths walk_all(const Ground& ground, const VectorXd& along, double total, std::s
     Walk walk(ground, along, total);
     std::vector<std::size_t> taken;
     for (std::size_t k = 0; k < longest; ++k) {
-      const std::size_t next = k == 0 && start > 0 ? walk.by_name(start) : walk.best();
+      const std::size_t next = k == 0 && start > 0 ? walk.best_of_name(start) : walk.best();
       if (next == Walk::npos) break;
       walk.take(next);
       taken.push_back(ground.usable[next].shape);
@@ -210,14 +210,14 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
 }
 
 double quantile_below(std::vector<double> values, double share) {
-  const auto place = static_cast<std::size_t>(
+  const auto rank = static_cast<std::size_t>(
       std::max(std::floor(share * static_cast<double>(values.size() + 1)) - 1, 0.0));
   std::sort(values.begin(), values.end());
-  return values[std::min(place, values.size() - 1)];
+  return values[std::min(rank, values.size() - 1)];
 }
 
 // What search_path decides by: per length the log p of the data (index 0) and of permutations.
-void judge(const std::vector<Paths>& all, double alpha, PathResult& result) {
+void decide(const std::vector<Paths>& all, double alpha, PathResult& result) {
   const std::size_t lengths = all.front().log_p.size();
   std::vector<double> least(all.size(), 1), own;
   std::vector<double> singles;
@@ -237,9 +237,9 @@ void judge(const std::vector<Paths>& all, double alpha, PathResult& result) {
       static_cast<double>(least.size());
   std::vector<double> sorted = least;
   std::sort(sorted.begin(), sorted.end());
-  const auto place = static_cast<std::size_t>(
+  const auto rank = static_cast<std::size_t>(
       std::max(std::floor(alpha * static_cast<double>(least.size())) - 1, 0.0));
-  const double critical = sorted[place];
+  const double critical = sorted[rank];
   result.critical_log_p = quantile_below(singles, critical);
   const double enough = std::max(critical, *std::min_element(own.begin(), own.end())) + 1e-12;
   for (std::size_t k = 0; k < lengths && result.chosen.empty(); ++k)
@@ -285,7 +285,7 @@ PathResult search_path(const PathInput& input) {
     }
     all[b] = walk_all(ground, ground.columns.transpose() * e, e.squaredNorm() + 1e-300, longest);
   });
-  judge(all, input.alpha, result);
+  decide(all, input.alpha, result);
   return result;
 }
 

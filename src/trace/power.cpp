@@ -59,16 +59,16 @@ void add_between(Trace& trace, const Search& search) {
 
 } // namespace
 
-void add_power(Trace& trace, const Search& search, std::uint64_t seed) {
+void add_detectable(Trace& trace, const Search& search, std::uint64_t seed) {
   const ScreenResult& screened = search.last_screen;
   const double threshold = screened.threshold(search.family_alpha());
   for (std::size_t s = 0; s < search.causes.size(); ++s) {
-    if (search.causes[s].several() || search.shapes[s].empty()) continue;
+    if (search.causes[s].is_joint() || search.shapes[s].empty()) continue;
     const CandidateColumn& column = search.candidates.columns[search.causes[s].columns[0]];
     Detectable entry{column.name, column.derived ? column.name : "", ActsOn::mu, 0, 0, false};
     for (std::size_t d = 0; d < screened.directions.size(); ++d) {
       const Direction& direction = screened.directions[d];
-      if (direction.cause != s || direction.place != 0) continue;
+      if (direction.cause != s || direction.site != 0) continue;
       const GridShape& shape = search.shapes[s][direction.shape];
       if (fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical) continue;
       const double sum = sum_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);

@@ -99,7 +99,7 @@ bool is_possible(const Rival& rival, const Campaign& campaign) {
          });
 }
 
-void judge(Rival& rival, const Campaign& campaign) {
+void evaluate(Rival& rival, const Campaign& campaign) {
   const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(residual);
@@ -185,16 +185,16 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
     const NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
                          campaign.nuisance};
     if (first)
-      rival.noise = noise_again(campaign, data, rival.noise);
+      rival.noise = refit_noise(campaign, data, rival.noise);
     else if (!campaign.quick)
-      rival.noise = fit_noise_near(data, rival.noise).noise;
+      rival.noise = refine_noise(data, rival.noise).noise;
     else
       break;
     refit(law);
   }
   take_parameters(rival, own);
   rival.weights = rival.noise;
-  judge(rival, campaign);
+  evaluate(rival, campaign);
   return rival;
 }
 
@@ -207,8 +207,8 @@ Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedE
   return fit_rival(campaign, std::move(effects), std::move(causes), start, noise, search);
 }
 
-NoiseModel noise_again(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier) {
-  return (campaign.quick ? fit_noise_quickly(data, earlier) : fit_noise_again(data, earlier)).noise;
+NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier) {
+  return (campaign.quick ? refit_noise_coarsely(data, earlier) : refit_noise(data, earlier)).noise;
 }
 
 NoiseModel rows_alike(const NoiseModel& noise) {
@@ -230,13 +230,13 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
   rival.jacobian = std::move(fit.jacobian);
   rival.weights = weights;
   take_parameters(rival, campaign.law.parameters.size());
-  judge(rival, campaign);
+  evaluate(rival, campaign);
   return rival;
 }
 
-std::size_t place_of(const PlacedEffect& effect) {
-  return static_cast<std::size_t>(std::find(places.begin(), places.end(), effect.acts_on) -
-                                  places.begin());
+std::size_t site_of(const PlacedEffect& effect) {
+  return static_cast<std::size_t>(std::find(sites.begin(), sites.end(), effect.acts_on) -
+                                  sites.begin());
 }
 
 Rival without_effect(const Campaign& campaign, const Rival& rival, std::size_t index) {

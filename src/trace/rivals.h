@@ -54,7 +54,7 @@ Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedE
                 std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search);
 
 // Noise of a residual that has changed, from an earlier fit.
-NoiseModel noise_again(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
+NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
 
 // Of the smooth effects, over all parameters: what a fit adds to its normal equations. Empty where
 // there are none.
@@ -70,8 +70,8 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
 // better; where it is not, they may lean on the few rows that are least correlated with others.
 NoiseModel rows_alike(const NoiseModel& noise);
 
-// Index in `places` (screen.h) of where the effect acts.
-std::size_t place_of(const PlacedEffect& effect);
+// Index in `sites` (screen.h) of where the effect acts.
+std::size_t site_of(const PlacedEffect& effect);
 
 // Values to start from of the law with effects: the law's `count` own, each effect's, and behind
 // them m_limit, which is the last of `own` where that has more than `count`.

@@ -52,8 +52,7 @@ double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
   const NoiseModel noise =
-      fit_noise_again({residual, last.predicted, search.blocks, last.jacobian, nuisance},
-                      last.noise)
+      refit_noise({residual, last.predicted, search.blocks, last.jacobian, nuisance}, last.noise)
           .noise;
   return Whitener(noise, last.predicted, search.blocks).variance().mean() +
          within_blocks(search.input.training, search.blocks);

@@ -27,7 +27,7 @@ constexpr Index least_experiments = 7; // that carry a direction, ...
 constexpr float share_of_most = 0.05f; // ... each at least so much of what the first of them does
 
 // (I - H_ee)^-1/2 r, H_ee = Q_e Q_e': the residual as if its own experiment had not been fitted.
-void unshrink(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
+void undo_leverage(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
     const auto begin = static_cast<Index>(first[e]);
     const auto count = static_cast<Index>(first[e + 1]) - begin;
@@ -78,11 +78,11 @@ public:
     MatrixXd residual = in_.residual;
     in_.whitener.apply(residual);
     VectorXd r = residual.col(0) - q * (q.transpose() * residual.col(0));
-    unshrink(q, in_.first, r);
+    undo_leverage(q, in_.first, r);
     q_ = q.cast<float>();
     residual_ = r.cast<float>();
     signs_ = signs(in_.flips, in_.units, in_.seed);
-    for (std::size_t p = 0; p < places.size(); ++p)
+    for (std::size_t p = 0; p < sites.size(); ++p)
       sensitivity_[p] = in_.sensitivities[p].cast<float>();
   }
 
@@ -108,10 +108,10 @@ public:
 private:
   MatrixXf columns(std::size_t cause, std::vector<Direction>& directions) const {
     const auto& shapes = in_.shapes[cause];
-    MatrixXf x(in_.residual.size(), static_cast<Index>(shapes.size() * places.size()));
+    MatrixXf x(in_.residual.size(), static_cast<Index>(shapes.size() * sites.size()));
     Index next = 0;
     for (std::size_t s = 0; s < shapes.size(); ++s)
-      for (std::size_t p = 0; p < places.size(); ++p) {
+      for (std::size_t p = 0; p < sites.size(); ++p) {
         const bool several = shapes[s].effect.inputs.size() > 1;
         if (sensitivity_[p].size() == 0 || (several && p != on_mu && p != on_both)) continue;
         x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
@@ -165,7 +165,7 @@ private:
   const ScreenInput& in_;
   MatrixXf q_, signs_;
   VectorXf residual_;
-  std::array<VectorXf, places.size()> sensitivity_;
+  std::array<VectorXf, sites.size()> sensitivity_;
 };
 
 // A sum of scores over its standard deviation as the experiments themselves show it: where some

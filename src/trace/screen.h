@@ -13,19 +13,20 @@
 
 namespace frictab {
 
-// Where an effect may act (PlacedEffect::acts_on). On mu and the limit alike only where a law has a
-// limit of its own: what lubricates worse does so before and behind saturation.
-inline constexpr std::array<ActsOn, 4> places = {ActsOn::mu, ActsOn::m, ActsOn::tau, ActsOn::mu_m};
+// The sites of a law: the parts of it that an effect may change (PlacedEffect::acts_on), and whose
+// index in this list stands for them below. mu and the limit together are a site only where a law
+// has a limit of its own: what lubricates worse does so before and behind saturation.
+inline constexpr std::array<ActsOn, 4> sites = {ActsOn::mu, ActsOn::m, ActsOn::tau, ActsOn::mu_m};
 inline constexpr std::size_t on_mu = 0, on_both = 3;
 
-// What tau_R changes, per block, where an effect's factor changes by 1, in each place.
+// What tau_R changes, per block, where an effect's factor changes by 1, at each site.
 using Sensitivities =
-    std::array<Eigen::VectorXd, places.size()>; // of size 0 where there is no such place
+    std::array<Eigen::VectorXd, sites.size()>; // of size 0 where the law has no such site
 
 struct Direction {
   std::size_t cause = 0; // in the list of causes
   std::size_t shape = 0; // of that cause
-  std::size_t place = 0;
+  std::size_t site = 0;  // index in `sites`
   float statistic = 0;
   float size = 0; // norm, whitened and projected: statistic per amplitude
 };

@@ -96,7 +96,7 @@ void Search::make_candidates() {
   causes = all_causes(candidates);
   shapes.resize(causes.size());
   parallel_for(shapes.size(), [&](std::size_t c) {
-    if (causes[c].several() || !constant_in_experiments(causes[c], candidates))
+    if (causes[c].is_joint() || !constant_in_experiments(causes[c], candidates))
       shapes[c] = shapes_of(causes[c], candidates);
   });
   test_shapes = frictab::test_shapes(candidates, blocks);
@@ -226,7 +226,7 @@ ScreenInput screen_input(const Search& search, const Whitener& weights, const Ve
 
 // Behind the leading direction.
 NoiseModel noise_behind(const Search& search, const Direction& leader) {
-  const VectorXd direction = search.sensitivities()[leader.place].cwiseProduct(
+  const VectorXd direction = search.sensitivities()[leader.site].cwiseProduct(
       search.shapes[leader.cause][leader.shape].direction.cast<double>());
   MatrixXd known = search.known();
   append_columns(known, direction);
@@ -238,7 +238,7 @@ NoiseModel noise_behind(const Search& search, const Direction& leader) {
   const VectorXd left = search.residual() - direction * coefficients(coefficients.size() - 1);
   MatrixXd fitted = search.last().jacobian;
   append_columns(fitted, direction);
-  return noise_again(
+  return refit_noise(
       search.campaign(),
       {left, search.last().predicted, search.blocks, fitted, search.campaign().nuisance, false},
       search.last().noise);
@@ -246,7 +246,7 @@ NoiseModel noise_behind(const Search& search, const Direction& leader) {
 
 } // namespace
 
-Screened look_within(const Search& search, bool keep_scores) {
+Screened screen_within_tests(const Search& search, bool keep_scores) {
   const VectorXd residual = search.residual();
   Screened found;
   found.noise = search.last().noise;
@@ -264,7 +264,7 @@ Screened look_within(const Search& search, bool keep_scores) {
   return found;
 }
 
-BetweenResult look_between(const Search& search) {
+BetweenResult search_between_tests(const Search& search) {
   const MatrixXd known = search.known_between();
   return search_between({search.gains, known, search.test_shapes, search.candidates,
                          search.family_alpha(), search.effort.permutations, search.input.seed});

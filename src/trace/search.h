@@ -114,8 +114,8 @@ struct Screened {
   ScreenResult result;
   NoiseModel noise;
 };
-Screened look_within(const Search& search, bool keep_scores = false);
-BetweenResult look_between(const Search& search);
+Screened screen_within_tests(const Search& search, bool keep_scores = false);
+BetweenResult search_between_tests(const Search& search);
 
 // To the end: `last` is the law with everything that was found.
 std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});

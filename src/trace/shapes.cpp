@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A form with a place and a width has structure of that width there.
+// A form with a position and a width (a hump, a step) has structure of that width there.
 bool is_local(const PlacedEffect& effect) {
   const auto fitted = fitted_parameters(effect);
   const std::size_t amplitudes = amplitudes_of(effect);
@@ -60,7 +60,7 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
     spreads.push_back(column->spread);
     tested.emplace_back(column->tested);
   }
-  place_knots(effect, tested);
+  set_knots(effect, tested);
   if (form.parameters_of)
     effect.parameters.assign(parameters_of(effect).size(), 0.0);
   else
@@ -110,9 +110,9 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 // One direction per level against the others; of a pair, times the number behind it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.columns[0]];
-  const EffectForm& form = *find_effect(cause.several() ? "category_slope" : "category");
+  const EffectForm& form = *find_effect(cause.is_joint() ? "category_slope" : "category");
   VectorXd times = VectorXd::Ones(x.values.size());
-  if (cause.several()) {
+  if (cause.is_joint()) {
     const CandidateColumn& number = candidates.columns[cause.columns[1]];
     times = (number.values.array() - number.spread.median) / number.spread.span();
   }

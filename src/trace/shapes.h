@@ -32,8 +32,9 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
                           ActsOn acts_on, double tau_scale_MPa);
 // Whether the form has a meaning for the cause: logarithms need positive values, ...
 bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates);
-// Bounds of a fit inside what the data can tell: places inside the range, widths like it, and not
-// below half of the widest gap between values that were tested: what lies there nobody has seen.
+// Bounds of a fit inside what the data can tell: positions inside the range, widths like it, and
+// not below half of the widest gap between values that were tested: what lies there nobody has
+// seen.
 void bound_shapes(Law& extended, std::size_t own_parameters, std::span<const PlacedEffect> effects,
                   const Candidates& candidates);
 

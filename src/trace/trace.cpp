@@ -69,11 +69,11 @@ public:
     trace.notes = search_.candidates.notes;
     add_tried(trace);
     delivery_ = deliver(search_, trace);
-    trace.worlds = worlds_apart(search_, delivery_.rival);
+    trace.validation_shift = validation_shift_of(search_, delivery_.rival);
     add_law(trace);
     add_effects(trace);
     add_scatter(trace, search_, delivery_.rival);
-    add_power(trace, search_, in_.seed);
+    add_detectable(trace, search_, in_.seed);
     add_leads(trace, search_);
     add_verdict(trace, search_, delivery_.contradicted);
     return trace;
@@ -90,7 +90,7 @@ private:
     trace.smallest_seen = search_.last_between.smallest_seen;
     for (const std::size_t s : search_.last_screen.absorbed) {
       const Cause& cause = search_.causes[s];
-      if (!cause.several() && !search_.shapes[s].empty() && !chosen(cause))
+      if (!cause.is_joint() && !search_.shapes[s].empty() && !chosen(cause))
         trace.not_identifiable.push_back(cause_name(cause, search_.candidates));
     }
   }

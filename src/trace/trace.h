@@ -102,7 +102,7 @@ struct Lead {
 };
 
 // Whether validation differs from training as a whole.
-struct WorldsApart {
+struct ValidationShift {
   bool found = false;
   double shift_MPa = 0; // validation minus training, mean over tests
   Interval interval;    // 95 %
@@ -144,7 +144,7 @@ struct Trace {
   std::string unseen = "validation"; // | nested_cross_validation
   Difference improvement;            // MAE on unseen tests before minus after, paired by experiment
   NestedCheck nested;
-  WorldsApart worlds;
+  ValidationShift validation_shift;
   std::vector<Lead> leads;             // strongest first
   NoiseFloor noise_floor;              // from the noise model: if nothing else is missing
   double scatter_between = 0;          // relative scatter between experiments, standard deviation

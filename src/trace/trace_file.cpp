@@ -148,7 +148,7 @@ EffectInput parse_input(const Json& j) {
 }
 
 ActsOn parse_acts_on(const std::string& name) {
-  if (const auto place = find_acts_on(name)) return *place;
+  if (const auto acts_on = find_acts_on(name)) return *acts_on;
   throw InputError({"trace.json", 0, 0}, "an effect acts on '" + name + "'", "trace again");
 }
 
@@ -226,7 +226,7 @@ std::vector<Lead> parse_leads(const Json& j) {
   return leads;
 }
 
-Json worlds_json(const WorldsApart& w) {
+Json worlds_json(const ValidationShift& w) {
   return {{"apart", w.found},
           {"shift_MPa", w.shift_MPa},
           {"interval_95", {w.interval.low, w.interval.high}},
@@ -234,7 +234,7 @@ Json worlds_json(const WorldsApart& w) {
           {"p_value", w.p_value}};
 }
 
-WorldsApart parse_worlds(const Json& j) {
+ValidationShift parse_worlds(const Json& j) {
   return {j.at("apart"),
           number_or_nan(j.at("shift_MPa")),
           {number_or_nan(j.at("interval_95").at(0)), number_or_nan(j.at("interval_95").at(1))},
@@ -303,7 +303,7 @@ Json one_json(const Trace& t) {
           {"before", errors_json(t.before)},
           {"after", errors_json(t.after)},
           {"nested_cross_validation", nested_json(t.nested)},
-          {"validation_against_training", worlds_json(t.worlds)},
+          {"validation_against_training", worlds_json(t.validation_shift)},
           {"leads", leads_json(t.leads)},
           {"improvement",
            {{"validation_mae_MPa", t.improvement.value_MPa},
@@ -361,7 +361,7 @@ Trace parse_one(const Json& j) {
               number_or_nan(nested.at("log_score")),
               number_or_nan(nested.at("log_score_std_error")),
               nested.at("effects_offered")};
-  t.worlds = parse_worlds(j.at("validation_against_training"));
+  t.validation_shift = parse_worlds(j.at("validation_against_training"));
   t.leads = parse_leads(j.at("leads"));
   t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
   t.after = parse_errors(j.at("after"));

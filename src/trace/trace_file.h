@@ -17,7 +17,7 @@ std::vector<Trace> parse_traces(std::string_view text, const std::string& file);
 // For a person with ten seconds.
 std::string trace_text(const Trace& trace);
 // `frictab trace --power`: what this campaign could have shown, and what would help.
-std::string power_text(const Trace& trace);
+std::string detectable_text(const Trace& trace);
 
 // "humidity_pct", "friction_work (from s_mm)".
 std::string lead_name(const Lead& lead);
@@ -27,7 +27,7 @@ std::string design_sentence(const Design& design);
 std::vector<std::vector<std::string>> design_rows(const Design& design);
 
 // "on mu", "on the limit", "added to tau_R".
-const char* place_text(ActsOn place);
+const char* site_text(ActsOn acts_on);
 
 // "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
 std::string cause_text(const TracedEffect& effect);

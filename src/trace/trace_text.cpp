@@ -96,7 +96,7 @@ std::string design_lines(const Design& d, const std::string& indent) {
 void add_effect(std::string& out, const TracedEffect& e) {
   out +=
       fmt::format("  + {}: {}, {}, p = {:.3g}, gains {} MPa on unseen tests\n", cause_text(e),
-                  e.placed.form->name, place_text(e.placed.acts_on), e.p_value, digits(e.gain_MPa));
+                  e.placed.form->name, site_text(e.placed.acts_on), e.p_value, digits(e.gain_MPa));
   out += fmt::format("      {}: {}\n", formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
@@ -123,8 +123,8 @@ std::string unseen_line(const Trace& t) {
 
 } // namespace
 
-const char* place_text(ActsOn place) {
-  switch (place) {
+const char* site_text(ActsOn acts_on) {
+  switch (acts_on) {
   case ActsOn::mu:
     return "on mu";
   case ActsOn::m:
@@ -219,7 +219,7 @@ std::string trace_text(const Trace& t) {
   return out;
 }
 
-std::string power_text(const Trace& t) {
+std::string detectable_text(const Trace& t) {
   if (t.detectable.empty()) return "";
   constexpr double wanted = 0.02; // of tau_R
   const auto experiments = static_cast<double>(t.noise_floor.n_experiments);

@@ -25,9 +25,9 @@ public:
     drop_superseded();
     reconsider_order(s_);
     if (s_.campaign().quick) return; // what is left is of no interest to a fold
-    s_.last_screen = look_within(s_, true).result;
+    s_.last_screen = screen_within_tests(s_, true).result;
     s_.last_p_value = s_.negligible() ? 1 : s_.last_screen.p_value;
-    s_.last_between = look_between(s_);
+    s_.last_between = search_between_tests(s_);
   }
 
 private:
@@ -43,7 +43,7 @@ private:
 
   void find_between() {
     while (!s_.negligible()) {
-      BetweenResult result = look_between(s_);
+      BetweenResult result = search_between_tests(s_);
       if (result.found.empty()) return;
       const auto suspect =
           std::find_if(result.found.begin(), result.found.end(),
@@ -52,7 +52,7 @@ private:
         add_between(result);
         return;
       }
-      blame_order(s_, suspect->shape.cause, suspect->p_value);
+      attribute_to_order(s_, suspect->shape.cause, suspect->p_value);
     }
   }
 
@@ -110,7 +110,7 @@ private:
 
   bool add_within() {
     if (s_.negligible()) return false;
-    const auto [screened, noise] = look_within(s_);
+    const auto [screened, noise] = screen_within_tests(s_);
     if (screened.directions.empty() || screened.p_value > s_.family_alpha()) return false;
     // Under the same noise, whatever is added has to be likelier than nothing.
     const Rival without = fit_rival(s_.campaign(), s_.last(), s_.last().effects, s_.last().causes,
@@ -121,7 +121,7 @@ private:
     if (rivals.empty()) return false;
     prefer_declared(s_, rivals);
     if (follows_order(s_, rivals.front())) {
-      blame_order(s_, rivals.front().causes.back(), screened.p_value);
+      attribute_to_order(s_, rivals.front().causes.back(), screened.p_value);
       return true;
     }
     const std::vector<Rival> forms =

@@ -49,7 +49,7 @@ std::string order_sentence(const OrderStructure& order) {
                      order.column, order.size_MPa, percent(order.share), order.reference);
 }
 
-std::string worlds_sentence(const WorldsApart& worlds) {
+std::string worlds_sentence(const ValidationShift& worlds) {
   return fmt::format("the validation tests lie {:+.3g} MPa beside the training tests as a whole "
                      "(95 %: {:+.3g} to {:+.3g} MPa, {:+.3g} %): another lubricant, tool, rig or "
                      "unit; errors on them say nothing about a law until that is settled",
@@ -78,9 +78,9 @@ void add_verdict(Trace& t, const Search& search, bool contradicted) {
   const bool excess = scatters_more(t);
   contradicted = contradicted && t.effects.empty();
   t.remaining.p_value = std::min(search.last_p_value, search.last_between.last_p_value);
-  t.remaining.structure = t.order.found || excess || t.worlds.found || contradicted;
+  t.remaining.structure = t.order.found || excess || t.validation_shift.found || contradicted;
   std::vector<std::string> notes;
-  if (t.worlds.found) notes.push_back(worlds_sentence(t.worlds));
+  if (t.validation_shift.found) notes.push_back(worlds_sentence(t.validation_shift));
   if (t.order.found) notes.push_back(order_sentence(t.order));
   if (excess) notes.push_back(excess_sentence(t));
   if (contradicted)

@@ -32,7 +32,7 @@ void hide_columns(const TwinOptions& options, Dataset& data) {
   faults.throw_if_any();
 }
 
-// Fits the law to the physics of the training part and puts it into its place.
+// Fits the law to the physics of the training part, and makes it the truth instead of that physics.
 void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
   find_column(training.data, "tau_R_MPa")->values = base_tau(training);
   const auto law = std::make_shared<const LawTruth>(*find_law(name), training.data);

@@ -85,13 +85,13 @@ void fill_more(std::uint64_t seed, std::size_t tests, TwinDraft& draft, std::siz
   const auto room = room_by_order(seed, tests);
   for (std::size_t e = 0; e < draft.plan.size(); ++e) {
     Random random(seed, twin_stream(draft.part, e, more_stream));
-    const std::size_t place = draft.plan[e].run_order - 1;
+    const std::size_t position = draft.plan[e].run_order - 1;
     fill_constant(columns[0], e, points, second_film(film[e * points], random));
-    fill_constant(columns[1], e, points, room[place]);
+    fill_constant(columns[1], e, points, room[position]);
     fill_constant(columns[2], e, points, round_to(std::pow(100, random.uniform()), 1));
     fill_constant(columns[3], e, points, static_cast<double>(random.below(2)));
     fill_constant(columns[4], e, points,
-                  static_cast<double>(place * columns[4].levels.size() / tests));
+                  static_cast<double>(position * columns[4].levels.size() / tests));
     for (std::size_t i = e * points; i < (e + 1) * points; ++i)
       columns[5].values[i] = round_to(std::exp(0.3 * random.normal()), 3);
   }

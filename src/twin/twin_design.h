@@ -32,7 +32,7 @@ TwinDesign parse_design(std::string_view text, TwinDesign base);
 struct TwinExperiment {
   std::string name;
   TwinTest test;
-  std::size_t run_order = 0; // place in the randomised order of all tests, from 1
+  std::size_t run_order = 0; // position in the randomised order of all tests, from 1
 };
 
 // Factorial (all combinations, replicates last) and random validation tests (stress and tool

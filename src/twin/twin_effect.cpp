@@ -227,13 +227,13 @@ void set_shapes(const EffectSpec& spec, const Inputs& rows, PlantedEffect& effec
       effect.parameters[i] = given->second;
 }
 
-void place(const TwinDraft& draft, const Inputs& rows, PlantedEffect& effect) {
+void bind_columns(const TwinDraft& draft, const Inputs& rows, PlantedEffect& effect) {
   effect.placed.form = effect.form;
   for (const std::string& name : columns_of(effect.spec)) {
     const Column* column = find_column(draft.data, name);
     effect.placed.inputs.push_back({name, column ? column->levels : std::vector<std::string>{}});
   }
-  place_knots(effect.placed, {rows.begin(), rows.end()});
+  set_knots(effect.placed, {rows.begin(), rows.end()});
 }
 
 PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDraft& training,
@@ -243,7 +243,7 @@ PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDra
   PlantedEffect effect{spec, find_effect(spec.form), {}, 0, {}};
   Inputs rows = resolve(options, index, tests, training);
   set_shapes(spec, rows, effect);
-  place(training, rows, effect);
+  bind_columns(training, rows, effect);
   const double tau_scale = mean_of(base_tau(training));
   const Trial on_training(training, effect, std::move(rows), tau_scale);
   const Trial on_validation(validation, effect, resolve(options, index, tests, validation),

@@ -8,7 +8,7 @@ namespace frictab {
 
 namespace {
 
-// Stands for all effects in one place: its column is their factor.
+// Stands for all effects at one site (mu, limit or added): its column is their factor.
 const EffectForm& planted_form() {
   static const EffectForm form = [] {
     EffectForm all;
@@ -20,11 +20,11 @@ const EffectForm& planted_form() {
   return form;
 }
 
-PlacedEffect planted_on(ActsOn place) {
+PlacedEffect planted_on(ActsOn acts_on) {
   PlacedEffect effect;
   effect.form = &planted_form();
-  effect.inputs = {{std::string("planted_") + acts_on_name(place), {}, -1e300, 1e300}};
-  effect.acts_on = place;
+  effect.inputs = {{std::string("planted_") + acts_on_name(acts_on), {}, -1e300, 1e300}};
+  effect.acts_on = acts_on;
   return effect;
 }
 

@@ -19,7 +19,7 @@ struct TauPieces {
   std::vector<double> shift; // MPa, added in the end
 };
 
-// The law as extended_law has it, with one factor per row in every place.
+// The law as extended_law has it, with one factor per row on mu, on the limit and on what is added.
 class LawTruth {
 public:
   // Parameters by least squares on tau_R_MPa.

@@ -21,7 +21,7 @@ struct TwinParameters {
   double aT, av, av2, apsi, axv;  // temperature, speed, speed^2, expansion, speed x temperature
   double rA, rL;                  // run-in: height and length in mm
   double wA, Lw;                  // film wear: height and length in mm
-  double bA, b;                   // film breakdown when hot and stretched: height and place
+  double bA, b;                   // film breakdown when hot and stretched: height and position
   double s_test, s_ar;            // hidden factor per test, autocorrelated noise (standard dev.)
 };
 

@@ -66,7 +66,8 @@ TEST(Conditional, FindsKnownGainsExactlyWithoutNoise) {
   EXPECT_NEAR(std::sqrt(prior.between), 0.1, 0.03);
   const auto plain = tenth_of_stress(validation);
   EXPECT_GT(mae_beyond(validation, plain, 1), 5);
-  EXPECT_LT(mae_beyond(validation, conditioned(validation, plain, {}, prior, 1), 1), 1e-9);
+  EXPECT_LT(mae_beyond(validation, conditioned_predictions(validation, plain, {}, prior, 1), 1),
+            1e-9);
 }
 
 TEST(Conditional, DoesNotFollowNoiseWhereExperimentsAreAlike) {
@@ -76,8 +77,9 @@ TEST(Conditional, DoesNotFollowNoiseWhereExperimentsAreAlike) {
   const GainPrior prior = gain_prior(training, tenth_of_stress(training), 0.15);
   EXPECT_LT(prior.trust(2), 0.3);
   const auto plain = tenth_of_stress(validation);
-  EXPECT_LT(mae_beyond(validation, conditioned(validation, plain, {}, prior, 0.15), 0.15),
-            1.02 * mae_beyond(validation, plain, 0.15));
+  EXPECT_LT(
+      mae_beyond(validation, conditioned_predictions(validation, plain, {}, prior, 0.15), 0.15),
+      1.02 * mae_beyond(validation, plain, 0.15));
 }
 
 TEST(Conditional, TrustsFewRowsLess) {
@@ -97,7 +99,7 @@ TEST(Conditional, TakesOutWhatALawMissesInEveryRunIn) {
   const GainPrior prior = gain_prior(training, tenth_of_stress(training), 1);
   EXPECT_NEAR(prior.usual_first, 1.2, 0.05);
   const auto plain = tenth_of_stress(validation);
-  EXPECT_LT(mae_beyond(validation, conditioned(validation, plain, {}, prior, 1), 1),
+  EXPECT_LT(mae_beyond(validation, conditioned_predictions(validation, plain, {}, prior, 1), 1),
             0.05 * mae_beyond(validation, plain, 1));
 }
 
@@ -105,7 +107,8 @@ TEST(Conditional, KeepsTheShearLimitAfterTheGain) {
   const Dataset training = gained({}), validation = gained({.seed = 2});
   const GainPrior prior = gain_prior(training, tenth_of_stress(training), 1);
   const std::vector<double> limit(validation.rows(), 100.0);
-  for (const double tau : conditioned(validation, tenth_of_stress(validation), limit, prior, 1))
+  for (const double tau :
+       conditioned_predictions(validation, tenth_of_stress(validation), limit, prior, 1))
     EXPECT_LE(tau, 100);
 }
 
@@ -115,7 +118,7 @@ TEST(Conditional, OfTheTruthOfTheTwinComesNearToKnowingEachTestsFactor) {
   const Dataset& data = twin.validation.data;
   const double without = mae_beyond(data, twin.validation.oracle_MPa, 1);
   const double with =
-      mae_beyond(data, conditioned(data, twin.validation.oracle_MPa, {}, prior, 1), 1);
+      mae_beyond(data, conditioned_predictions(data, twin.validation.oracle_MPa, {}, prior, 1), 1);
   EXPECT_NEAR(without, 8.45, 0.05);
   EXPECT_GT(with, 3.4) << "the factor itself known";
   EXPECT_LT(with, 4.3);

@@ -28,7 +28,7 @@ PlacedEffect placed(const EffectForm& form, const std::vector<Spread>& of, doubl
     values.push_back({of[i].minimum, of[i].low, of[i].median, of[i].high, of[i].maximum});
   }
   if (form.categorical) effect.inputs[0].levels = {"A", "B", "C"};
-  place_knots(effect, {values.begin(), values.end()});
+  set_knots(effect, {values.begin(), values.end()});
   if (form.pattern) {
     effect.parameters = form.pattern(effect);
     for (double& value : effect.parameters)

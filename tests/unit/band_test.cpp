@@ -25,7 +25,7 @@ TEST(Band, AShareOfNewExperimentsLiesBelowItsQuantile) {
     double below = 0; // of the distribution that the factors are drawn from
     for (int draw = 0; draw < draws; ++draw) {
       const double gain =
-          *gain_at(gains_of_new_experiments(lognormal(39, 0.1, random), 0), quantile);
+          *gain_at_quantile(gains_of_new_experiments(lognormal(39, 0.1, random), 0), quantile);
       below += 0.5 * std::erfc(-std::log(gain) / 0.1 / std::sqrt(2.0)) / draws;
     }
     EXPECT_NEAR(below, quantile, 0.004) << "3.5 standard deviations of the mean of the draws";

@@ -28,7 +28,7 @@ PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
   std::vector<std::vector<double>> values;
   for (const EffectInput& input : effect.inputs)
     values.push_back({input.low, 0.5 * (input.low + input.high), input.high});
-  place_knots(effect, {values.begin(), values.end()});
+  set_knots(effect, {values.begin(), values.end()});
   if (effect.form->parameters_of)
     for (std::size_t p = parameters_of(effect).size(); p > 0; --p)
       effect.parameters.push_back((static_cast<double>(effect.parameters.size()) + 1) * amplitude);

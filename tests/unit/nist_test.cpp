@@ -108,7 +108,7 @@ TEST_P(Nist, StartsReachTheCertifiedParametersTo6Digits) {
 
 // The classical formula for independent errors, from the sums the solver works with.
 TEST_P(Nist, CurvatureGivesTheCertifiedStandardDeviations) {
-  const Normal n = normal_equations(problem(), {Loss::l2, 0}, certified.parameters);
+  const NormalEquations n = normal_equations(problem(), {Loss::l2, 0}, certified.parameters);
   const double rows = static_cast<double>(certified.y.size());
   const double variance = 2 * n.cost * rows / (rows - static_cast<double>(names.size()));
   const Eigen::VectorXd scale = n.hessian.diagonal().cwiseSqrt().cwiseInverse();

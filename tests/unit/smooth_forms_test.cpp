@@ -180,7 +180,7 @@ TEST(SmoothForms, RoughnessIsTheIntegralOfTheSquaredSecondDerivative) {
       integral += bend * bend / steps;
     }
     const VectorXd v = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-    const double rough = v.dot(matrix(roughness(knots)) * v);
+    const double rough = v.dot(matrix(spline_roughness(knots)) * v);
     EXPECT_NEAR(rough, integral, 2e-3 * rough + 1e-9);
   }
 }
@@ -211,8 +211,10 @@ TEST(SmoothForms, PenaltyOfASurfaceAddsBothDirections) {
     for (std::size_t j = 0; j < y.size(); ++j)
       v(static_cast<Index>(i * y.size() + j)) = a[i];
   }
-  const double all = v.dot(matrix(tensor_roughness({roughness(x), roughness(y)})) * v);
-  EXPECT_NEAR(all, w.dot(matrix(roughness(x)) * w) * static_cast<double>(y.size()), 1e-9 * all);
+  const double all =
+      v.dot(matrix(tensor_roughness({spline_roughness(x), spline_roughness(y)})) * v);
+  EXPECT_NEAR(all, w.dot(matrix(spline_roughness(x)) * w) * static_cast<double>(y.size()),
+              1e-9 * all);
 }
 
 TEST(SmoothForms, BasisOfASplineSumsToOneAndGivesTheFactor) {

@@ -98,7 +98,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
   trace.model = "coulomb";
   trace.unseen = "nested_cross_validation";
   trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3};
-  trace.worlds = {true, 57, {41, 76}, 0.21, 1e-6};
+  trace.validation_shift = {true, 57, {41, 76}, 0.21, 1e-6};
   const Design design{{"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
   trace.leads = {
       {"tool",

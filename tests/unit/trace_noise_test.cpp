@@ -217,13 +217,13 @@ TEST(NoiseModel, LetsGoOfAnEffectThatHasBecomeKnown) {
   drawn.residual = without;
   const NoiseFit fresh = fit_noise(drawn.data());
   // 0.01 of log likelihood: nothing that a choice between laws could see.
-  EXPECT_NEAR(fit_noise_again(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood, 0.01);
+  EXPECT_NEAR(refit_noise(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood, 0.01);
   NoiseModel near = fresh.noise;
   near.gain *= 1.3;
-  EXPECT_NEAR(fit_noise_near(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
+  EXPECT_NEAR(refine_noise(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
   // To what weights can show: 0.5 is one standard error of one parameter.
   near.gain = swallowed.gain;
-  EXPECT_NEAR(fit_noise_quickly(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.5);
+  EXPECT_NEAR(refit_noise_coarsely(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.5);
 }
 
 TEST(NoiseModel, RestrictedLikelihoodIsNotFooledByFittedParameters) {

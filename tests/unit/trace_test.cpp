@@ -117,7 +117,7 @@ TEST(Trace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
     EXPECT_GT(t.smallest_seen, 0.02) << "tests differ by 4 %";
     EXPECT_LT(t.smallest_seen, 0.2);
     EXPECT_EQ(t.nested.folds, 0u);
-    EXPECT_FALSE(t.worlds.found);
+    EXPECT_FALSE(t.validation_shift.found);
   }
 }
 
@@ -174,7 +174,7 @@ TEST_P(SlowTracePlanted, EffectIsFoundPlacedAndRemoved) {
   EXPECT_EQ(t.nested.folds, 20u);
   EXPECT_NEAR(t.noise_floor.mae_MPa / t.after.training.mae_MPa, 1, 0.2); // as of the truth
   EXPECT_GT(t.effects.front().gain_MPa, 0);
-  EXPECT_FALSE(t.worlds.found);
+  EXPECT_FALSE(t.validation_shift.found);
 }
 
 std::string name_of(const testing::TestParamInfo<Planted>& test) {
@@ -465,13 +465,13 @@ TEST(Trace, AValidationFromAnotherWorldIsCalledThat) {
     tau += 57;
   const Trace t = traced(data, "log_coulomb");
   EXPECT_EQ(t.verdict, Verdict::unexplained_structure) << trace_text(t);
-  EXPECT_TRUE(t.worlds.found);
-  EXPECT_GT(t.worlds.interval.low, 0);
+  EXPECT_TRUE(t.validation_shift.found);
+  EXPECT_GT(t.validation_shift.interval.low, 0);
   EXPECT_THAT(t.remaining.note,
               HasSubstr(fmt::format("lie {:+.3g} MPa beside the training tests as a whole",
-                                    t.worlds.shift_MPa)));
+                                    t.validation_shift.shift_MPa)));
   // A shift of ln(tau), brought back to MPa: the same for tests of equal stress only.
-  EXPECT_NEAR(t.worlds.shift_MPa, 57, 20);
+  EXPECT_NEAR(t.validation_shift.shift_MPa, 57, 20);
   EXPECT_TRUE(t.effects.empty());
 }
 
