@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 
 namespace frictab {
 
@@ -19,7 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // What a step moves: the parameter, or its logarithm where its bounds say that it is a positive
-// scale of unknown size. In C p^a both then act alike, and the valley between them is straight.
+// scale of unknown size. In C p^a the scale C and the exponent a trade off against each other along
+// a curved valley; with ln C it is a straight one, along which a step can go.
 double to_step_scale(const Parameter& p, double value) {
   return is_scale(p) ? std::log(value) : value;
 }
@@ -165,13 +166,13 @@ private:
     largest_ = largest_.cwiseMax(here_.hessian.diagonal());
     const Step best =
         bounded_step(problem_, model_, free, x_, undamped * model_.hessian.diagonal());
-    // (Negative: the bounds have bent the step uphill, and damping will straighten it.)
+    // (A negative promise comes from bounds that bend the step uphill; damping straightens it.)
     if (std::abs(best.predicted) <= options_.tolerance * here_.cost)
       return "converged: no step promises a gain";
     const double before = here_.cost;
     close_ = best.predicted < 1e-3 * before;
     if (!descend(free)) return "converged: no step improves the fit";
-    // Where kinks spoil the promise, the gains themselves say that it is over.
+    // Near a kink of the law the promise is wrong for ever: three negligible gains end the fit too.
     small_gains_ = before - here_.cost <= options_.tolerance * before ? small_gains_ + 1 : 0;
     return small_gains_ >= 3 ? "converged: the gains have become negligible" : nullptr;
   }
@@ -207,7 +208,7 @@ private:
     const double size_of_missed = missed.cwiseQuotient(scale).norm();
     if (std::abs(along) > 1e-3 * size_of_missed * step.cwiseProduct(scale).norm())
       correction_ += missed * missed.transpose() / along;
-    // More than the curvature itself: a kink was crossed, and there is nothing to learn.
+    // A correction larger than the curvature itself comes from a kink that was crossed: forget it.
     const MatrixXd relative =
         scale.cwiseInverse().asDiagonal() * correction_ * scale.cwiseInverse().asDiagonal();
     if (!(relative.norm() < 3)) correction_.setZero();

@@ -8,7 +8,7 @@
 #include <nlopt.hpp>
 
 #include "calibrate/median.h"
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 #include "core/random.h"
 
 namespace frictab {

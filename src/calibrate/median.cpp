@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 
 namespace frictab {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/job_commands.h"
-#include "trace/trace_file.h"
+#include "trace/trace_text.h"
 
 namespace frictab {
 

@@ -8,7 +8,7 @@
 #include "report/law_plots.h"
 #include "report/numbers.h"
 #include "report/sections.h"
-#include "trace/trace_file.h"
+#include "trace/trace_text.h"
 
 namespace frictab {
 

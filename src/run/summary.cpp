@@ -17,6 +17,7 @@
 #include "report/numbers.h"
 #include "table/bound.h"
 #include "trace/trace_file.h"
+#include "trace/trace_text.h"
 #include "verify/beyond.h"
 #include "verify/verify.h"
 

@@ -31,9 +31,9 @@ struct CandidateTests {
   std::string like;                         // the test that all else is taken from
 };
 
-// All combinations of the settings' values, but those that take a state beyond the rows of the
-// campaign (widened as above). The other settings are those of the test that lies nearest to the
-// middle of the campaign.
+// All combinations of the settings' values, except those that would take a state beyond the range
+// of the campaign's rows (widened as above). The other settings are those of the test that lies
+// nearest to the middle of the campaign.
 CandidateTests candidate_tests(const Dataset& data, std::vector<Setting> settings);
 
 } // namespace frictab

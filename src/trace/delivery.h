@@ -1,8 +1,8 @@
-// What of the findings is delivered: what pays on tests that the search has not seen, and what the
-// validation tests do not contradict.
+// Which findings are delivered with the law: those that pay on tests the search has not seen
+// (nested_errors.h) and that the validation tests do not contradict. The others become leads.
 #pragma once
 
-#include "trace/nested.h"
+#include "trace/nested_errors.h"
 
 namespace frictab {
 
@@ -16,14 +16,15 @@ struct Delivery {
   bool contradicted = false;         // a finding that is not delivered: by the validation tests
 };
 
-// Few validation tests judge nothing: from so many on they are the unseen ones.
+// With fewer validation tests than this, "unseen" are the training tests left out in turn.
 inline constexpr std::size_t enough_validation = 8;
 
 // Fills before, after, as_calibrated, unseen, improvement, nested and leads of `trace`.
 Delivery deliver(const Search& search, Trace& trace);
 
-// Whether the validation tests lie beside the training tests as a whole, by that rival: mean over
-// tests of the logarithm of measured over predicted, with what the training leaves open of it.
+// Whether the validation tests as a whole lie higher or lower than the training tests, as that
+// rival predicts them: the difference of the mean gains, with a standard error that holds the
+// scatter of the tests and what the fitted parameters leave open.
 ValidationShift validation_shift_of(const Search& search, const Rival& rival);
 
 Lead lead_of(const Search& search, const Cause& cause);

@@ -10,6 +10,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include "trace/candidate_tests.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

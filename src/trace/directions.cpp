@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "trace/projection.h"
+
 namespace frictab {
 
 namespace {

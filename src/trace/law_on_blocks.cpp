@@ -142,8 +142,7 @@ private:
     return fit;
   }
 
-  // Where tests scatter as a whole, a law of no friction at all is off by few standard deviations:
-  // no way that a fit may take.
+  // Whether a block that had friction at the start has none: such a step is refused.
   bool loses_friction(const VectorXd& tau) const { return (positive_ && tau.array() <= 0).any(); }
 
   std::vector<double> step(const BlockFit& from, double damping) const {

@@ -1,5 +1,11 @@
 // A law, with or without effects, on the blocks of a campaign: predictions, Jacobians and fits
 // weighted by the noise model.
+//
+// The trace stage fits hundreds of laws, so it fits them to block means (some 40 per experiment)
+// instead of rows. A fit minimises
+//   |V^-1/2 (measured - tau(p))|^2 + p' S p
+// within the bounds of the parameters p, by Levenberg-Marquardt: V is the noise model's covariance
+// (noise.h), S the roughness of smooth effects times their stiffness.
 #pragma once
 
 #include <map>
@@ -19,8 +25,9 @@ using BlockColumns = std::map<std::string, Eigen::VectorXd>;
 
 class LawOnBlocks {
 public:
-  // smooth_MPa: width over which minima of the law are rounded off (0: none), so that a fit sees a
-  // limit that it has not reached yet. `columns` must outlive the object.
+  // smooth_MPa: min(a, b) in the law becomes (a + b - sqrt((a - b)^2 + smooth_MPa^2))/2 where it
+  // depends on parameters (0: it stays). With the kink the derivative by a limit is 0 in every row
+  // below that limit, and a fit would never move it. `columns` must outlive the object.
   LawOnBlocks(const Law& law, const Conventions& conventions, const BlockColumns& columns,
               double smooth_MPa = 0);
 
@@ -42,12 +49,13 @@ struct BlockFit {
   double cost = 0; // sum of squared whitened residuals
 };
 
-// Levenberg-Marquardt on whitened residuals within the parameters' bounds. `penalty`: p' penalty p
-// is added to the cost (of smooth effects; empty: none). `weight`: per block, behind the whitening
-// (empty: 1). Done where a step gains less than `enough` of the cost. No block whose stress is
-// positive at the start loses it.
-// (Not calibrate's solver, with which parameters agree to five digits: how the folds of a search
-// fit their noise follows the last ones, and with it the nested log score, by up to 3 %.)
+// The fit described above. `penalty`: S (empty: none). `weight`: per block, applied behind the
+// whitening (empty: 1). It ends where a step gains less than `enough` of the cost. A step that
+// turns a positive stress into none is refused: where tests scatter as a whole, a law of no
+// friction at all is off by few standard deviations, and the fit could go there. (calibrate/fit.h
+// has another solver, whose parameters agree with these to five digits. It is not used here because
+// the noise of the folds depends on the digits behind, and with it the nested log score, by up to 3
+// %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
                     const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
-#include "trace/choose.h"
+#include "trace/choose_effect.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
 

@@ -1,4 +1,4 @@
-// What may be there, but is not in the law.
+// Leads: what may be there, but is not in the law, and why not.
 #pragma once
 
 #include "trace/search.h"

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+
+#include "trace/projection.h"
 
 namespace frictab {
 
@@ -18,7 +19,10 @@ using Eigen::VectorXd;
 
 constexpr double least_share = 0.05; // of the mean tau: noise that grows with tau does not vanish
 
-// Random effects of one experiment as two columns, already within-whitened: their directions.
+// Gain and slope of one experiment in the filtered blocks, where the other noise has the covariance
+// I: the whole covariance is I + c c', c being their two columns. With the eigenvectors q and
+// eigenvalues l of c c', its inverse root is I - sum (1 - 1/sqrt(1 + l)) q q'; `c` holds those
+// factors.
 struct RandomEffects {
   MatrixXd q;
   VectorXd c;
@@ -42,22 +46,6 @@ RandomEffects random_effects(const MatrixXd& columns) {
 }
 
 } // namespace
-
-MatrixXd orthonormal(const MatrixXd& columns) {
-  MatrixXd scaled = columns;
-  for (Index c = 0; c < scaled.cols(); ++c)
-    if (const double norm = scaled.col(c).norm(); norm > 0) scaled.col(c) /= norm;
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
-  qr.setThreshold(1e-7);
-  return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
-}
-
-void append_columns(MatrixXd& to, const MatrixXd& more) {
-  const Index before = to.cols();
-  if (more.cols() == 0) return;
-  to.conservativeResize(more.rows(), before + more.cols());
-  to.rightCols(more.cols()) = more;
-}
 
 Eigen::ArrayXd noise_size(const NoiseModel& noise, const VectorXd& tau) {
   if (noise.growth == 0) return Eigen::ArrayXd::Constant(tau.size(), noise.scale);

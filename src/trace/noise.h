@@ -1,5 +1,7 @@
-// What the residuals of one experiment have in common: the covariance that weights every fit and
-// every test of the trace stage.
+// The noise model: the covariance of the residuals of one experiment. It weights every fit and
+// every test of the trace stage, because the rows of an experiment are not independent: an
+// experiment as a whole lies high or low, and neighbouring rows err alike. Without it a few long
+// experiments would count as thousands of observations.
 #pragma once
 
 #include <vector>
@@ -10,7 +12,7 @@
 
 namespace frictab {
 
-// Covariance of the block means of one experiment, t = predicted shear stress there, x = position
+// Covariance V of the block means of one experiment, t = predicted shear stress there, x = position
 // in the experiment (-1/2 .. 1/2):
 //   gain^2 t t' + slope^2 (t x)(t x)' + D (slow^2 exp(-|x_i - x_j| / length) + white^2 W) D,
 //   D = scale diag (t / scale)^growth, W = diag (usual rows of a block / rows of this one).
@@ -31,12 +33,14 @@ struct NoiseModel {
 // D of the formula above, per block.
 Eigen::ArrayXd noise_size(const NoiseModel& noise, const Eigen::VectorXd& tau);
 
-// V^-1/2 of all experiments, which are independent: the slow and white noise by their innovations
-// (Kalman filter, a few operations per value), the random effects as two directions; behind it,
-// nuisance columns are projected out.
+// Multiplies columns of block values with V^-1/2: what comes out has independent errors of variance
+// 1, so that least squares of it are generalised least squares of what went in. Experiments are
+// independent. Within one, a Kalman filter turns slow and white noise into independent innovations
+// (the slow noise is autoregressive; a few operations per value); gain and slope add two directions
+// to the covariance, whose share is then taken off. Last, nuisance columns are projected out.
 class Whitener {
 public:
-  // `tau`: predicted, per block; `nuisance`: directions of which nothing is to be seen (structure
+  // `tau`: predicted, per block; `nuisance`: directions that no test may see any more (structure
   // along the order of tests, ...), or no columns.
   Whitener(const NoiseModel& noise, const Eigen::VectorXd& tau, const Blocks& blocks,
            const Eigen::MatrixXd& nuisance = {});
@@ -74,45 +78,5 @@ private:
   Directions<double> directions_;
   Directions<float> directions_f_;
 };
-
-// Where a residual (per block) comes from: what the noise is fitted to.
-struct NoiseData {
-  const Eigen::VectorXd& residual;
-  const Eigen::VectorXd& tau; // predicted
-  const Blocks& blocks;
-  // Directions of fitted parameters: restricted maximum likelihood, so that fitted degrees of
-  // freedom do not make the noise look smaller.
-  const Eigen::MatrixXd& fitted;
-  const Eigen::MatrixXd& nuisance;
-  // false: experiments have no slope of their own. For a screening, which asks only what
-  // experiments share: a slope that is free in each hides a rise that all of them have.
-  bool slope = true;
-};
-
-struct NoiseFit {
-  NoiseModel noise;
-  double log_likelihood = 0; // restricted
-};
-
-// Restricted maximum likelihood, from several starts, for each of a few lengths; converged far
-// beyond what data can tell, so that rounding of the data, their unit and their order do not show.
-// Both ways in which noise may grow (not at all, with tau) are tried.
-NoiseFit fit_noise(const NoiseData& data);
-
-// The same for the growth of an earlier fit, from it and from nothing: noise fitted to the residual
-// of a law that lacked an effect has swallowed it, and does not let go by itself.
-NoiseFit refit_noise(const NoiseData& data, const NoiseModel& earlier);
-
-// The same at its length, from it alone: where little has changed.
-NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier);
-
-// From it and from nothing at its length, to what weights can show: where a search is repeated.
-NoiseFit refit_noise_coarsely(const NoiseData& data, const NoiseModel& earlier);
-
-// An orthonormal basis of what the columns span; columns that others explain are left out.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
-
-// `more` behind the columns that are there.
-void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
 } // namespace frictab

@@ -1,4 +1,6 @@
 // Finds the noise model: restricted likelihood by one Kalman filter over all columns at once.
+#include "trace/noise_fit.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <nlopt.hpp>
 
-#include "trace/noise.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

@@ -9,6 +9,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "trace/projection.h"
+
 namespace frictab {
 
 namespace {

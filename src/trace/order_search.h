@@ -2,7 +2,7 @@
 // out of the law.
 #pragma once
 
-#include "trace/order.h"
+#include "trace/order_test.h"
 #include "trace/search.h"
 
 namespace frictab {

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "trace/noise.h"
+#include "trace/projection.h"
 
 namespace frictab {
 
@@ -261,7 +262,7 @@ PathResult search_path(const PathInput& input) {
   const MatrixXd known = orthonormal(input.known);
   PathResult result;
   Ground ground;
-  result.free = ground.free = tests - static_cast<std::size_t>(known.cols());
+  ground.free = tests - static_cast<std::size_t>(known.cols());
   if (ground.free < least_free) return result;
   for (std::size_t s = 0; s < input.shapes.size(); ++s)
     add_shape(ground, input.shapes[s], s, known);

@@ -1,4 +1,14 @@
 // One value per test: which few columns together does it follow, more than any would by chance?
+//
+// Two effects may hide each other, so that neither shows alone. A path therefore adds a second and
+// a third column before anything is judged: each time the one with the smallest p-value of its
+// partial F, q degrees of freedom against those left,
+//   F = (squares explained / q) / (squares left with it / degrees left).
+// Besides the best first column, eleven others start paths of their own (a beam). The same search
+// is repeated on permuted residuals (Freedman and Lane 1983). For each length the best path gets
+// its rank among the permutations; the smallest rank over the lengths, ranked in turn, is the
+// p-value. It holds for everything that was tried. All of it runs on the Gram matrix of the shapes:
+// taking a column is one step of a Cholesky factorisation.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +34,12 @@ struct PathInput {
   std::uint64_t seed = 1;
 };
 
-// Paths of one, two and three columns, each next one by the smallest p of its partial F, whose
-// residual variance has the path in it: columns that hide each other are found together. A beam
-// also starts from the second to twelfth best column. The p-value is the rank of the best path's,
-// smallest over the lengths, among permuted residuals (Freedman and Lane 1983) for which the whole
-// search is repeated: it holds for everything that was tried.
 struct PathResult {
   bool possible = false; // enough tests, and a shape to try
   double p_value = 1;
   std::vector<std::size_t> chosen; // shapes of the shortest path that reaches alpha, else the best
-  // Parametric log p that a single column needs to reach alpha.
+  // Logarithm of the p-value by the F distribution that a single column needs to reach alpha.
   double critical_log_p = 0;
-  std::size_t free = 0; // degrees of freedom behind `known`
 };
 
 PathResult search_path(const PathInput& input);

@@ -85,9 +85,8 @@ FactorRange factor_range(const PlacedEffect& effect, const CandidateColumn& colu
 
 } // namespace
 
-// Two things fit as well as the truth at the tested values, and nowhere else: large changes that
-// cancel there (an effect that halves or doubles friction has to earn it, as if changes were normal
-// with a standard deviation of 50 %), and humps between them.
+// Two things can fit at the tested values as well as the truth does: large changes that cancel
+// there, and humps between those values. Both cost.
 double implausibility(const PlacedEffect& effect, const CandidateColumn& column) {
   const FactorRange range = factor_range(effect, column);
   if (!std::isfinite(range.largest)) return 1e6;

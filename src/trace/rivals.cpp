@@ -9,6 +9,7 @@
 
 #include "calibrate/resampling.h"
 #include "core/parallel.h"
+#include "trace/noise_fit.h"
 #include "trace/plausibility.h"
 #include "trace/shapes.h"
 

@@ -6,6 +6,7 @@
 
 #include "trace/candidates.h"
 #include "trace/law_on_blocks.h"
+#include "trace/noise_fit.h"
 #include "trace/screen.h"
 
 namespace frictab {

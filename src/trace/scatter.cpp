@@ -8,6 +8,8 @@
 #include <gsl/gsl_cdf.h>
 
 #include "calibrate/replicates.h"
+#include "trace/noise_fit.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

@@ -1,4 +1,4 @@
-// The noise that is left: its floor, and how much of it lies between experiments.
+// What stays unexplained: the noise floor, and how much of the scatter lies between experiments.
 #pragma once
 
 #include "trace/search.h"
@@ -6,8 +6,9 @@
 namespace frictab {
 
 // Fills noise_floor, scatter_between, its interval and lower bound, and repeatability where tests
-// were repeated. The floor is the error that the noise model leaves to this law of the state, with
-// the shape that the residuals have: what no law goes below if nothing else is missing.
+// were repeated. The floor is the RMSE that the noise model expects of an exact law, and the MAE
+// that belongs to it by the ratio that the residuals have: no law goes below, if nothing else is
+// missing.
 void add_scatter(Trace& trace, const Search& search, const Rival& last);
 
 } // namespace frictab

@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "trace/projection.h"
 
 namespace frictab {
 
@@ -26,7 +27,8 @@ constexpr float least_share = 1e-3f;   // of the sum of squared scores, as a var
 constexpr Index least_experiments = 7; // that carry a direction, ...
 constexpr float share_of_most = 0.05f; // ... each at least so much of what the first of them does
 
-// (I - H_ee)^-1/2 r, H_ee = Q_e Q_e': the residual as if its own experiment had not been fitted.
+// A fit follows each experiment a little, which makes the residuals of experiments with leverage
+// too small. (I - H_ee)^-1/2 r, H_ee = Q_e Q_e', undoes that (CR2: Bell and McCaffrey 2002).
 void undo_leverage(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
     const auto begin = static_cast<Index>(first[e]);
@@ -168,10 +170,9 @@ private:
   std::array<VectorXf, sites.size()> sensitivity_;
 };
 
-// A sum of scores over its standard deviation as the experiments themselves show it: where some
-// scatter more than others, directions that live on them do not win by that. What the sum itself
-// explains of each score is no scatter, in the flips as in the truth: an effect does not hide
-// behind what it makes itself, however large it is.
+// The statistic t of screen.h for every direction of a cause, and its largest absolute value in
+// every flip. Scores are scaled to sizes I of sum 1, so that the amplitude b is the sum of scores,
+// and sum (U - b I)^2 = sum U^2 - 2 b sum U I + b^2 sum I^2 takes matrix products only.
 void Screening::studentise(CauseScores& found) const {
   const MatrixXf shared = found.scores.cwiseProduct(found.shares);
   const MatrixXf sums = signs_ * found.scores, shared_sums = signs_ * shared;

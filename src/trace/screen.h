@@ -1,5 +1,15 @@
-// The test: which of thousands of directions does the residual follow, more than any of them would
-// by chance?
+// The test within tests: which of thousands of directions does the residual follow, more than any
+// of them would by chance?
+//
+// A direction g is what tau_R would change, per block, with the amplitude of one shape at one site,
+// whitened, with everything that is fitted already projected out. Experiment e gives the score
+// U_e = g_e' r_e and the size I_e = g_e' g_e; b = sum U / sum I is the amplitude that fits. The
+// statistic is the sum of scores over its standard deviation as the experiments themselves show it,
+//   t = sum U / sqrt(n/(n-1) sum (U_e - b I_e)^2):
+// what b explains of a score is no scatter, or a large effect would hide behind itself. If there is
+// no effect, the signs of the experiments' residuals are arbitrary: all are flipped at random, some
+// thousand times, and the largest |t| over all directions is kept each time. The p-value is the
+// rank of the true largest |t| among those, so it holds for everything that was tried.
 #pragma once
 
 #include <array>
@@ -57,8 +67,8 @@ struct ScreenInput {
   std::size_t flips = 999; // 0: statistics alone
   std::uint64_t seed = 1;
   bool keep_scores = false;
-  // A sum of scores is divided by no less than so many times its standard deviation under the noise
-  // model: 1 where that is known without the effect that is looked for, else 0.
+  // The standard deviation of a sum of scores is taken for no smaller than this times what the
+  // noise model says: 1 where the model was fitted with the leading direction in, 0 where not.
   float least_deviation = 0;
 };
 

@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "trace/directions.h"
+#include "trace/noise_fit.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

@@ -1,9 +1,15 @@
-// The search on blocks: what is missing, effect after effect.
+// The state of a search for missing effects, and its two tests.
+//
+// A search starts with the calibrated law on blocks and adds effects one by one. It keeps the law
+// with all effects found so far (`last`), what each site of it could change (`sensitivities`), and
+// the directions of everything that is fitted already (`known`): an effect counts only by what
+// those cannot imitate. search_effects (search_effects.cpp) is the recipe: between tests, within
+// tests, between tests once more, then what follows the declared order of tests.
 #pragma once
 
 #include <memory>
 
-#include "trace/between.h"
+#include "trace/between_search.h"
 #include "trace/rivals.h"
 #include "trace/trace.h"
 
@@ -19,15 +25,14 @@ struct Finding {
   bool between = false;                // found on one value per test
 };
 
-// How much a search draws: less where it is repeated for every fold.
+// How many random draws a search makes: fewer where it is repeated for every fold.
 struct Effort {
   std::size_t permutations = 999; // between tests
   std::size_t flips = 1999;       // within tests
-  const NoiseModel* earlier =
-      nullptr; // of the law on all tests: noise is found from there, quickly
+  // Of the law on all tests: where a fold starts to fit its noise, and then fits it coarsely.
+  const NoiseModel* earlier = nullptr;
 };
 
-// Where the search stands.
 class Search {
 public:
   // Candidates, their shapes and the law without effects. Columns that come from the model
@@ -45,7 +50,7 @@ public:
   std::span<const std::size_t> first() const { return blocks.first; }
   Eigen::VectorXd residual() const { return campaign_->measured - last_.predicted; }
   Whitener whitener() const;
-  // A law that passes through the data, but for digits that nobody recorded.
+  // Whether the law passes through the data but for rounding: then there is nothing to find.
   bool negligible() const;
 
   const Rival& last() const { return last_; }
@@ -53,11 +58,11 @@ public:
   // that many had been found.
   const Rival& with_first(std::size_t count) const;
   const Sensitivities& sensitivities() const { return sensitivities_; }
-  // Directions of everything that is fitted in `last`, or could have been.
+  // Directions of everything that is fitted in `last`, or could have been: blocks x directions.
   const Eigen::MatrixXd& known() const { return known_; }
-  // What a trained law could have absorbed; no columns for others.
+  // Directions that a trained law (a network) could have absorbed; no columns for other laws.
   const Eigen::MatrixXd& trained() const { return trained_; }
-  // Of a rival, as a law like any other.
+  // A rival as a model like any other: what tables, routines and predict() take.
   Model model_of(const Rival& rival) const;
 
   // Per test, what the parameters of the law, the effects in it and the order of tests explain of
@@ -107,17 +112,20 @@ private:
   Eigen::MatrixXd law_between_; // per test, directions of the law's parameters
 };
 
-// Within tests; columns that are the same throughout a test are the other family's. The noise is
-// fitted again with the leading direction in before anything is judged: noise that has swallowed an
-// effect would set a ceiling to its statistic.
+// The test within tests, in two rounds. The noise model was fitted without the effect that is
+// looked for, so it explains part of that effect as noise, and the larger the effect, the larger
+// that noise: no statistic could become large. So the first round only finds the leading direction;
+// the noise is fitted again with it in the law; the second round is judged. Columns that are the
+// same throughout every test belong to the other family.
 struct Screened {
   ScreenResult result;
   NoiseModel noise;
 };
 Screened screen_within_tests(const Search& search, bool keep_scores = false);
+// The test between tests (between_search.h), with what the law and its effects explain as known.
 BetweenResult search_between_tests(const Search& search);
 
-// To the end: `last` is the law with everything that was found.
+// The whole search: `last` is the law with everything that was found.
 std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});
 
 } // namespace frictab

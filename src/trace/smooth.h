@@ -1,5 +1,11 @@
-// A penalised smooth of a quantity, its stiffness by restricted maximum likelihood: which quantity
-// explains a residual best, whatever the form.
+// A penalised smooth of a quantity: how well the quantity can explain a residual, whatever the
+// form.
+//
+// The residual is taken for B c + noise, with c normal of precision (stiffness x penalty): a stiff
+// smooth is nearly straight, a soft one follows every knot. The stiffness is the one of the largest
+// restricted likelihood (Patterson and Thompson 1971), so that a quantity is not preferred because
+// its curve was allowed to bend more. With B' B and the penalty diagonal in the same coordinates
+// (one generalised eigenproblem), each stiffness that is tried costs a sum over the coordinates.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,9 +1,9 @@
 // Columns as one value per test, and the simple shapes in which a gain may follow them.
+#include "trace/test_shapes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include "trace/between.h"
 
 namespace frictab {
 

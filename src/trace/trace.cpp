@@ -12,11 +12,11 @@
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
 #include "core/text.h"
-#include "trace/curve.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
+#include "trace/detectable.h"
+#include "trace/effect_curve.h"
 #include "trace/leads.h"
-#include "trace/power.h"
 #include "trace/scatter.h"
 #include "trace/verdict.h"
 

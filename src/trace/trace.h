@@ -1,5 +1,34 @@
-// Close the loop: what structure do the residuals of a calibrated law have, which recorded quantity
-// follows it, how does the law look with that effect in it, and how much better is it.
+// The trace stage: does the residual of a calibrated law have structure, which recorded quantity
+// does it follow, how does the law look with that effect in it, and how much better does it
+// predict?
+//
+// The folder, in the order in which a trace runs (docs/tracing.md says why):
+//   trace.cpp          the stage: sorts the data by name, searches, delivers, reports
+//   what a search works on
+//     blocks           rows of an experiment as at most 40 block means
+//     candidates       columns, histories and pairs that an effect may follow (a Cause)
+//     shapes           forms of an effect of a cause, before it is fitted
+//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits
+//     noise, noise_fit the covariance of residuals, and its fit
+//     rivals           a law with some effects, fitted together with the noise (a Rival)
+//     directions       derivatives of tau_R: what is known, what an effect would change
+//     projection       bases, to take what is known out of what is tested
+//   the search
+//     search           its state, and its two tests
+//     search_effects   the recipe: between, within, between once more, order
+//     between_search   between tests: one gain per test, with test_shapes and path_search
+//     screen           within tests: scores of thousands of directions, signs flipped
+//     choose_effect    which cause, in which form, with smooth and plausibility
+//     order_search     what the order of tests explains as well, with order_test
+//   what comes of it
+//     nested_errors    the whole search repeated without some tests
+//     delivery         which findings are delivered with the law
+//     leads, design    what is not, and the tests that would settle it, with candidate_tests
+//     scatter          what stays unexplained
+//     detectable       what would have been found
+//     effect_curve     curves for plots
+//     verdict          one word and a few sentences
+//   trace_file, trace_text   results as JSON and in words
 #pragma once
 
 #include <optional>
@@ -101,7 +130,7 @@ struct Lead {
   Design design;    // of the strongest, where there is a point in it
 };
 
-// Whether validation differs from training as a whole.
+// Whether the validation tests as a whole lie higher or lower than the training tests.
 struct ValidationShift {
   bool found = false;
   double shift_MPa = 0; // validation minus training, mean over tests

@@ -1,11 +1,12 @@
-// A trace in words.
+// Sentences and tables of a trace.
+#include "trace/trace_text.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
 #include "data/derived.h"
-#include "trace/trace_file.h"
 
 namespace frictab {
 

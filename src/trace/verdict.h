@@ -1,4 +1,4 @@
-// What a trace comes to, in one word and a few sentences.
+// The verdict of a trace, in one word and a few sentences.
 #pragma once
 
 #include "trace/search.h"

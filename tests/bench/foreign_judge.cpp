@@ -10,7 +10,7 @@
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
-#include "trace/trace_file.h"
+#include "trace/trace_text.h"
 
 namespace frictab::foreign {
 

@@ -7,7 +7,7 @@
 
 #include "calibrate/calibration.h"
 #include "calibrate/law_problem.h"
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 #include "core/random.h"
 #include "support/sample_data.h"
 

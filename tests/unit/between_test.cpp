@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 #include "support/blocks.h"
-#include "trace/between.h"
+#include "trace/between_search.h"
 
 namespace frictab {
 namespace {

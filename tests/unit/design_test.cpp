@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "trace/candidate_tests.h"
 #include "trace/trace.h"
-#include "trace/trace_file.h"
+#include "trace/trace_text.h"
 
 namespace frictab {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 #include "expr/expr.h"
 
 namespace frictab {

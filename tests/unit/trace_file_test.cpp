@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "trace/trace_file.h"
+#include "trace/trace_text.h"
 
 namespace frictab {
 namespace {

@@ -8,7 +8,8 @@
 #include "core/random.h"
 #include "support/blocks.h"
 #include "trace/noise.h"
-#include "trace/order.h"
+#include "trace/noise_fit.h"
+#include "trace/order_test.h"
 
 namespace frictab {
 namespace {

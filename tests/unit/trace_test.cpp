@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
+#include "trace/trace_text.h"
 #include "twin/twin.h"
 
 namespace frictab {

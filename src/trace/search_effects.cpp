@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "trace/choose.h"
+#include "trace/choose_effect.h"
 #include "trace/order_search.h"
 
 namespace frictab {

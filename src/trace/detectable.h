@@ -1,4 +1,4 @@
-// How large an effect this campaign could have shown, column by column.
+// Statistical power: how large an effect this campaign could have shown, column by column.
 #pragma once
 
 #include "trace/search.h"

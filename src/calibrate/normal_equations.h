@@ -1,4 +1,4 @@
-// Sums over rows that every step of a fit needs.
+// The normal equations of a fit: sums over rows that every step needs.
 #pragma once
 
 #include <functional>

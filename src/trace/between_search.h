@@ -1,5 +1,19 @@
-// Effects between tests: what is constant within a test (material, additive, tool, humidity, load)
-// is judged on one value per test, apart from what changes within tests.
+// The test between tests: what is constant within a test (material, additive, tool, humidity, load)
+// is judged on one value per test, its gain, apart from what changes within tests.
+//
+// A step of the search:
+// 1. Each test's gain has the weight 1/(sigma_b^2 + s_e^2): s_e^2 is how well the gain is known
+// from
+//    its own rows, sigma_b^2 the scatter between tests beyond that (Paule and Mandel 1982). Without
+//    the first a few short, noisy tests hide everything.
+// 2. Gains are cut at 2.5 robust standard deviations from Huber's fit, so that one wild test
+// decides
+//    nothing.
+// 3. Paths of one to three columns are searched and judged by permutation (path_search.h).
+// 4. Each column of the path also has to hold under unequal scatter (HC3: MacKinnon and White
+// 1985);
+//    of several columns each has to be found again beside the others.
+// Steps are repeated until nothing more is found.
 #pragma once
 
 #include <string>
@@ -7,6 +21,7 @@
 
 #include "trace/candidates.h"
 #include "trace/path_search.h"
+#include "trace/test_shapes.h"
 
 namespace frictab {
 
@@ -18,17 +33,6 @@ struct TestGains {
 };
 TestGains test_gains(std::span<const double> measured, std::span<const double> predicted,
                      std::span<const std::size_t> first_row);
-
-// One way in which the gain may follow a column.
-struct TestShape {
-  Cause cause;
-  std::string form; // line | log | above | below | log1p | levels | one level | product
-  Eigen::MatrixXd columns;
-};
-
-// Of every column but the order of tests: numbers by their mean over the test, text by its levels.
-// `per_test`: a column's value per test.
-std::vector<TestShape> test_shapes(const Candidates& candidates, const Blocks& blocks);
 
 struct BetweenInput {
   const TestGains& gains;
@@ -53,14 +57,12 @@ struct BetweenResult {
   double last_p_value = 1;           // of what is left
   std::vector<TestShape> leads;      // the best path of what is left
   double scatter = 0;                // of the gains behind all that: relative, standard deviation
-  // A column that splits the tests in halves would have been seen (80 %) from this relative
-  // difference on; infinite where there are too few tests.
+  // The smallest relative difference between two halves of the tests that would have been found
+  // with a probability of 80 %; infinite where there are too few tests.
   double smallest_seen = 0;
 };
 
-// Forward search over paths of one to three columns on robust gains, weighted by how well each is
-// known; a column also has to hold under unequal scatter (HC3), and each of several found together
-// has to be found beside the others. Pairs are tried once one of the two is in.
+// The search described above. Products of two columns are tried once one of the two is in.
 BetweenResult search_between(const BetweenInput& input);
 
 // p-value of a shape beside these directions (tests x directions, without the mean).

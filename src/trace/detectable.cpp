@@ -1,10 +1,11 @@
 // Planting into sign-flipped residuals.
-#include "trace/power.h"
+#include "trace/detectable.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

@@ -1,4 +1,5 @@
-// Structure along the order of tests: drift, wear and batch look alike there.
+// Is there structure along the order of tests? Drift, wear and batch look alike there, so that none
+// of them is named.
 #pragma once
 
 #include <cstdint>

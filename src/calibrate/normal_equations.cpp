@@ -1,5 +1,5 @@
 // Normal equations summed over blocks of rows, in row order.
-#include "calibrate/normal.h"
+#include "calibrate/normal_equations.h"
 
 #include <cmath>
 #include <limits>

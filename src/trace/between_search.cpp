@@ -1,5 +1,5 @@
 // Robust weighted gains, path after path, with guards against few and unequal tests.
-#include "trace/between.h"
+#include "trace/between_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include "trace/noise.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

@@ -1,5 +1,5 @@
 // Curves with bands, partial residuals.
-#include "trace/curve.h"
+#include "trace/effect_curve.h"
 
 #include <algorithm>
 #include <cmath>

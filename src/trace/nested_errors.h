@@ -1,5 +1,17 @@
-// What the search is worth on tests it has not seen: the whole of it - columns, forms, noise - once
-// for every part of the tests that is left out.
+// Nested cross-validation: what the search is worth on tests it has not seen.
+//
+// A search over thousands of shapes always finds something that fits the tests it has seen. So the
+// whole search (columns, forms, noise) is repeated without one test, or a twentieth of the tests
+// where there are more than 40, and its laws predict the tests left out. Two measures of a test:
+//   error  mean of |ln(measured / predicted)| over its rows;
+//   score  log density of its block means under the fold's law and noise model, with the tails of
+//          Student's t (5 degrees of freedom), so that one test for which a noise model is too sure
+//          of itself does not outweigh all others. An effect within tests shows in the score even
+//          where the tests lie high or low as a whole, which the error mostly sees.
+// The mean gain of either over tests has a standard error. Effects pay where the error falls by
+// more than one of it, or, with at least 20 tests, where the score gains by more than one of its
+// own and the error hardly grows: by less than a quarter of that many standard errors, and by less
+// than one.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +34,14 @@ struct NestedErrors {
 
   std::size_t lengths() const { return sums[0].size(); }
   // Mean over tests of what the first `effects` gain against the first `before` of them, with
-  // standard errors; against none, under those weights that do better without any: no effect is to
-  // mend what the weights spoil. They pay where the error falls by more than a standard error, or,
-  // with tests enough to know that error by, where the score gains as much and the error hardly
-  // grows: by less than a quarter of that many standard errors, and by less than one.
+  // standard errors. The error without any effect is that of the better weights: effects are not
+  // credited with mending what the noise model's weights have spoiled.
   struct Gain {
     double score = 0, score_se = 0;
     double error = 0, error_se = 0; // relative, smaller by so much
     std::size_t tests = 0;
-    // Beside effects that pay: what is significant and gains, if less than sure, stays.
+    // Enough for a further effect beside effects that pay: it was significant, and it gains in
+    // both.
     bool adds() const { return pays() || (error > 0 && score > 0); }
     bool pays() const {
       constexpr std::size_t enough = 20;
@@ -40,10 +51,9 @@ struct NestedErrors {
     }
   };
   Gain gain(std::size_t effects, std::size_t weights, std::size_t before = 0) const;
-  // That predict left-out tests better.
+  // Those that predict left-out tests better: 0 the noise model's, 1 all rows alike.
   std::size_t better_weights(std::size_t effects) const;
-  // So many effects that the next ones do not pay, with the weights that predict left-out tests
-  // best; 0 where none do.
+  // How many effects pay (0: none do), and the weights that predict left-out tests best with them.
   struct Best {
     std::size_t effects = 0, weights = 0;
   };

@@ -1,5 +1,5 @@
 // Permutation test and nuisance functions along the order of tests.
-#include "trace/order.h"
+#include "trace/order_test.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "trace/projection.h"
 
 namespace frictab {
 

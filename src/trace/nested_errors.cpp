@@ -1,5 +1,5 @@
 // A search for every fold, its laws evaluated on what it has not seen.
-#include "trace/nested.h"
+#include "trace/nested_errors.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Short list, penalised smooths under common noise, then closed forms.
-#include "trace/choose.h"
+#include "trace/choose_effect.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/parallel.h"
+#include "trace/projection.h"
 #include "trace/smooth.h"
 
 namespace frictab {

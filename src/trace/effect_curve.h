@@ -1,4 +1,4 @@
-// An effect for the eye.
+// An effect as a curve with a band, for plots.
 #pragma once
 
 #include "trace/rivals.h"

@@ -1,0 +1,27 @@
+// Bases by QR with column pivoting.
+#include "trace/projection.h"
+
+#include <Eigen/QR>
+
+namespace frictab {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+MatrixXd orthonormal(const MatrixXd& columns) {
+  MatrixXd scaled = columns;
+  for (Index c = 0; c < scaled.cols(); ++c)
+    if (const double norm = scaled.col(c).norm(); norm > 0) scaled.col(c) /= norm;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
+  qr.setThreshold(1e-7);
+  return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+void append_columns(MatrixXd& to, const MatrixXd& more) {
+  const Index before = to.cols();
+  if (more.cols() == 0) return;
+  to.conservativeResize(more.rows(), before + more.cols());
+  to.rightCols(more.cols()) = more;
+}
+
+} // namespace frictab

@@ -1,0 +1,30 @@
+// A trace in words: what the summary on the terminal and the report say of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trace/trace.h"
+
+namespace frictab {
+
+// Verdict, effects, errors before and after, and leads, in a few lines.
+std::string trace_text(const Trace& trace);
+// `frictab trace --power`: what this campaign could have shown, and what would help.
+std::string detectable_text(const Trace& trace);
+
+// "humidity_pct", "friction_work (from s_mm)".
+std::string lead_name(const Lead& lead);
+// What the proposed tests would show and how probably, without the tests themselves.
+std::string design_sentence(const Design& design);
+// The tests as rows of a table: how many are alike, then the values. The first row has the
+// headings.
+std::vector<std::vector<std::string>> design_rows(const Design& design);
+
+// "on mu", "on the limit", "added to tau_R".
+const char* site_text(ActsOn acts_on);
+
+// "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
+std::string cause_text(const TracedEffect& effect);
+
+} // namespace frictab
