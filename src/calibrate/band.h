@@ -1,5 +1,6 @@
-// The band in which experiments lie around a law: tests differ by a factor that no input explains
-// (lubricant, tool, batch), so that a simulation can be run at both ends.
+// The band in which experiments lie around a law. Tests differ by a factor that no input explains
+// (lubricant, tool, batch); a simulation can be run with the law at either end of the band. Its
+// ends are order statistics of the factors of the training experiments: no distribution is assumed.
 #pragma once
 
 #include <optional>
@@ -18,9 +19,10 @@ std::vector<double> experiment_gains(std::span<const double> measured,
                                      std::span<const double> predicted,
                                      std::span<const std::size_t> first_row);
 
-// The factors spread about their median as those of new experiments would: a fit of `parameters`
-// numbers to E experiments is nearer to them than to others, by sqrt((E - parameters)/E) in the
-// logarithm. Ascending; factors that are not positive are left out.
+// The factors spread about their median as far as those of new experiments lie: a fit of
+// `parameters` numbers to E experiments has drawn the law towards just these, so that their
+// logarithms scatter too little, by sqrt((E - parameters)/E). Ascending; factors that are not
+// positive are left out.
 std::vector<double> gains_of_new_experiments(std::vector<double> gains, std::size_t parameters);
 
 // Quantiles that so many experiments can give: a new one lies below the k-th smallest of E factors

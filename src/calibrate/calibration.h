@@ -1,4 +1,27 @@
-// Laws fitted to all rows of a campaign, and how well they predict experiments they have not seen.
+// The calibration stage: laws fitted to all rows of a campaign, and how well they predict
+// experiments they have not seen.
+//
+// The folder, in the order in which a calibration runs:
+//   calibrate.cpp       the stage: which laws the columns allow, fits, errors, ranking
+//   how a law is fitted
+//     input_columns     the columns of the data that a law's inputs stand for
+//     law_problem       from starts on few rows to a fit on all rows
+//     loss              L2, L1, Huber
+//     normal_equations  sums over rows that a step needs
+//     fit               Levenberg-Marquardt within bounds
+//     median            least absolute deviations of one parameter, exactly
+//     network           training of the neural network: ensemble and weight decay
+//     network_fit       one of its nets
+//   how well it is known, and how well it does
+//     sandwich          standard errors by experiment
+//     resampling        errors per experiment, whole experiments resampled
+//     metrics           MAE, RMSE, bias with intervals
+//     comparison        which law is better than which
+//     noise_floor       what no law can go below, with replicates (repeated tests)
+//     band              the factors by which experiments lie around a law, and laws at their
+//     quantiles conditional       one gain per experiment from its own first millimetres folds
+//     experiments parted for cross-validation
+//   judgement           all these results as plain values; judgement_json, calibration_file as JSON
 #pragma once
 
 #include <string>

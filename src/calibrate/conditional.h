@@ -26,7 +26,9 @@ struct GainPrior {
   double between = 0;
   double error = 0;
   double usual_rows = 0;
-  // Used share of a deviation: between/(between + error max(1, usual_rows/rows)); 0 for 0 rows.
+  // How far a first part is believed: between/(between + error max(1, usual_rows/rows)), the share
+  // of its deviation that comes from the experiment and not from the shortness of the part; 0 for 0
+  // rows.
   double trust(std::size_t rows) const;
   // Of the rest: usual_rest + trust (gain of the first part - usual_first), at least 0.
   double gain(const FirstPart& first) const;

@@ -1,4 +1,13 @@
 // Bounded nonlinear fit of a formula to measured shear stress.
+//
+// Minimised is the mean loss of the residuals r = measured - tau(p) over the parameters p. A step d
+// solves the damped normal equations
+//   (H + damping D) d = g,   g = mean of loss'(r) J,   H = mean of step curvature J' J,
+// J being d tau / d p and D the largest diagonal of H so far (Levenberg-Marquardt: Marquardt 1963,
+// More 1978). Damping falls where the loss decreases as H promised, and rises where it does not. H
+// leaves out the law's own curvature, which counts where residuals are large: a symmetric rank-one
+// correction of H learns it from the change of g along each step (after Dennis, Gay and Welsch
+// 1981). A step that would leave the bounds is cut there and solved again for the other parameters.
 #pragma once
 
 #include <span>
@@ -25,8 +34,8 @@ struct FitResult {
   double cost = 0; // mean loss
   std::size_t evaluations = 0;
   std::string termination; // "converged: ...", "stopped: ..."
-  // What the curvature has beyond that of the step's normal equations, learned from the steps; a
-  // fit of the same law to similar rows may start with it.
+  // The rank-one correction of H, as it was in the end; a fit of the same law to similar rows may
+  // start with it.
   Eigen::MatrixXd correction;
 };
 
@@ -45,11 +54,8 @@ struct FitOptions {
   const Eigen::MatrixXd* correction = nullptr; // of an earlier fit
 };
 
-// Levenberg-Marquardt on the loss's own normal equations (Marquardt 1963, damping by the gain
-// ratio), with a symmetric rank-one correction where residuals are large and the law is curved
-// (after Dennis, Gay and Welsch 1981); steps cut at the bounds and re-solved for the others;
-// parameters that a bound holds are frozen. Sequential in row order: the same bits on any machine
-// with the same libm, for any number of threads.
+// The fit described above, from one start. Sums run in row order: the same bits on any machine with
+// the same libm, for any number of threads.
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
                    const FitOptions& options = {});
 

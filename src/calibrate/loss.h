@@ -51,8 +51,8 @@ struct LossFunction {
     }
     return 0;
   }
-  // What a step takes for it: with a little of the weight, so that steps stay short where no row
-  // has any.
+  // What a step takes for the curvature: it holds a little of the weight, so that steps stay short
+  // where no row has any curvature.
   double step_curvature(double r) const {
     switch (kind) {
     case Loss::l2:

@@ -1,5 +1,13 @@
-// One net of the neural network: its bins of rows, and Levenberg-Marquardt on tau_R with weight
-// decay.
+// One net of the neural network: its bins of rows, and its training.
+//
+// With weights w the net gives tau = min(mu0 sigma_n exp(output), k); it has one hidden layer of
+// tanh units. Training minimises
+//   1/2 r' V^-1 r + decay/2 w' w,   r = measured - tau of all bins,
+// by Levenberg-Marquardt; the decay keeps the weights, and so the curvature of the net, small.
+// Experiments differ as a whole by a factor that no input explains, so V has, per experiment, the
+// noise of a bin and the variance of that factor along mu0 sigma_n (NetworkScatter): an offset of a
+// whole experiment then counts little, and the net does not learn it; what changes within one
+// counts by the small noise there (generalised least squares, Aitken 1936).
 #pragma once
 
 #include <span>
@@ -25,10 +33,7 @@ struct NetworkBins {
   NetworkBins of(std::span<const std::size_t> chosen) const; // whole experiments
 };
 
-// How bins scatter: measured = tau (1 + gain of the experiment) + noise. The gain is the factor
-// that no input explains; with it in the loss the nets do not learn it, and what changes within an
-// experiment, which the gain leaves alone, counts by its own small noise (generalised least
-// squares, Aitken 1936).
+// How bins scatter: measured = tau (1 + gain of the experiment) + noise.
 struct NetworkScatter {
   double noise_MPa = 1; // of a bin of mean weight
   double gain = 0;      // standard deviation

@@ -95,7 +95,7 @@ struct Window {
     xx += sign * at * at;
     xy += sign * at * value;
   }
-  // Residual of one of its rows over sqrt(1 - leverage); an unbiased share of the scatter.
+  // Residual of one of its rows over sqrt(1 - leverage): its mean square is the scatter's variance.
   double scatter(double at, double value) const {
     const double mean = x / n, sxx = xx - x * mean, sxy = xy - x * y / n;
     const double slope = sxx > 0 ? sxy / sxx : 0;

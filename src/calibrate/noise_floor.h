@@ -1,4 +1,6 @@
-// The error that is left where a law of the state is exact: what no law can go below.
+// The noise floor: the error that is left where a law of the state is exact, and so what no law can
+// go below. Synthetic data bring it with them; repeated tests show it; without either, the scatter
+// of neighbouring rows is a lower bound of it.
 #pragma once
 
 #include <optional>
@@ -20,7 +22,8 @@ std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resam
                                           std::uint64_t seed);
 
 // within_experiments: scatter around a straight line through the neighbouring rows (a twentieth of
-// the experiment, at least 9 rows), corrected for the row's own leverage. A lower bound: factors
+// the experiment, at least 9 rows). The line follows the row itself by its leverage h, so that its
+// residual is too small: it is divided by sqrt(1 - h). A lower bound: factors
 // that a whole experiment shares, and slow ones, are not in it. None where no experiment has 9
 // rows.
 std::optional<NoiseFloor> within_floor(const Dataset& data, std::size_t resamples,

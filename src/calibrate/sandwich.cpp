@@ -127,8 +127,8 @@ std::vector<char> settle(Parameters parameters, const Scaled& s, std::vector<dou
   return flat;
 }
 
-// An error as wide as all that the fit may choose from says nothing: the valley is not flat to the
-// last bit, but its floor leads from bound to bound.
+// A standard error as wide as the bounds says nothing: the loss is not flat to the last bit there,
+// but hardly changes from bound to bound.
 bool spans_its_bounds(const Parameter& p, double value, double error) {
   return is_scale(p) ? error > value * std::log(p.upper / p.lower) : error > p.upper - p.lower;
 }

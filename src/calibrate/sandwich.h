@@ -1,4 +1,13 @@
 // Standard errors of fitted parameters, with the experiment as the statistical unit.
+//
+// The rows of an experiment share its lubricant, tool and operator, so their errors are alike and
+// do not average out: counting rows as independent makes parameters look far better known than they
+// are. The cluster sandwich (Liang and Zeger 1986) takes whole experiments for independent instead,
+//   covariance = H^-1 (sum over experiments of s_e s_e') H^-1,
+// with the curvature H of the loss and the score s_e, the sum of loss'(r) J over the rows of
+// experiment e. A fit follows each experiment a little, which makes its score too small, by its
+// leverage; CR2 (Bell and McCaffrey 2002) takes that out. The penalty of a penalised fit belongs to
+// H, but has no scatter.
 #pragma once
 
 #include <span>
@@ -23,8 +32,10 @@ struct Uncertainty {
   std::vector<double> std_error;
   std::vector<std::string> why_none; // per parameter: "at its bound"; empty where there is an error
   std::vector<std::string> remarks;  // in sentences, with what data would settle it
-  // The parameters moved along the directions that the data do not determine, to where they are
-  // nearest to their default starts: to first order as good a fit, without arbitrary values.
+  // Where the data determine parameters only in combination, the fit has stopped anywhere along a
+  // flat valley. These are the parameters moved along such directions to where they are nearest to
+  // their default starts: to first order as good a fit, and a result that does not depend on the
+  // path.
   std::vector<double> settled;
   // Of the parameters, for what is computed from several of them: 0 for those that are held, NaN
   // for those that one experiment alone determines. Directions that the data leave open are not in
@@ -32,12 +43,11 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;
 };
 
-// Cluster sandwich with whole experiments as clusters (Liang and Zeger 1986), scores corrected for
-// their own leverage (CR2: Bell and McCaffrey 2002): the 95 % interval is +- the t-quantile with
-// E-1 degrees of freedom. `parameters` say the bounds of the fit, `values` where it ended, `sums`
-// hold one entry per experiment. `penalty` (symmetric; empty: none) is what the fit adds to the
-// curvature; it counts as data that do not scatter, so that stiff curves look as well known as the
-// penalty makes them.
+// The covariance described above. The 95 % interval of a parameter is +- the t-quantile with E-1
+// degrees of freedom, for E experiments. `parameters` say the bounds of the fit, `values` where it
+// ended, `sums` hold one entry per experiment. `penalty` (symmetric; empty: none) is what the fit
+// adds to the curvature; it counts as data that do not scatter, so that stiff curves look as well
+// known as the penalty makes them.
 Uncertainty cluster_sandwich(std::span<const Parameter> parameters, std::span<const double> values,
                              std::span<const ExperimentSums> sums,
                              const Eigen::MatrixXd& penalty = {});

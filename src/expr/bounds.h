@@ -1,5 +1,7 @@
-// Closed intervals, rounded outwards: what an operation can give when its operands lie anywhere in
-// theirs.
+// Interval arithmetic (Moore 1966): from the interval of each operand, an interval that certainly
+// holds the result, whatever values the operands take in theirs. Ends are rounded outwards, so that
+// not even rounding leaves it. It is rigorous but pessimistic: x - x over 0 .. 1 gives -1 .. 1,
+// since it does not know that both are the same x (taylor_model.h does).
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,11 @@
-// How much a formula can change when one of its symbols does: a slope that holds between any two
-// values in a range (a Lipschitz interval), kinks included.
+// How much a formula can change when one of its symbols does.
+//
+// Through the formula, operation by operation, go two intervals: the range of values (bounds.h),
+// and a slope S such that f(v) - f(w) lies in S (v - w) for any two values v, w of the symbol (a
+// Lipschitz interval). A smooth operation multiplies S by the interval of its derivative over the
+// operand's range (mean value theorem). min and max take the slope of the operand that is chosen,
+// or an interval around both where either may be: so kinks are covered, where a derivative would
+// not be.
 #pragma once
 
 #include <span>

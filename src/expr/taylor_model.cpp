@@ -327,8 +327,7 @@ std::size_t TaylorProgram::affine_source(std::size_t i) const {
   return i;
 }
 
-// Where a variable reaches the rest of the formula by one of its functions only, that function is
-// the better variable: what is behind it then often is affine in it.
+// Finds variables that reach the rest of the formula through one step only (Step::changes).
 void TaylorProgram::find_changes() {
   std::vector<std::uint32_t> on(steps_.size(), 0); // bits of variables
   for (std::size_t i = 0; i < steps_.size(); ++i) {

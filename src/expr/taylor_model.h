@@ -1,6 +1,11 @@
-// Taylor models (Makino and Berz 2003): a formula over a box is a polynomial in the box's own
-// coordinates, each from -1 to 1, and a number that says how far the formula is from it at most.
-// Rounding is counted in.
+// Taylor models (Makino and Berz 2003): over a box of its symbols a formula is
+//   p(y) + e,   |e| <= error,
+// a polynomial p in the box's own coordinates y, each from -1 to 1, and one number that bounds how
+// far the formula is from it anywhere in the box. Sums and products of models are those of
+// polynomials; terms above the highest degree, and all rounding, go into the error. A function such
+// as exp is replaced by its interpolating polynomial, whose error is known (taylor_functions.h).
+// min, max and where keep one operand and add to the error what the other may change. Unlike
+// intervals, models know that equal terms cancel, which makes proofs of a table's drift sharp.
 #pragma once
 
 #include <array>
@@ -77,7 +82,9 @@ private:
     std::size_t symbol = 0;
     std::size_t a[4] = {};
     std::size_t operands = 0;
-    std::size_t changes = no_variable; // the only way by which this variable enters the formula
+    // A variable that reaches the rest of the formula through this step alone: then the step's
+    // result is taken as the variable, because what follows is often affine in it.
+    std::size_t changes = no_variable;
   };
   void find_changes();
   std::size_t affine_source(std::size_t step) const;
