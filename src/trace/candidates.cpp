@@ -71,14 +71,6 @@ double likeness(const VectorXd& a, const VectorXd& b) {
 
 constexpr double the_same = 1 - 1e-9, alike = 0.98; // likeness
 
-// Up to 10: more are many.
-std::size_t different_values(Rows values) {
-  std::set<double> seen;
-  for (const double v : values)
-    if (seen.insert(v).second && seen.size() == 10) break;
-  return seen.size();
-}
-
 std::vector<double> quantiles_of(Rows values) {
   constexpr std::size_t parts = 30;
   std::vector<double> sorted(values.begin(), values.end()), at;
@@ -211,7 +203,6 @@ private:
     column.tested = quantiles_of(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
-    column.different = different_values(values);
     const bool orders = name == "test_order" || name == found_.order_column;
     column.between = orders ? declared_wear(name) : !derived && name != "time_s" && name != "s_mm";
     column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
@@ -243,7 +234,6 @@ private:
       text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
-    text.different = column.levels.size();
     found_.by_symbol[symbol_of(column.name)] = text.values;
     found_.columns.push_back(std::move(text));
   }

@@ -23,7 +23,6 @@ struct CandidateColumn {
   std::vector<double> tested;      // where its rows are: quantiles, ascending
   double gap = 0;                  // between the two of them that are furthest apart
   double reach = 0;                // part of its range that a usual experiment runs through
-  std::size_t different = 0;       // values over rows, counted up to 10
   bool in_law = false;             // the law uses it: its form may be wrong
   bool between = false;            // may differ between tests: no history, time or distance
 };
