@@ -204,7 +204,8 @@ private:
     return true;
   }
 
-  // A column that lives on few tests with more scatter than others is out.
+  // Bans the shape of the path that holds least under unequal scatter: it lives on few tests that
+  // scatter more than others. True where one was banned.
   bool ban_worst(const VectorXd& y, const MatrixXd& known, const VectorXd& w, const Taken& chosen,
                  double critical) {
     const double least = std::min(1.0, guard_slack * std::exp(critical));

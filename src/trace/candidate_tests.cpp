@@ -43,7 +43,7 @@ bool is_constant_in_tests(const Dataset& data, const Column& column) {
   return true;
 }
 
-// What a test runs at: the text says no more than a rig can be set to.
+// Rounded to three digits: nobody sets a rig more finely.
 void add_value(Setting& setting, double value) {
   const std::string text = fmt::format("{:.3g}", value);
   setting.values.push_back(std::stod(text));
@@ -63,7 +63,7 @@ struct Range {
   double width() const { return high - low; }
   Range widened() const {
     const double end = range_widened * width();
-    // (What is positive throughout stays so.)
+    // A range of positive values is not widened to 0 or below.
     return {low > 0 ? std::max(low - end, 0.5 * low) : low - end, high + end};
   }
 };

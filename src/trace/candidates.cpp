@@ -154,7 +154,7 @@ private:
         order = &column;
     }
     if (!order) return;
-    // (Time stamps are text; levels are sorted, as such stamps are by time.)
+    // Time stamps are text. Levels are sorted, and stamps with the year first sort by time.
     for (std::size_t e = 0; e < training_.experiments.size(); ++e)
       found_.order.push_back(order->values[training_.first_row[e]]);
     found_.order_column = order->name;
@@ -263,7 +263,8 @@ private:
   Candidates found_;
 };
 
-// A history that no routine follows by itself makes no pairs: most are nearly what others are.
+// Whether a column may act together with others. Of histories only four may: the others nearly
+// follow these, and each further column multiplies the pairs.
 bool may_act_with_others(const CandidateColumn& column) {
   const Spread& s = column.spread;
   const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);

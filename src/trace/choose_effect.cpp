@@ -76,7 +76,8 @@ std::vector<Cause> near_the_best(const Search& search, const ScreenResult& scree
   return list;
 }
 
-// Single columns together with what the law takes, and with what is in already.
+// The short list, and its single columns together with a partner: the first effect with the inputs
+// of the law, later ones with the columns of effects that are in the law already.
 std::vector<Cause> with_partners(const Search& search, const std::vector<Cause>& list) {
   const Candidates& candidates = search.candidates;
   std::set<std::size_t> partners;
@@ -111,7 +112,8 @@ Option option_of(const Search& search, const Cause& cause, PlacedEffect effect) 
   return option;
 }
 
-// Per cause and site a smooth, and the shape that the screening liked best: a wave is no smooth.
+// Per cause and site a smooth, and the shape that the screening liked best: some shapes, as a short
+// wave, no smooth can follow.
 Options all_options(const Search& search, const ScreenResult& screened,
                     const std::vector<Cause>& causes) {
   const auto best = best_directions(search, screened);
@@ -133,7 +135,7 @@ Options all_options(const Search& search, const ScreenResult& screened,
   return options;
 }
 
-// Under one noise model.
+// Fits all options under the same noise model, so that they can be compared.
 void fit_options(const Search& search, const NoiseModel& noise, Options& options) {
   const Campaign& campaign = search.campaign();
   const Whitener whitener(noise, search.last().predicted, campaign.blocks, campaign.nuisance);
@@ -233,7 +235,8 @@ std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screen
 
 namespace {
 
-// What the effect `index` and the residual behind it come to: what any form of it has to explain.
+// The residual of the law without the effect `index`, all else as fitted: what any other form of
+// that effect has to explain.
 VectorXd to_explain(const Search& search, const Rival& winner, std::size_t index) {
   const PlacedEffect& effect = winner.effects[index];
   const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];

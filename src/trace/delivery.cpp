@@ -89,7 +89,7 @@ private:
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
   }
 
-  // Effect by effect: what the validation tests say is worse than nothing goes.
+  // Takes out, one by one, effects without which the validation tests are predicted clearly better.
   void drop_contradicted() {
     if (!by_validation()) {
       for (const std::size_t f : d_.findings)
@@ -148,8 +148,8 @@ private:
             true};
   }
 
-  // Against the law as the calibration stage handed it on: what weights make worse is not excused
-  // by effects.
+  // Against the law as the calibration stage handed it on: effects must also make up for what the
+  // weights of the trace may have made worse.
   Difference against_calibrated() const {
     return gained(on_validation(d_.rival),
                   error_sums(in_.validation.values("tau_R_MPa"),
@@ -251,7 +251,7 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   const auto n = static_cast<double>(tests);
   const double own = square(unseen.gain) / (n - 1);
   const double of_law = square(seen.gain) / free;
-  // (What the parameters leave open, as if the validation tests were like the training tests.)
+  // What the uncertainty of the fitted parameters adds, taken for the same as in training.
   const double open = of_law * std::max(1.0, rival.freedom) / static_cast<double>(seen.gain.size());
   const double se = std::sqrt(std::max(own, of_law) / n + open);
   const double shift = unseen.gain.mean() - seen.gain.mean();

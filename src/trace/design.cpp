@@ -111,7 +111,8 @@ public:
     std::vector<Setting> settings = settings_of(search_.input.training, recorded());
     if (settings.empty()) return {};
     Plan plan = best_plan(settings);
-    if (probability(plan.before) >= wanted) return {}; // these data would tell, if it were so large
+    if (probability(plan.before) >= wanted)
+      return {}; // the data would show it already, were it as large as fitted
     // One setting fewer is an easier design.
     for (std::size_t s = settings.size(); s-- > 0 && settings.size() > 1;) {
       std::vector<Setting> fewer = settings;
@@ -301,7 +302,8 @@ Design design_tests(const Search& search, const std::vector<const Rival*>& rival
 
 namespace {
 
-// (What takes the finding's columns and another one has it as a special case: not a rival.)
+// A cause that takes the finding's columns and one more has the finding as a special case, so that
+// no test can decide for one and against the other.
 bool contains(const Cause& larger, const Cause& smaller) {
   return std::all_of(smaller.columns.begin(), smaller.columns.end(), [&](std::size_t column) {
     return std::find(larger.columns.begin(), larger.columns.end(), column) != larger.columns.end();
@@ -350,7 +352,7 @@ Ends ends_by_line(const Setting& setting, const VectorXd& x, const VectorXd& gai
   return {0, setting.values.size() - 1, std::abs(slope) * (x.maxCoeff() - x.minCoeff())};
 }
 
-// (A level of which no test is left, all of them being held out, has no mean.)
+// A level without a training test (all of its tests are held out) has no mean and is left out.
 Ends ends_by_level(const Setting& setting, const VectorXd& x, const VectorXd& gain) {
   std::vector<std::pair<double, std::size_t>> means; // with the level's index in the setting
   for (std::size_t level = 0; level < setting.values.size(); ++level) {

@@ -109,7 +109,8 @@ std::vector<std::size_t> strongest(const Search& search) {
   return sorted;
 }
 
-// Of few tests: single quantities, one for the same recorded columns.
+// With few tests: single quantities only, and one of those that come from the same recorded
+// columns.
 std::vector<std::size_t> plain_ones(const Search& search, const std::vector<std::size_t>& sorted) {
   const std::vector<Direction>& all = search.last_screen.directions;
   std::vector<std::size_t> plain;

@@ -20,8 +20,9 @@ using Eigen::VectorXd;
 
 constexpr std::array slow_lengths = {0.025, 0.05, 0.1, 0.2, 0.4}; // of an experiment
 constexpr double least_log = -8, most_log = 2; // of a standard deviation over the residual's own
-// Draws a standard deviation that the data do not determine to the middle of its range; 1e-4 of
-// log likelihood over the whole of it.
+// Where the data do not determine a standard deviation the likelihood is flat, and the fit would
+// end anywhere. This draws its logarithm to 0; it is worth 1e-4 of log likelihood over the whole
+// range.
 constexpr double weak_prior = 1e-6;
 
 // What the likelihood of any noise of one growth is computed from. Rows are blocks, columns: the
@@ -123,7 +124,8 @@ public:
     size_ = std::max(left / base_.scale, 1e-12);
   }
 
-  // Between-test scatter first, slow noise first; then along the lengths, each from its neighbour.
+  // At the middle length from two starts, one with most of the noise between tests and one with
+  // most of it slow; then along the lengths, each started from its neighbour.
   NoiseFit from_scratch() const {
     const auto middle = static_cast<int>(slow_lengths.size() / 2);
     NoiseFit best = fit(slow_lengths[slow_lengths.size() / 2], usual, far);
@@ -177,7 +179,7 @@ private:
     return base;
   }
 
-  // (Ties are decided by more than rounding.)
+  // A later fit wins only by more than rounding, so that results do not depend on the last bits.
   static void consider(const NoiseFit& fit, NoiseFit& best) {
     if (fit.log_likelihood > best.log_likelihood + 1e-6) best = fit;
   }

@@ -52,7 +52,7 @@ void project_out(const MatrixXd& directions, MatrixXd& columns) {
   columns -= q * (q.transpose() * columns).eval();
 }
 
-// Root mean square of what the functions explain, by weighted least squares.
+// Sets the size of the structure: root mean square of what the functions of the order explain.
 void measure_structure(Search& search, MatrixXd columns) {
   const MatrixXd raw = columns;
   MatrixXd residual = search.residual();
@@ -76,7 +76,8 @@ bool is_order(const Search& search, const Cause& cause) {
   return std::any_of(cause.columns.begin(), cause.columns.end(), numbers_tests);
 }
 
-// A text column of which each level is one stretch of the order: a batch. It is the order itself.
+// Whether each level of a text column is one stretch of the order of tests, as batches are: such a
+// column cannot be told from the order.
 bool is_stretch(const CandidateColumn& column, const VectorXd& by_rank) {
   Index stretches = 1;
   for (Index i = 1; i < by_rank.size(); ++i)
@@ -186,7 +187,7 @@ void attribute_to_order(Search& search, const Cause& cause, double p_value) {
 }
 
 void remove_order_structure(Search& search, double p_value, std::size_t site) {
-  if (search.order.found) return; // what is left behind the slow functions stays unexplained
+  if (search.order.found) return; // once is enough: faster structure stays unexplained
   forbid_causes(search, [&](const Cause& cause) { return is_order(search, cause); });
   search.order.found = true;
   search.order.p_value = p_value;

@@ -18,7 +18,8 @@ bool follows_order(const Search& search, const Rival& rival);
 // The same on one value per test: whether slow waves of the order leave nothing of the shape.
 bool order_explains(const Search& search, const TestShape& shape);
 
-// The cause is out, and the order with it.
+// Notes the cause as one that the order of tests explains as well, forbids it, and takes the order
+// out of the calibration.
 void attribute_to_order(Search& search, const Cause& cause, double p_value);
 
 // From here on nothing is explained that slow functions of the order can explain, at the site
@@ -31,11 +32,12 @@ struct OrderFound {
 };
 OrderFound test_along_order(const Search& search);
 
-// A second test, beside that of all candidates, where the order was declared: true where something
-// was found, which is then taken out.
+// Where the order was declared: tests for structure along it, beside all candidates. True where
+// some was found, which is then taken out of the calibration.
 bool find_order(Search& search);
 
-// Whether the order still has structure once the effects are in the law; forgotten if not.
+// Tests again once all effects are in the law: where the order has no structure any more, nothing
+// is taken out for it.
 void reconsider_order(Search& search);
 
 } // namespace frictab

@@ -91,7 +91,8 @@ double freedom_of(const Rival& rival, const Whitener& whitener) {
   return with.ldlt().solve(normal).trace();
 }
 
-// Friction that an effect turns round, or a law that has come to nothing, is no explanation.
+// A rival whose effects turn friction negative somewhere, or whose fit is not finite, is not
+// possible.
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
          std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
@@ -174,7 +175,8 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = std::move(fit.predicted);
     rival.jacobian = std::move(fit.jacobian);
   };
-  if (on_limit(rival.effects)) { // a limit that no row has reached yet would never be seen
+  if (on_limit(
+          rival.effects)) { // first with the limit rounded off, or rows below it would not feel it
     const double usual = campaign.measured.cwiseAbs().mean();
     for (const double width : {0.15 * usual, 0.05 * usual})
       refit(LawOnBlocks(extended, campaign.conventions, columns, width));

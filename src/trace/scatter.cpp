@@ -19,7 +19,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Mean square of the measured rows about their block's line of blocks: what block means leave out.
+// Mean square of the measured rows about a straight line through each block: the noise that block
+// means have averaged away.
 double within_blocks(const Dataset& training, const Blocks& blocks) {
   const auto tau = training.values("tau_R_MPa");
   double sum = 0;
@@ -36,13 +37,14 @@ double within_blocks(const Dataset& training, const Blocks& blocks) {
       xx += dx * dx;
       yy += dy * dy;
     }
-    // (Two rows tell nothing of a trend; from block to block it is small.)
+    // Of two rows a line would leave nothing: their mean is taken instead.
     sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
   }
   return sum / static_cast<double>(training.rows());
 }
 
-// Not below 0. A variance of heavy-tailed values is known less well, as if there were fewer.
+// Not below 0. The variance of heavy-tailed values is known less well, as if there were fewer of
+// them: degrees of freedom are divided by 1 + kurtosis/2.
 double excess_kurtosis(const VectorXd& values) {
   const Eigen::ArrayXd squares = (values.array() - values.mean()).square();
   const double variance = squares.mean();
@@ -130,7 +132,7 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   if (!(repeats.scatter > 0)) return;
   trace.repeatability = repeats.scatter;
   trace.repeatability_from = "repeats";
-  // Two variances are compared: neither is known.
+  // The repeatability is an estimate as well, so the bound is that of a ratio of variances (F).
   trace.scatter_at_least = share / std::sqrt(gsl_cdf_fdist_Pinv(0.95, degrees, repeats.degrees));
 }
 

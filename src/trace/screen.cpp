@@ -145,9 +145,10 @@ private:
     for (Index c = 0; c < scores.cols(); ++c) {
       if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
         continue;
-      // Carried by few experiments, it could never be significant, and would sit in every maximum.
+      // A direction carried by few experiments could never be significant, and its flips would be
+      // among the largest in every draw: the threshold would rise for all others.
       const float carries = share_of_most * squares.col(c).maxCoeff();
-      // (Where there are fewer, all that is wanted is a lead.)
+      // With fewer experiments nothing can be significant; leads are still listed.
       const Index least = std::min(least_experiments, squares.rows());
       if ((squares.col(c).array() > carries).count() < least) continue;
       Direction direction = found.directions[static_cast<std::size_t>(c)];
@@ -253,7 +254,8 @@ ScreenResult screen(const ScreenInput& input) {
   const auto beyond =
       result.flipped_maxima.end() -
       std::lower_bound(result.flipped_maxima.begin(), result.flipped_maxima.end(), most);
-  // (All patterns of signs may have been drawn: the true one and its mirror image are two of them.)
+  // No p-value is below 2^(1-n) for n units: of all 2^n patterns of signs the true one and its
+  // mirror image give the same statistic.
   const double least = std::pow(2.0, 1.0 - static_cast<double>(count_of(input.units)));
   result.p_value =
       std::max(least, static_cast<double>(beyond + 1) / static_cast<double>(input.flips + 1));

@@ -116,7 +116,8 @@ void Search::make_campaign() {
                                                   blocks.mean(input.training.values("tau_R_MPa")),
                                                   {},
                                                   effort.earlier != nullptr});
-  // What averaging does to a law that bends within a block is taken off once.
+  // The law at a block's mean state is not the mean of the law over the block where it is curved:
+  // that difference is taken off the measured means, once, as the calibrated law has it.
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   campaign_->measured -=
       blocks.mean(predict(model, input.training)) - law.predict(model.parameters);
@@ -138,8 +139,9 @@ void Search::fit_base() {
   move_to(base);
 }
 
-// By relative least squares in which every test weighs the same: the weights of a noise model that
-// was fitted with an effect in the residual would bend the law.
+// Gains refer to the law fitted by relative least squares in which every test weighs the same. The
+// noise model's weights would not do: it was fitted with the missing effects in the residual, and
+// they would bend the law towards some tests.
 void Search::make_gains() {
   const Model& model = input.fit.model;
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
@@ -226,7 +228,7 @@ ScreenInput screen_input(const Search& search, const Whitener& weights, const Ve
           search.known(), search.units,           0,       search.input.seed};
 }
 
-// Behind the leading direction.
+// The noise of the residual once the leading direction is fitted as well.
 NoiseModel noise_behind(const Search& search, const Direction& leader) {
   const VectorXd direction = search.sensitivities()[leader.site].cwiseProduct(
       search.shapes[leader.cause][leader.shape].direction.cast<double>());

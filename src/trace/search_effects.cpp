@@ -24,7 +24,7 @@ public:
     if (find_order(s_)) find_all();
     drop_superseded();
     reconsider_order(s_);
-    if (s_.campaign().quick) return; // what is left is of no interest to a fold
+    if (s_.campaign().quick) return; // a fold of nested cross-validation needs only the findings
     s_.last_screen = screen_within_tests(s_, true).result;
     s_.last_p_value = s_.negligible() ? 1 : s_.last_screen.p_value;
     s_.last_between = search_between_tests(s_);
@@ -69,7 +69,8 @@ private:
     for (std::size_t i = 0; i < result.found.size(); ++i)
       s_.move_to(choose_form(s_, s_.last(), before + i).front());
     s_.fit_again();
-    // (Each finding holds the law up to itself: what the law is worth without the later ones.)
+    // Each finding keeps the law with the effects up to itself: nested cross-validation and
+    // delivery ask what the first ones are worth without the later ones.
     std::vector<Finding> found;
     for (std::size_t i = 0; i < result.found.size(); ++i)
       found.push_back(finding_of(result.found[i], before + i));
@@ -116,7 +117,8 @@ private:
     const Rival without = fit_rival(s_.campaign(), s_.last(), s_.last().effects, s_.last().causes,
                                     noise, NoiseSearch::kept);
     std::vector<Rival> rivals = choose_cause(s_, screened, noise);
-    // (A surface over two columns that are nearly one may end where it explains less than nothing.)
+    // A surface over two columns that nearly are one quantity may fit worse than no effect, since
+    // its penalty is paid.
     std::erase_if(rivals, [&](const Rival& r) { return r.penalised <= without.penalised; });
     if (rivals.empty()) return false;
     prefer_declared(s_, rivals);

@@ -21,7 +21,8 @@ bool scatters_more(const Trace& t) {
   return t.repeatability && t.scatter_at_least > *t.repeatability;
 }
 
-// (Few repeats cannot refute much: what is left has to be about as large as well.)
+// Few repeats know the repeatability badly, so that the scatter could hardly be shown to exceed it.
+// It must therefore also be about as small.
 bool agrees_with_repeats(const Trace& t) {
   constexpr double about = 1.2;
   return t.repeatability && !scatters_more(t) && t.scatter_between <= about * *t.repeatability;
