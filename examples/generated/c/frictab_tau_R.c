@@ -32,7 +32,7 @@
 /* One axis: n >= 2 ascending nodes u in the axis coordinate (x, or ln x where the axis is
  * logarithmic), and per cell 1/(u[i + 1] - u[i]). How a cell is found (the same one each way):
  * scale > 0: (int)(u * scale - shift) is the cell or one below it, or where there is a guide, the
- * place in it of such a cell; scale = 0: by bisection. */
+ * position in it of such a cell; scale = 0: by bisection. */
 typedef struct {
   int n;
   long stride; /* of the values along this axis */
@@ -177,28 +177,28 @@ typedef struct {
   int cell[FT_MAX_AXES];
   long at;
   unsigned outside;
-} ft_place;
+} ft_location;
 
-FT_INLINE void ft_place_0(const ft_axis* axis, const double* u, ft_place* place) {
+FT_INLINE void ft_locate_0(const ft_axis* axis, const double* u, ft_location* found) {
   (void)axis;
   (void)u;
-  place->at = 0;
-  place->outside = 0u;
+  found->at = 0;
+  found->outside = 0u;
 }
-#define FT_PLACE(N, D)                                                                             \
-  FT_INLINE void ft_place_##N(const ft_axis* axis, const double* u, ft_place* place) {             \
-    ft_place_##D(axis, u, place);                                                                  \
-    if (ft_locate(axis + D, u[D], &place->cell[D], &place->w[D])) place->outside |= 1u << D;       \
-    place->at += place->cell[D] * axis[D].stride;                                                  \
+#define FT_LOCATE(N, D)                                                                            \
+  FT_INLINE void ft_locate_##N(const ft_axis* axis, const double* u, ft_location* found) {         \
+    ft_locate_##D(axis, u, found);                                                                 \
+    if (ft_locate(axis + D, u[D], &found->cell[D], &found->w[D])) found->outside |= 1u << D;       \
+    found->at += found->cell[D] * axis[D].stride;                                                  \
   }
-FT_PLACE(1, 0)
-FT_PLACE(2, 1)
-FT_PLACE(3, 2)
-FT_PLACE(4, 3)
-FT_PLACE(5, 4)
-FT_PLACE(6, 5)
-FT_PLACE(7, 6)
-FT_PLACE(8, 7)
+FT_LOCATE(1, 0)
+FT_LOCATE(2, 1)
+FT_LOCATE(3, 2)
+FT_LOCATE(4, 3)
+FT_LOCATE(5, 4)
+FT_LOCATE(6, 5)
+FT_LOCATE(7, 6)
+FT_LOCATE(8, 7)
 
 /* Along all of N axes but the last: the pair that is left on that one. Up to 5 axes, 16 pairs, are
  * unrolled; further ones are loops, so that the code stays small. */
@@ -233,12 +233,12 @@ FT_CORNERS_LOOP(8, 7)
 #define FT_LINEAR(N, LAST)                                                                         \
   FT_INLINE double ft_linear_##N(const ft_axis* axis, ft_values v, const double* u,                \
                                  unsigned* outside) {                                              \
-    ft_place place;                                                                                \
+    ft_location found;                                                                             \
     ft_pair ends;                                                                                  \
-    ft_place_##N(axis, u, &place);                                                                 \
-    if (outside) *outside = place.outside;                                                         \
-    ends = ft_corners_##N(axis, place.w, v, place.at);                                             \
-    return ft_between(place.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
+    ft_locate_##N(axis, u, &found);                                                                \
+    if (outside) *outside = found.outside;                                                         \
+    ends = ft_corners_##N(axis, found.w, v, found.at);                                             \
+    return ft_between(found.w[LAST], ft_get(ends, 0), ft_get(ends, 1));                            \
   }
 FT_LINEAR(1, 0)
 FT_LINEAR(2, 1)
@@ -276,56 +276,58 @@ FT_INLINE double ft_weight_slope(const ft_axis* axis, double weight, int cell, u
 /* As ft_corners_N, and the derivatives by the weight of each axis but the last. */
 typedef struct {
   ft_pair value, by[FT_MAX_AXES];
-} ft_fan;
+} ft_pair_gradient;
 
-FT_INLINE void ft_fan_1(const ft_axis* axis, const double* w, ft_values v, long at, ft_fan* fan) {
+FT_INLINE void ft_corners_gradient_1(const ft_axis* axis, const double* w, ft_values v, long at,
+                                     ft_pair_gradient* sum) {
   (void)axis;
   (void)w;
-  fan->value = ft_load(v, at);
+  sum->value = ft_load(v, at);
 }
-#define FT_FAN_BY(i) fan->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
-#define FT_FAN_END(J, D) ft_fan_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
-#define FT_FAN_BOTH(D) FT_FAN_END(0, D) FT_FAN_END(1, D)
-#define FT_FAN_LOOP(D)                                                                             \
+#define FT_CORNERS_GRADIENT_BY(i) sum->by[(i) + 1] = ft_mix(w[0], end[0].by[i], end[1].by[i]);
+#define FT_CORNERS_GRADIENT_END(J, D)                                                              \
+  ft_corners_gradient_##D(axis + 1, w + 1, v, at + J * axis->stride, end + J);
+#define FT_CORNERS_GRADIENT_BOTH(D) FT_CORNERS_GRADIENT_END(0, D) FT_CORNERS_GRADIENT_END(1, D)
+#define FT_CORNERS_GRADIENT_LOOP(D)                                                                \
   for (j = 0; j < 2; ++j)                                                                          \
-  FT_FAN_END(j, D)
-#define FT_FAN(N, D, INNER, ENDS)                                                                  \
-  FT_INLINE void ft_fan_##N(const ft_axis* axis, const double* w, ft_values v, long at,            \
-                            ft_fan* fan) {                                                         \
-    ft_fan end[2];                                                                                 \
+  FT_CORNERS_GRADIENT_END(j, D)
+#define FT_CORNERS_GRADIENT(N, D, INNER, ENDS)                                                     \
+  FT_INLINE void ft_corners_gradient_##N(const ft_axis* axis, const double* w, ft_values v,        \
+                                         long at, ft_pair_gradient* sum) {                         \
+    ft_pair_gradient end[2];                                                                       \
     int j = 0;                                                                                     \
     (void)j;                                                                                       \
     ENDS(D)                                                                                        \
-    fan->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
-    fan->by[0] = ft_minus(end[1].value, end[0].value);                                             \
-    FT_EACH_##INNER(FT_FAN_BY)                                                                     \
+    sum->value = ft_mix(w[0], end[0].value, end[1].value);                                         \
+    sum->by[0] = ft_minus(end[1].value, end[0].value);                                             \
+    FT_EACH_##INNER(FT_CORNERS_GRADIENT_BY)                                                        \
   }
-FT_FAN(2, 1, 0, FT_FAN_BOTH)
-FT_FAN(3, 2, 1, FT_FAN_BOTH)
-FT_FAN(4, 3, 2, FT_FAN_BOTH)
-FT_FAN(5, 4, 3, FT_FAN_BOTH)
-FT_FAN(6, 5, 4, FT_FAN_LOOP)
-FT_FAN(7, 6, 5, FT_FAN_LOOP)
-FT_FAN(8, 7, 6, FT_FAN_LOOP)
+FT_CORNERS_GRADIENT(2, 1, 0, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(3, 2, 1, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(4, 3, 2, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(5, 4, 3, FT_CORNERS_GRADIENT_BOTH)
+FT_CORNERS_GRADIENT(6, 5, 4, FT_CORNERS_GRADIENT_LOOP)
+FT_CORNERS_GRADIENT(7, 6, 5, FT_CORNERS_GRADIENT_LOOP)
+FT_CORNERS_GRADIENT(8, 7, 6, FT_CORNERS_GRADIENT_LOOP)
 
 /* ft_linear_gradient_N: as ft_linear_N; by_u: one derivative per axis. */
 #define FT_LINEAR_BY(i)                                                                            \
-  by_u[i] = ft_between(t, ft_get(fan.by[i], 0), ft_get(fan.by[i], 1)) *                            \
-            ft_weight_slope(axis + (i), place.w[i], place.cell[i], place.outside >> (i)&1u);
+  by_u[i] = ft_between(t, ft_get(sum.by[i], 0), ft_get(sum.by[i], 1)) *                            \
+            ft_weight_slope(axis + (i), found.w[i], found.cell[i], found.outside >> (i)&1u);
 #define FT_LINEAR_GRADIENT(N, LAST)                                                                \
   FT_INLINE double ft_linear_gradient_##N(const ft_axis* axis, ft_values v, const double* u,       \
                                           double* by_u, unsigned* outside) {                       \
-    ft_place place;                                                                                \
-    ft_fan fan;                                                                                    \
+    ft_location found;                                                                             \
+    ft_pair_gradient sum;                                                                          \
     double t;                                                                                      \
-    ft_place_##N(axis, u, &place);                                                                 \
-    if (outside) *outside = place.outside;                                                         \
-    ft_fan_##N(axis, place.w, v, place.at, &fan);                                                  \
-    t = place.w[LAST];                                                                             \
+    ft_locate_##N(axis, u, &found);                                                                \
+    if (outside) *outside = found.outside;                                                         \
+    ft_corners_gradient_##N(axis, found.w, v, found.at, &sum);                                     \
+    t = found.w[LAST];                                                                             \
     FT_EACH_##LAST(FT_LINEAR_BY) by_u[LAST] =                                                      \
-        (ft_get(fan.value, 1) - ft_get(fan.value, 0)) *                                            \
-        ft_weight_slope(axis + LAST, t, place.cell[LAST], place.outside >> LAST & 1u);             \
-    return ft_between(t, ft_get(fan.value, 0), ft_get(fan.value, 1));                              \
+        (ft_get(sum.value, 1) - ft_get(sum.value, 0)) *                                            \
+        ft_weight_slope(axis + LAST, t, found.cell[LAST], found.outside >> LAST & 1u);             \
+    return ft_between(t, ft_get(sum.value, 0), ft_get(sum.value, 1));                              \
   }
 FT_LINEAR_GRADIENT(1, 0)
 FT_LINEAR_GRADIENT(2, 1)
