@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 using Eigen::VectorXf;
 
 constexpr std::size_t plants = 400;
-constexpr double wanted = 0.8;
+constexpr double detection_probability = 0.8;
 constexpr double least_column_left = 0.02; // of a column's variance, beside what the law explains
 constexpr std::uint64_t power_stream = 73;
 
@@ -33,7 +33,8 @@ double sum_to_detect(const VectorXf& scores, double threshold, std::uint64_t see
   }
   std::sort(noise.begin(), noise.end());
   const double scatter = std::sqrt(std::max(1.0f, scores.squaredNorm()));
-  return threshold * scatter - noise[static_cast<std::size_t>((1 - wanted) * plants)];
+  return threshold * scatter -
+         noise[static_cast<std::size_t>((1 - detection_probability) * plants)];
 }
 
 // Columns that are constant within tests: from the difference between two halves of the tests that

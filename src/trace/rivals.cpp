@@ -21,8 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double per_parameter = 2.5;  // of log likelihood, that a parameter has to earn
-constexpr double per_complexity = 1.5; // and a step away from a recorded column
+constexpr double per_parameter = 2.5;       // of log likelihood, that a parameter has to earn
+constexpr double cost_per_complexity = 1.5; // and a step away from a recorded column
 
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
@@ -110,7 +110,7 @@ void evaluate(Rival& rival, const Campaign& campaign) {
   rival.freedom = freedom_of(rival, whitener);
   double cost = per_parameter * rival.freedom;
   for (const Cause& cause : rival.causes)
-    cost += per_complexity * complexity(cause, campaign.candidates);
+    cost += cost_per_complexity * complexity(cause, campaign.candidates);
   for (std::size_t i = 0; i < rival.effects.size(); ++i)
     cost +=
         implausibility(rival.effects[i], campaign.candidates.columns[rival.causes[i].columns[0]]);

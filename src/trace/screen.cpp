@@ -23,8 +23,8 @@ using Eigen::VectorXf;
 
 constexpr double least_left = 0.002; // of a direction, behind what fitted parameters imitate
 constexpr std::uint64_t flip_stream = 71;
-constexpr float least_share = 1e-3f;   // of the sum of squared scores, as a variance
-constexpr Index least_experiments = 7; // that carry a direction, ...
+constexpr float least_variance_share = 1e-3f; // of the sum of squared scores, as a variance
+constexpr Index least_experiments = 7;        // that carry a direction, ...
 constexpr float share_of_most = 0.05f; // ... each at least so much of what the first of them does
 
 // A fit follows each experiment a little, which makes the residuals of experiments with leverage
@@ -188,7 +188,7 @@ void Screening::studentise(CauseScores& found) const {
       return total - 2 * sum * with_shares + sum * sum * shares;
     };
     const float floor = in_.least_deviation * in_.least_deviation;
-    const float least = std::max(least_share * total, floor / wider);
+    const float least = std::max(least_variance_share * total, floor / wider);
     const float sum = found.scores.col(c).sum();
     found.directions[static_cast<std::size_t>(c)].statistic =
         sum / std::sqrt(wider * std::max(variance(sum, shared.col(c).sum()), least));

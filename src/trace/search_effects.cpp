@@ -11,9 +11,9 @@ namespace frictab {
 
 namespace {
 
-constexpr std::size_t most_within = 4; // effects
-constexpr std::size_t most_rivals = 5; // of an effect between tests, that are fitted as well
-constexpr double least_explained = 2;  // log likelihood within tests, beyond what it costs
+constexpr std::size_t most_effects_within = 4; // effects
+constexpr std::size_t most_alternatives = 5; // of an effect between tests, that are fitted as well
+constexpr double least_explained = 2;        // log likelihood within tests, beyond what it costs
 
 class Tracer {
 public:
@@ -34,7 +34,7 @@ private:
   void find_all() {
     find_between();
     std::size_t within = 0;
-    while (within < most_within && add_within())
+    while (within < most_effects_within && add_within())
       ++within;
     if (within > 0) find_between();
   }
@@ -84,7 +84,7 @@ private:
     finding.p_value = found.p_value;
     finding.rival = up_to(index);
     for (const Cause& cause : found.as_good) {
-      if (finding.others.size() >= most_rivals) break;
+      if (finding.others.size() >= most_alternatives) break;
       Rival other = finding.rival;
       std::vector<PlacedEffect> effects = other.effects;
       effects.back() = plain_effect(s_, cause);
