@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 Pipeline::Pipeline(Job job) : job_(std::move(job)), earlier_(job_), output_(job_.directory) {}
 
 void Pipeline::load_data() {
-  if (!data_) data_ = load_campaign(job_);
+  if (!data_) data_ = load_job_data(job_);
 }
 
 void Pipeline::load_calibration() {

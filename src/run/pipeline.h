@@ -12,7 +12,7 @@
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "models/assembled_law.h"
-#include "run/campaign.h"
+#include "run/job_data.h"
 #include "run/result_directory.h"
 #include "table/table.h"
 #include "trace/trace.h"
@@ -42,7 +42,7 @@ public:
 
   // What the stages found, for summaries. Empty where the stage did not run.
   const Job& job() const { return job_; }
-  const std::optional<Campaign>& data() const { return data_; }
+  const std::optional<JobData>& data() const { return data_; }
   const std::optional<Calibration>& calibration() const { return calibration_; }
   const std::vector<Trace>& traces() const { return traces_; }
   const std::vector<Table>& tables() const { return tables_; }
@@ -78,7 +78,7 @@ private:
   Job job_;
   ResultDirectory earlier_;
   OutputFiles output_;
-  std::optional<Campaign> data_;
+  std::optional<JobData> data_;
   std::optional<Calibration> calibration_;
   bool new_calibration_ = false; // traces that lie in the directory belong to another one
   std::vector<Trace> traces_;

@@ -8,7 +8,7 @@
 
 namespace frictab {
 
-struct Campaign {
+struct JobData {
   Dataset training;
   Dataset validation;
   // Training and validation together, where the tool itself held out a few of few tests: tracing
@@ -19,6 +19,6 @@ struct Campaign {
 // Reads the files of [data]. Without validation files some experiments are held out. Throws
 // InputError for files that cannot be used, for data.oracle with measured data, and where
 // [export.inputs] names what is no state, history or column.
-Campaign load_campaign(const Job& job);
+JobData load_job_data(const Job& job);
 
 } // namespace frictab

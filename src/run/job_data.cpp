@@ -1,5 +1,5 @@
 // Reads a job's data and splits them where the job does not.
-#include "run/campaign.h"
+#include "run/job_data.h"
 
 #include <algorithm>
 
@@ -20,14 +20,14 @@ namespace {
 // Below so many, the tests that the tool holds out itself are needed for tracing as well.
 constexpr std::size_t few_experiments = 30;
 
-void add_oracle(const DataOptions& options, Campaign& campaign) {
+void add_oracle(const DataOptions& options, JobData& data) {
   if (options.oracle.empty()) return;
-  if (!is_synthetic(campaign.training))
+  if (!is_synthetic(data.training))
     throw InputError(options.oracle_place,
                      "data.oracle is for synthetic data: measured data have no known truth",
                      "synthetic data say so in a column `origin`; for measured data, repeated "
                      "tests give the noise floor");
-  read_oracle(options, campaign.training, campaign.validation);
+  read_oracle(options, data.training, data.validation);
 }
 
 // [export.inputs] may name what only a traced effect brings in: a recorded column, or a history.
@@ -47,31 +47,30 @@ void check_export_inputs(const ExportOptions& exports, const Dataset& data) {
   faults.throw_if_any();
 }
 
-Campaign with_validation_files(const DataOptions& options) {
-  Campaign campaign{
+JobData with_validation_files(const DataOptions& options) {
+  JobData data{
       load_dataset(options.training, options), load_dataset(options.validation, options), {}};
-  if (std::string leak = leak_note(campaign.training, campaign.validation); !leak.empty())
-    campaign.validation.notes.push_back(std::move(leak));
-  return campaign;
+  if (std::string leak = leak_note(data.training, data.validation); !leak.empty())
+    data.validation.notes.push_back(std::move(leak));
+  return data;
 }
 
-Campaign with_held_out_tests(const DataOptions& options, std::uint64_t seed) {
+JobData with_held_out_tests(const DataOptions& options, std::uint64_t seed) {
   Dataset all = load_dataset(options.training, options);
   Split split = hold_out(all, options.holdout, seed);
-  Campaign campaign{std::move(split.training), std::move(split.validation), {}};
-  if (all.experiments.size() < few_experiments) campaign.undivided = std::move(all);
-  return campaign;
+  JobData data{std::move(split.training), std::move(split.validation), {}};
+  if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
+  return data;
 }
 
 } // namespace
 
-Campaign load_campaign(const Job& job) {
-  Campaign campaign = job.data.validation.empty()
-                          ? with_held_out_tests(job.data, job.calibration.seed)
-                          : with_validation_files(job.data);
-  add_oracle(job.data, campaign);
-  check_export_inputs(job.exports, campaign.training);
-  return campaign;
+JobData load_job_data(const Job& job) {
+  JobData data = job.data.validation.empty() ? with_held_out_tests(job.data, job.calibration.seed)
+                                             : with_validation_files(job.data);
+  add_oracle(job.data, data);
+  check_export_inputs(job.exports, data.training);
+  return data;
 }
 
 } // namespace frictab
