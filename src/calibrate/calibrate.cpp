@@ -137,7 +137,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
   remark_constant_inputs(fit, data);
 }
 
-void fit_network(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
   TrainedNetwork trained = train_network(*fit.model.law, data, fit.model.conventions, options.seed);
   const NetworkRecord& record = trained.record;
   fit.model.law = unregistered_law(std::move(trained.law));
@@ -179,7 +179,7 @@ ModelFit fit_law(const Law& law, const Conventions& conventions, const Calibrati
     fit_parameters(fit, input.training, input.options);
     break;
   case Calibrated::train:
-    fit_network(fit, input.training, input.options);
+    fit_ensemble(fit, input.training, input.options);
     break;
   }
   const auto judge = [&](const Dataset& data, const std::vector<double>& predicted) {

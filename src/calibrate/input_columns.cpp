@@ -16,7 +16,7 @@ namespace frictab {
 
 namespace {
 
-constexpr double settled = 1e-12; // relative change between two rounds
+constexpr double settled_change = 1e-12; // relative change between two rounds
 constexpr int plain_rounds = 20, most_rounds = 80;
 
 // (A column that has the name of a history is not it.)
@@ -198,7 +198,7 @@ Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string>
     out.columns.derive_from_tau(out.tau_MPa);
     evaluate(next);
     const double change = replace_tau(out.tau_MPa, next, round >= plain_rounds);
-    if (!(change > settled)) return out;
+    if (!(change > settled_change)) return out;
     if (round + 1 == most_rounds) does_not_settle(model, data, change);
   }
   return out;

@@ -89,7 +89,7 @@ private:
   }
 
   Expr power() {
-    const Expr base = atom();
+    Expr base = atom();
     if (accept("**")) return pow(base, unary());
     return base;
   }

@@ -63,7 +63,7 @@ void OutputFiles::write(const std::string& path, std::string_view content) {
 
 fs::path OutputFiles::stage(const std::string& path) {
   if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
-  const fs::path file = staging_ / path;
+  fs::path file = staging_ / path;
   fs::create_directories(file.parent_path());
   return file;
 }

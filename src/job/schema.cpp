@@ -121,7 +121,7 @@ const SectionRule* find_section(const std::string& path) {
 
 std::string expected(const KeyRule& rule) {
   if (rule.allowed.names && rule.allowed.noun.empty()) return either(rule.allowed.names());
-  const std::string noun = rule.allowed.names ? "the name of a " + rule.allowed.noun : "a text";
+  std::string noun = rule.allowed.names ? "the name of a " + rule.allowed.noun : "a text";
   switch (rule.type) {
   case KeyType::text:
     return noun;
