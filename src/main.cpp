@@ -2,5 +2,5 @@
 #include "cli/command_line.h"
 
 int main(int argc, char** argv) {
-  return frictab::run_command_line(argc, argv);
+  return frictab::cli::run_command_line(argc, argv);
 }

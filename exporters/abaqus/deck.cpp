@@ -5,6 +5,8 @@
 
 namespace frictab::abaqus {
 
+using namespace codegen;
+
 std::string friction_lines(const std::string& user, std::size_t depvar,
                            const std::vector<SolverInput>& inputs) {
   const std::vector<std::string> values = property_values(inputs);

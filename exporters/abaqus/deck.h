@@ -12,7 +12,7 @@ namespace frictab::abaqus {
 // its data lines, 8 values each. `user` as the keyword has it: "user", "user=friction"; DEPVAR and
 // PROPERTIES are left out where they are 0.
 std::string friction_lines(const std::string& user, std::size_t depvar,
-                           const std::vector<SolverInput>& inputs);
+                           const std::vector<codegen::SolverInput>& inputs);
 
 // The numbers of property lines, eight to a line.
 std::string property_deck(const std::vector<std::string>& values);

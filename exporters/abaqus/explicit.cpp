@@ -11,6 +11,8 @@
 
 namespace frictab::abaqus {
 
+using namespace codegen;
+
 namespace {
 
 // Mean of the secondary surface and, where there is one with values, of the main surface.

@@ -14,8 +14,8 @@ namespace frictab::abaqus {
 
 // A routine reads its states in three places: properties and constants once per call ("once"),
 // temperatures and fields at each point k ("point"), the rest in double precision (ftpnt).
-GivenState explicit_property();
-GivenState explicit_constant();
+codegen::GivenState explicit_property();
+codegen::GivenState explicit_constant();
 
 // What an argument list of the force routines names in its own way.
 struct ForceNames {
@@ -25,13 +25,13 @@ struct ForceNames {
   std::string fields, field, field_main;     // "nPred", "preDefSec(k,@{field})", "preDefMain(...)"
   std::string main; // "numDefTfv", how many values of the main surface there are
 };
-SolverGives force_gives(const ForceNames& names);
+codegen::SolverGives force_gives(const ForceNames& names);
 
 // One history and one force per contact point.
 struct ForceRoutine {
-  Exporter about;
+  codegen::Exporter about;
   std::string entry; // "vfric"
-  SolverGives gives;
+  codegen::SolverGives gives;
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"
   std::string area;                   // "areaSec(jConSecid(k))"
@@ -43,7 +43,7 @@ struct ForceRoutine {
 };
 
 // The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
-Exporter force_exporter(const ForceRoutine& routine);
+codegen::Exporter force_exporter(const ForceRoutine& routine);
 
 // What `explain` says about both alike: unknown states, state variables, precision, sides that
 // refuse.
@@ -53,18 +53,20 @@ std::string force_notes(const std::string& state_name, const std::string& state_
 // area, peak pressure, increments outside the range, and what the solver's precision rounds off the
 // first two. Behind them those of codegen/histories.h, then what is rounded off these.
 inline constexpr unsigned explicit_states = 6;
-std::size_t state_count(const std::vector<SolverInput>& inputs);
+std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
 // For the file's head: comments from the second line on. `remarks` follow the properties.
-std::string explicit_head(const Exporter& exporter, const ExportRequest& request,
-                          const std::vector<SolverInput>& inputs,
+std::string explicit_head(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
+                          const std::vector<codegen::SolverInput>& inputs,
                           const std::vector<std::string>& remarks);
 
 // "double" and "single", with stand-ins for the solver's include and its error routine.
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file);
+std::vector<codegen::BuildVariant> explicit_variants(const codegen::ExportRequest& request,
+                                                     const std::string& file);
 
 // Blocks of contact points as the solver's.
-Driver explicit_driver(const SolverGives& gives, fortran::Coefficient result);
+codegen::Driver explicit_driver(const codegen::SolverGives& gives,
+                                codegen::fortran::Coefficient result);
 
 // compile and compile_note.
 void add_compile(nlohmann::ordered_json& recipe, const std::string& file);

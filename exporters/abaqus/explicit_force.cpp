@@ -18,6 +18,8 @@
 
 namespace frictab::abaqus {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -135,7 +137,7 @@ std::string file_of(const ForceRoutine& routine) {
 
 std::string source(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
-  const Table& table = request.table;
+  const frictab::table::Table& table = request.table;
   const fortran::Core core = fortran::core(
       request, {.unknown = fortran::refuses(table) || fortran::needs_unknown(inputs, routine.gives),
                 .quit = quit(Solver::explicit_),

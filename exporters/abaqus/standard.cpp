@@ -16,6 +16,8 @@
 
 namespace frictab::abaqus {
 
+using namespace codegen;
+
 namespace {
 
 void add_units(TemplateValues& values, const ExportRequest& request) {
@@ -58,7 +60,7 @@ bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& reques
   return exporter.option(request, "abaqus_coefficient") == "start_of_increment";
 }
 
-double smallest_pressure(const Table& table) {
+double smallest_pressure(const frictab::table::Table& table) {
   const auto range = table.range("sigma_n_MPa");
   return range && range->first > 0 ? std::min(1.0, range->first) : 1.0;
 }
@@ -66,7 +68,7 @@ double smallest_pressure(const Table& table) {
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown,
                  const std::vector<std::string>& release) {
-  const Table& table = request.table;
+  const frictab::table::Table& table = request.table;
   fortran::add_head(values, exporter, request, inputs,
                     {.error_action = "STDB_ABQERR ends the analysis",
                      .directory_routine = directory_routine(Solver::standard),

@@ -14,33 +14,37 @@
 namespace frictab::abaqus {
 
 // The option abaqus_coefficient, and whether the request asks for start_of_increment.
-ExportOption coefficient_option();
-bool coefficient_is_frozen(const Exporter& exporter, const ExportRequest& request);
+codegen::ExportOption coefficient_option();
+bool coefficient_is_frozen(const codegen::Exporter& exporter,
+                           const codegen::ExportRequest& request);
 
 // MPa: below it the coefficient tau_R/p is held, since tau_R need not vanish with p. 1, or the low
 // end of a range that goes below that.
-double smallest_pressure(const Table& table);
+double smallest_pressure(const frictab::table::Table& table);
 
 // Fills in what both templates hold: head, histories, core with its gradient, stop, pmin and
 // smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_axes, refuses. Gives whether the
 // core holds ftqnan; `unknown` asks for it in any case. `release` as in fortran::Head.
-bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
-                 const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown,
-                 const std::vector<std::string>& release = {});
+bool add_routine(codegen::TemplateValues& values, const codegen::Exporter& exporter,
+                 const codegen::ExportRequest& request,
+                 const std::vector<codegen::SolverInput>& inputs, const codegen::SolverGives& gives,
+                 bool unknown, const std::vector<std::string>& release = {});
 
 // Adds what keeps n values, of which those of codegen/histories.h are the last, proof against
 // iterations: text states_text (ftbegn, ftkeep), depvar, stamp, first, n_states.
-void add_states(TemplateValues& values, std::size_t n);
+void add_states(codegen::TemplateValues& values, std::size_t n);
 std::size_t states_size(std::size_t n); // state variables it takes
 
 // For the recipe: numbers, units and meanings of n values (those of codegen/histories.h are added),
 // the increment they belong to and their values at its start.
 nlohmann::ordered_json
 state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meaning,
-                const ExportRequest& request, const std::vector<SolverInput>& inputs);
+                const codegen::ExportRequest& request,
+                const std::vector<codegen::SolverInput>& inputs);
 
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
-BuildVariant standard_variant(const ExportRequest& request, const std::string& file);
+codegen::BuildVariant standard_variant(const codegen::ExportRequest& request,
+                                       const std::string& file);
 
 // A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
 inline constexpr double any_pressure = 1024;

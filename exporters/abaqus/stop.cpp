@@ -7,6 +7,8 @@
 
 namespace frictab::abaqus {
 
+using namespace codegen;
+
 namespace {
 
 struct Names {

@@ -16,6 +16,6 @@ std::string quit(Solver solver);
 std::string directory_routine(Solver solver);
 
 // Adds stand-ins for these routines of the solver to how a source is compiled here.
-void add_stand_ins(BuildVariant& variant, Solver solver);
+void add_stand_ins(codegen::BuildVariant& variant, Solver solver);
 
 } // namespace frictab::abaqus

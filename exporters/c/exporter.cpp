@@ -21,6 +21,9 @@
 
 namespace frictab::c_target {
 
+using namespace codegen;
+using table::Table;
+
 namespace {
 
 std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
@@ -49,10 +52,10 @@ template <class Numbers> std::string number_block(const Numbers& numbers) {
   return number_lines(texts, 98, "    ");
 }
 
-TemplateValues axis_values(const TableAxis& axis, std::size_t index, long stride,
+TemplateValues axis_values(const table::TableAxis& axis, std::size_t index, long stride,
                            const std::string& variable) {
-  const AxisSearch search = axis_search(axis.coordinates());
-  const SplineAxis spline = spline_axis(axis);
+  const table::AxisSearch search = table::axis_search(axis.coordinates());
+  const table::SplineAxis spline = table::spline_axis(axis);
   TemplateValues values;
   const std::string number = std::to_string(index);
   values.text = {{"comment", comment_text(fmt::format("axis {}: {}{}", index, axis.log ? "ln " : "",
@@ -137,7 +140,8 @@ std::string values_file(const Table& table, const std::string& comment) {
 
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
-  const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
+  const expr::Statements code =
+      to_statements(table.combine, expr::Language::c, symbol_names(table, inputs));
   const SolverUnit stress = solver_unit("MPa", request.units);
   const bool file = values_in_file(request);
   const std::string comment = comment_text(
@@ -163,7 +167,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   add_state(values, table, inputs, table.combine);
   add_axes(values, table, inputs);
   values.lists["unused"] = items(unused(inputs));
-  if (!symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
+  if (!expr::symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
   values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_tau_R.c", values);
 }
@@ -207,7 +211,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                           "cubic; for the machine that runs it only";
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
-  return json_text(out);
+  return io::json_text(out);
 }
 
 SourceBundle generate(const ExportRequest& request) {

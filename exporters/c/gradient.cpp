@@ -14,11 +14,14 @@
 
 namespace frictab::c_target {
 
+using namespace codegen;
+using table::Table;
+
 namespace {
 
 // The states by which the value inside the formula may change.
 bool behind_value(const Table& table, const InputArgument& input) {
-  return input.axis || (table.extension && symbols(*table.extension).count(input.name));
+  return input.axis || (table.extension && expr::symbols(*table.extension).count(input.name));
 }
 
 TemplateValues numbered(std::size_t index, std::size_t place) {
@@ -39,7 +42,7 @@ void add_states(TemplateValues& values, const Table& table,
     TemplateValues state;
     state.text["index"] = std::to_string(i + 1);
     values.lists["behind"].push_back(state);
-    if (table.extension && symbols(*table.extension).count(inputs[i].name))
+    if (table.extension && expr::symbols(*table.extension).count(inputs[i].name))
       values.lists["of_piece"].push_back(numbered(i + 1, of_piece++));
   }
   values.flags["none_used"] = used == 0;
@@ -51,7 +54,8 @@ void add_axis_slopes(TemplateValues& values, const Table& table,
                      const std::vector<InputArgument>& inputs) {
   const auto rename = symbol_names(table, inputs);
   Lines axes;
-  for (const TableAxis& axis : table.is_direct() ? std::vector<TableAxis>{} : table.axes) {
+  for (const table::TableAxis& axis :
+       table.is_direct() ? std::vector<table::TableAxis>{} : table.axes) {
     const std::string& x = rename.at(axis.name);
     TemplateValues one;
     one.text = {{"index", std::to_string(axes.size())},
@@ -81,10 +85,11 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
                  const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  std::vector<Expr> formulas{table.combine, derivative(table.combine, "value")};
+  std::vector<expr::Expr> formulas{table.combine, derivative(table.combine, "value")};
   for (const InputArgument& input : inputs)
     formulas.push_back(derivative(table.combine, input.name));
-  const SeveralStatements code = to_statements(formulas, Language::c, symbol_names(table, inputs));
+  const expr::SeveralStatements code =
+      to_statements(formulas, expr::Language::c, symbol_names(table, inputs));
   values.lists["statements"] = items(code.lines);
   values.text["result"] =
       stress.same() ? code.results[0] : code.results[0] + " * " + c_number(stress.over);

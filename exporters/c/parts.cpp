@@ -12,6 +12,12 @@
 
 namespace frictab::c_target {
 
+using expr::Expr;
+using expr::symbols;
+using namespace codegen;
+using table::Outside;
+using table::Table;
+
 std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
                                     std::string_view type) {
   std::vector<std::string> pieces;
@@ -87,7 +93,7 @@ std::vector<std::string> sides(const Table& table, const std::vector<InputArgume
                                Outside kind) {
   const auto rename = symbol_names(table, inputs);
   std::vector<std::string> tests;
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
     const bool refuses = kind == Outside::error;
     const std::string& x = rename.at(axis.name);
     if (axis.below == kind)
@@ -143,7 +149,7 @@ namespace {
 Lines counted_axes(const Table& table, const std::vector<InputArgument>& inputs,
                    const std::string& element) {
   Lines axes;
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
     const InputArgument& input = inputs[index_of(inputs, axis.name)];
     TemplateValues one;
     one.text = {{"canonical", canonical(input, element)},
@@ -180,7 +186,8 @@ std::string count_function(const Table& table, const std::vector<InputArgument>&
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  const Statements code = to_statements(table.combine, Language::c, symbol_names(table, inputs));
+  const expr::Statements code =
+      to_statements(table.combine, expr::Language::c, symbol_names(table, inputs));
   TemplateValues values;
   add_state(values, table, inputs, table.combine);
   const std::string law = piece(table, inputs), all = law + join(code.lines, "\n");

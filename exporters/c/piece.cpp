@@ -13,6 +13,12 @@
 
 namespace frictab::c_target {
 
+using expr::Expr;
+using expr::Language;
+using namespace codegen;
+using table::Outside;
+using table::Table;
+
 namespace {
 
 std::string numbers(const std::vector<double>& values) {
@@ -25,8 +31,8 @@ std::string numbers(const std::vector<double>& values) {
 // Axes where the formula is held at an end: h1 stands for x1 there.
 Lines held_axes(const Table& table, std::map<std::string, std::string>& rename) {
   Lines held;
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (!symbols(*table.extension).count(axis.name)) continue;
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
+    if (!expr::symbols(*table.extension).count(axis.name)) continue;
     const std::string x = rename.at(axis.name), h = "h" + x.substr(1);
     std::string value = x;
     if (axis.above != Outside::law)
@@ -48,7 +54,7 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
   const UnitLayer& l = layer ? *layer : none;
   Lines before, features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const Statements code =
+    const expr::Statements code =
         to_statements(l.features[f], Language::c, rename, fmt::format("f{}_", f));
     for (const std::string& line : code.lines)
       before.push_back(item(line));
@@ -118,7 +124,7 @@ std::string piece(const Table& table, const std::vector<InputArgument>& inputs) 
   TemplateValues values;
   const LayeredFormula formula = add_piece(values, table, rename);
   add_layer_data(values, formula.layer);
-  const Statements code = to_statements(formula.rest, Language::c, rename);
+  const expr::Statements code = to_statements(formula.rest, Language::c, rename);
   values.lists["statements"] = items(code.lines);
   values.text["result"] = code.result;
   values.text["quantity"] = comment_text(table.quantity);
@@ -132,7 +138,7 @@ namespace {
 std::string unless_held(const Table& table, const std::string& state, const std::string& x,
                         const std::string& slope) {
   std::string text = slope;
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
     if (axis.name != state) continue;
     if (axis.above != Outside::law)
       text = fmt::format("{} > {} ? 0.0 : {}", x, c_number(axis.high), text);
@@ -142,7 +148,8 @@ std::string unless_held(const Table& table, const std::string& state, const std:
   return text;
 }
 
-std::vector<std::string> from_to(const SeveralStatements& code, std::size_t from, std::size_t to) {
+std::vector<std::string> from_to(const expr::SeveralStatements& code, std::size_t from,
+                                 std::size_t to) {
   return {code.lines.begin() + static_cast<std::ptrdiff_t>(from),
           code.lines.begin() + static_cast<std::ptrdiff_t>(to)};
 }
@@ -159,10 +166,10 @@ void add_slopes(TemplateValues& values, const Table& table,
     rename[layer_slope(f)] = fmt::format("slope{}", f);
   std::vector<std::string> states;
   for (const InputArgument& input : inputs)
-    if (symbols(*table.extension).count(input.name)) states.push_back(input.name);
+    if (expr::symbols(*table.extension).count(input.name)) states.push_back(input.name);
   for (const std::string& state : states)
     formulas.push_back(slope_by(formula, state));
-  const SeveralStatements code = to_statements(formulas, Language::c, rename);
+  const expr::SeveralStatements code = to_statements(formulas, Language::c, rename);
   const std::size_t first = code.first_lines[outputs];
   values.lists["statements"] = items(from_to(code, 0, first));
   values.lists["slope_statements"] = items(from_to(code, first, code.lines.size()));

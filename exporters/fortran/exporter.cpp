@@ -18,6 +18,9 @@
 
 namespace frictab::fortran_target {
 
+using namespace codegen;
+using table::Table;
+
 namespace {
 
 // A list of arguments over several lines; the template sets them in.
@@ -76,7 +79,7 @@ void add_arguments(TemplateValues& values, const ExportRequest& request,
 void add_axes(TemplateValues& values, const Table& table,
               const std::vector<InputArgument>& inputs) {
   values.lists["axes"];
-  for (const AxisEnds& axis : axis_ends(table))
+  for (const table::AxisEnds& axis : table::axis_ends(table))
     for (const InputArgument& input : inputs) {
       if (input.name != axis.name) continue;
       TemplateValues one;
@@ -111,7 +114,7 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
   values.lists["inputs"] = items(argument_lines(request, inputs));
   values.lists["notes"] = items(entry_notes(request));
   values.lists["bits"] = items(outside_bits(table, ""));
-  values.lists["refusing"] = fortran::sides(table, Outside::error);
+  values.lists["refusing"] = fortran::sides(table, table::Outside::error);
   add_arguments(values, request, inputs);
   add_axes(values, table, inputs);
   return render_template("fortran/frictab_tau_R.f90", values);
@@ -161,7 +164,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                     gfortran + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.f90"};
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
-  return json_text(out);
+  return io::json_text(out);
 }
 
 SourceBundle generate(const ExportRequest& request) {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 std::vector<double> experiment_gains(std::span<const double> measured,
                                      std::span<const double> predicted,
@@ -53,8 +53,8 @@ std::optional<double> gain_at_quantile(std::span<const double> gains, double qua
   return gains[i] * std::pow(next / gains[i], at - static_cast<double>(i));
 }
 
-Model at_quantile(const Model& model, double quantile, const Place& place) {
-  Model end = model;
+models::Model at_quantile(const models::Model& model, double quantile, const Place& place) {
+  models::Model end = model;
   end.quantile = quantile;
   if (quantile == 0.5) return end;
   const auto gain = gain_at_quantile(model.experiment_gains, quantile);
@@ -73,7 +73,8 @@ Model at_quantile(const Model& model, double quantile, const Place& place) {
   return end;
 }
 
-BandCheck check_band(const Model& model, std::span<const double> predicted, const Dataset& data) {
+BandCheck check_band(const models::Model& model, std::span<const double> predicted,
+                     const data::Dataset& data) {
   BandCheck check{gain_at_quantile(model.experiment_gains, 0.05),
                   gain_at_quantile(model.experiment_gains, 0.95), 0, data.experiments.size()};
   if (!check.low || !check.high) return check;
@@ -82,4 +83,4 @@ BandCheck check_band(const Model& model, std::span<const double> predicted, cons
   return check;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

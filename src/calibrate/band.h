@@ -11,7 +11,7 @@
 #include "data/dataset.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Least-squares factor of each experiment: sum(measured predicted)/sum(predicted^2). NaN where the
 // law predicts no stress at all.
@@ -39,7 +39,7 @@ std::optional<double> gain_at_quantile(std::span<const double> gains, double qua
 
 // The law at a quantile of the experiments; 0.5 is the law itself. Throws InputError (at `place`)
 // where there are too few experiments for it.
-Model at_quantile(const Model& model, double quantile, const Place& place);
+models::Model at_quantile(const models::Model& model, double quantile, const Place& place);
 
 // How the 5 %..95 % band does on experiments not trained on.
 struct BandCheck {
@@ -48,6 +48,7 @@ struct BandCheck {
   std::size_t inside = 0; // experiments of `data` with their own factor inside
   std::size_t experiments = 0;
 };
-BandCheck check_band(const Model& model, std::span<const double> predicted, const Dataset& data);
+BandCheck check_band(const models::Model& model, std::span<const double> predicted,
+                     const data::Dataset& data);
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -18,14 +18,17 @@
 #include "core/text.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::calibrate {
+
+using data::Dataset;
+using models::Calibrated;
 
 namespace {
 
-std::vector<std::string> missing_for(const Law& law, const Conventions& conventions,
+std::vector<std::string> missing_for(const models::Law& law, const models::Conventions& conventions,
                                      const CalibrationInput& input) {
   std::vector<std::string> missing;
-  std::vector<std::string> needed = inputs(law, conventions);
+  std::vector<std::string> needed = models::inputs(law, conventions);
   if (law.calibrated == Calibrated::train) {
     const auto states = network_inputs(law, input.training);
     needed.insert(needed.end(), states.begin(), states.end());
@@ -39,15 +42,15 @@ std::vector<std::string> missing_for(const Law& law, const Conventions& conventi
 }
 
 struct Selection {
-  std::vector<const Law*> laws;
+  std::vector<const models::Law*> laws;
   std::vector<LeftOut> left_out;
 };
 
-Selection select_laws(const CalibrationInput& input, const Conventions& conventions) {
+Selection select_laws(const CalibrationInput& input, const models::Conventions& conventions) {
   Selection selection;
   FaultList faults;
   const auto& use = input.models.use;
-  for (const Law& law : all_laws()) {
+  for (const models::Law& law : models::all_laws()) {
     const bool asked = std::find(use.begin(), use.end(), law.name) != use.end();
     if (!use.empty() && !asked) continue;
     const auto missing = missing_for(law, conventions, input);
@@ -74,7 +77,7 @@ Selection select_laws(const CalibrationInput& input, const Conventions& conventi
 // the standard error of a mean of experiments.
 void fit_means(ModelFit& fit, const Dataset& data) {
   const auto tau = data.values("tau_R_MPa");
-  for (const Parameter& parameter : fit.model.law->parameters) {
+  for (const models::Parameter& parameter : fit.model.law->parameters) {
     const bool is_mu = parameter.name == "mu";
     const auto per = data.values(is_mu ? "sigma_n_MPa" : "sigma_f_MPa");
     const double factor = is_mu ? 1 : fit.model.conventions.k_over_sigma_f;
@@ -114,7 +117,7 @@ void fit_means(ModelFit& fit, const Dataset& data) {
 }
 
 void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
-  for (const std::string& name : inputs(*fit.model.law, fit.model.conventions)) {
+  for (const std::string& name : models::inputs(*fit.model.law, fit.model.conventions)) {
     const auto values = data.values(name);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     if (*low == *high && std::any_of(fit.std_error.begin(), fit.std_error.end(),
@@ -140,7 +143,7 @@ void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions
 void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
   TrainedNetwork trained = train_network(*fit.model.law, data, fit.model.conventions, options.seed);
   const NetworkRecord& record = trained.record;
-  fit.model.law = unregistered_law(std::move(trained.law));
+  fit.model.law = models::unregistered_law(std::move(trained.law));
   fit.model.parameters = {trained.mu0};
   fit.std_error = {std::numeric_limits<double>::quiet_NaN()};
   fit.std_error_method =
@@ -159,14 +162,15 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
   fit.network = record;
 }
 
-ModelFit fit_law(const Law& law, const Conventions& conventions, const CalibrationInput& input) {
+ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
+                 const CalibrationInput& input) {
   const auto begin = std::chrono::steady_clock::now();
   ModelFit fit;
-  fit.model.law = registered_law(law);
+  fit.model.law = models::registered_law(law);
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:
-    for (const Parameter& parameter : law.parameters)
+    for (const models::Parameter& parameter : law.parameters)
       fit.model.parameters.push_back(parameter.start);
     fit.std_error.assign(law.parameters.size(), 0.0);
     fit.std_error_method = "fixed";
@@ -212,8 +216,8 @@ std::string LeftOut::text() const {
   return law + ": needs " + needs;
 }
 
-Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
-  Conventions conventions;
+models::Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
+  models::Conventions conventions;
   conventions.shear_yield = models.shear_yield;
   conventions.k_over_sigma_f = shear_yield_ratio(models.shear_yield);
   conventions.shear_limit = models.shear_limit && data.has("sigma_f_MPa");
@@ -221,7 +225,7 @@ Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
 }
 
 Calibration calibrate(const CalibrationInput& input) {
-  const Conventions conventions = conventions_of(input.models, input.training);
+  const models::Conventions conventions = conventions_of(input.models, input.training);
   Selection selection = select_laws(input, conventions);
   check_conditional(input);
   Calibration calibration;
@@ -247,17 +251,17 @@ Calibration calibrate(const CalibrationInput& input) {
   return calibration;
 }
 
-std::vector<double> predict(const Model& model, const Dataset& data) {
-  const AssembledLaw law(model);
+std::vector<double> predict(const models::Model& model, const Dataset& data) {
+  const models::AssembledLaw law(model);
   return predict_with_columns(law, law.inputs, data).tau_MPa;
 }
 
 bool is_synthetic(const Dataset& data) {
-  const Column* origin = data.find("origin");
+  const data::Column* origin = data.find("origin");
   return origin &&
          std::any_of(origin->levels.begin(), origin->levels.end(), [](const std::string& level) {
            return level.find("synthetic") != std::string::npos;
          });
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -34,10 +34,10 @@
 #include "data/dataset.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 struct ModelFit {
-  Model model;
+  models::Model model;
   std::vector<double> std_error; // per parameter; NaN where the data do not determine it
   std::string std_error_method;
   std::string termination; // why the solver stopped
@@ -70,14 +70,14 @@ struct Calibration {
 };
 
 struct CalibrationInput {
-  const Dataset& training;
-  const Dataset& validation;
+  const data::Dataset& training;
+  const data::Dataset& validation;
   ModelOptions models;
   CalibrationOptions options;
 };
 
 // The job's conventions, with the shear limit off where the data have no flow stress.
-Conventions conventions_of(const ModelOptions& models, const Dataset& data);
+models::Conventions conventions_of(const ModelOptions& models, const data::Dataset& data);
 
 // Throws InputError where no law can be used, a law asked for by name lacks columns, or
 // options.condition_on_mm cannot be done with these data.
@@ -85,9 +85,9 @@ Calibration calibrate(const CalibrationInput& input);
 
 // tau_R in MPa of every row; histories of the law's own stress are self-consistent. Throws
 // InputError that names the inputs the data do not have.
-std::vector<double> predict(const Model& model, const Dataset& data);
+std::vector<double> predict(const models::Model& model, const data::Dataset& data);
 
 // The data's own word: a column `origin` that says "synthetic".
-bool is_synthetic(const Dataset& data);
+bool is_synthetic(const data::Dataset& data);
 
-} // namespace frictab
+} // namespace frictab::calibrate

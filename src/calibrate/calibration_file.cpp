@@ -13,7 +13,9 @@
 #include "core/text.h"
 #include "io/json.h"
 
-namespace frictab {
+namespace frictab::calibrate {
+
+using models::Law;
 
 namespace {
 
@@ -42,7 +44,7 @@ int whole_seconds_above(double seconds) {
   return static_cast<int>(std::ceil(seconds));
 }
 
-Json conventions_json(const Conventions& c) {
+Json conventions_json(const models::Conventions& c) {
   return {{"shear_yield", c.shear_yield},
           {"k_over_sigma_f", c.k_over_sigma_f},
           {"shear_limit", c.shear_limit}};
@@ -51,7 +53,7 @@ Json conventions_json(const Conventions& c) {
 Json parameters_json(const ModelFit& fit) {
   Json list = Json::array();
   for (std::size_t p = 0; p < fit.model.parameters.size(); ++p) {
-    const Parameter& info = fit.model.law->parameters[p];
+    const models::Parameter& info = fit.model.law->parameters[p];
     list.push_back({{"name", info.name},
                     {"value", fit.model.parameters[p]},
                     {"std_error", fit.std_error[p]},
@@ -105,7 +107,7 @@ NetworkRecord parse_network(const Json& j) {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -113,18 +115,18 @@ std::vector<std::string> law_names() {
 // How the search for parameters was bounded: what a law with a name of its own has to say.
 Json bounds_json(const Law& law) {
   Json list = Json::array();
-  for (const Parameter& p : law.parameters)
+  for (const models::Parameter& p : law.parameters)
     list.push_back({{"start", p.start}, {"lower", p.lower}, {"upper", p.upper}});
   return list;
 }
 
 // The formula of a law that no registry knows: text that reads back to the same bits.
-Json made_law_json(const Law& law, const Conventions& conventions) {
-  const Formula formula = law.build(conventions);
-  Json j = {{"value", to_text(formula.value)},
-            {"combine", to_text(formula.combine)},
+Json made_law_json(const Law& law, const models::Conventions& conventions) {
+  const models::Formula formula = law.build(conventions);
+  Json j = {{"value", expr::to_text(formula.value)},
+            {"combine", expr::to_text(formula.combine)},
             {"log_axes", law.log_axes}};
-  if (find_law(law.name)) return j;
+  if (models::find_law(law.name)) return j;
   j["base"] = law.base;
   j["levels"] = law.levels;
   j["bounds"] = bounds_json(law);
@@ -132,8 +134,8 @@ Json made_law_json(const Law& law, const Conventions& conventions) {
 }
 
 // Parameters as the file lists them.
-std::vector<Parameter> parse_parameters(const Json& list, const Json& bounds) {
-  std::vector<Parameter> parameters;
+std::vector<models::Parameter> parse_parameters(const Json& list, const Json& bounds) {
+  std::vector<models::Parameter> parameters;
   for (std::size_t p = 0; p < list.size(); ++p) {
     const Json& one = list[p];
     const Json& b = bounds.at(p);
@@ -147,17 +149,17 @@ std::vector<Parameter> parse_parameters(const Json& list, const Json& bounds) {
 Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
   const Json& j = fit.at("law");
   const std::string base = j.at("base");
-  if (!find_law(base))
+  if (!models::find_law(base))
     throw InputError({file, 0, 0},
                      fmt::format("law '{}' extends '{}', which is no friction law",
                                  fit.at("name").get<std::string>(), base),
                      suggest(base, law_names()));
-  Law law = *find_law(base);
+  Law law = *models::find_law(base);
   law.name = fit.at("name");
   law.title = fit.at("title");
   law.formula = fit.at("formula");
   law.base = base;
-  law.calibrated = Calibrated::fit;
+  law.calibrated = models::Calibrated::fit;
   law.starts = nullptr;
   law.levels = j.at("levels").get<std::map<std::string, std::vector<std::string>>>();
   law.parameters = parse_parameters(fit.at("parameters"), j.at("bounds"));
@@ -165,17 +167,17 @@ Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
 }
 
 std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::string& file) {
-  const Formula formula{parse_expr(j.at("value").get<std::string>(), file),
-                        parse_expr(j.at("combine").get<std::string>(), file)};
-  law.build = [formula](const Conventions&) { return formula; };
+  const models::Formula formula{expr::parse_expr(j.at("value").get<std::string>(), file),
+                                expr::parse_expr(j.at("combine").get<std::string>(), file)};
+  law.build = [formula](const models::Conventions&) { return formula; };
   law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
-  return unregistered_law(std::move(law));
+  return models::unregistered_law(std::move(law));
 }
 
 std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
   const std::string name = fit.at("name");
-  const Law* known = find_law(name);
-  if (known && !fit.contains("law")) return registered_law(*known);
+  const Law* known = models::find_law(name);
+  if (known && !fit.contains("law")) return models::registered_law(*known);
   if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
     throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
                      suggest(name, law_names()));
@@ -201,7 +203,7 @@ Json fit_json(const ModelFit& fit) {
   Json j = {{"name", fit.model.law->name},
             {"title", fit.model.law->title},
             {"formula", fit.model.law->formula},
-            {"inputs", inputs(*fit.model.law, fit.model.conventions)},
+            {"inputs", models::inputs(*fit.model.law, fit.model.conventions)},
             {"conventions", conventions_json(fit.model.conventions)},
             {"parameters", parameters_json(fit)},
             {"std_error_method", fit.std_error_method},
@@ -214,7 +216,7 @@ Json fit_json(const ModelFit& fit) {
             {"experiment_gains", fit.model.experiment_gains},
             {"band", band_json(fit.band)}};
   if (fit.network) j["training_record"] = network_json(*fit.network);
-  if (!is_registered(*fit.model.law))
+  if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
   return j;
 }
@@ -228,7 +230,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   fit.model.conventions = {c.at("shear_yield"), c.at("k_over_sigma_f"), c.at("shear_limit")};
   const Json& list = j.at("parameters");
   for (std::size_t p = 0; p < fit.model.law->parameters.size(); ++p) {
-    const Parameter& info = fit.model.law->parameters[p];
+    const models::Parameter& info = fit.model.law->parameters[p];
     if (p >= list.size() || list[p].at("name") != info.name)
       throw InputError(
           {file, 0, 0},
@@ -263,23 +265,23 @@ std::string calibration_json(const Calibration& calibration) {
   Json models = Json::array();
   for (const ModelFit& fit : calibration.fits)
     models.push_back(fit_json(fit));
-  return json_text({{"schema", "frictab/calibration/1"},
-                    {"tool_version", FRICTAB_VERSION},
-                    {"data_hash", calibration.data_hash},
-                    {"synthetic_data", calibration.synthetic},
-                    {"loss", loss_name(calibration.loss)},
-                    {"seed", calibration.seed},
-                    {"noise_floor", noise_floors_json(calibration.noise_floors)},
-                    {"models", models},
-                    {"left_out", left_out_json(calibration.left_out)},
-                    {"comparisons", comparisons_json(calibration.comparisons)},
-                    {"conditional", conditional_json(calibration.conditional)}});
+  return io::json_text({{"schema", "frictab/calibration/1"},
+                        {"tool_version", FRICTAB_VERSION},
+                        {"data_hash", calibration.data_hash},
+                        {"synthetic_data", calibration.synthetic},
+                        {"loss", loss_name(calibration.loss)},
+                        {"seed", calibration.seed},
+                        {"noise_floor", noise_floors_json(calibration.noise_floors)},
+                        {"models", models},
+                        {"left_out", left_out_json(calibration.left_out)},
+                        {"comparisons", comparisons_json(calibration.comparisons)},
+                        {"conditional", conditional_json(calibration.conditional)}});
 }
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
-  const Json j = parse_json(text, file);
+  const Json j = io::parse_json(text, file);
   Calibration calibration;
-  read_json(file, "calibrate again", [&] {
+  io::read_json(file, "calibrate again", [&] {
     calibration.data_hash = j.at("data_hash");
     calibration.synthetic = j.at("synthetic_data");
     calibration.seed = j.at("seed");
@@ -313,14 +315,14 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
   for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
                           "experiment_gains", "law"})
     if (body.contains(key)) j[key] = body.at(key);
-  return json_text(j);
+  return io::json_text(j);
 }
 
-Model parse_model(std::string_view text, const std::string& file) {
-  const Json j = parse_json(text, file);
-  Model model;
-  read_json(file, "calibrate again", [&] { model = parse_fit(j, file).model; });
+models::Model parse_model(std::string_view text, const std::string& file) {
+  const Json j = io::parse_json(text, file);
+  models::Model model;
+  io::read_json(file, "calibrate again", [&] { model = parse_fit(j, file).model; });
   return model;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

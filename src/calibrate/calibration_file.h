@@ -6,7 +6,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // calibration.json: every law with parameters, errors, termination. The wall time is given as the
 // next of 10, 60, 600, 3600 seconds above it, so that the same job gives the same bytes.
@@ -15,6 +15,6 @@ Calibration parse_calibration(std::string_view text, const std::string& file);
 
 // models/<name>.json: one law, complete.
 std::string model_json(const ModelFit& fit, const Calibration& calibration);
-Model parse_model(std::string_view text, const std::string& file);
+models::Model parse_model(std::string_view text, const std::string& file);
 
-} // namespace frictab
+} // namespace frictab::calibrate

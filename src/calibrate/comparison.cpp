@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -215,13 +215,13 @@ std::string family_sentence(const Comparisons& comparisons) {
 
 void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   std::vector<LawErrors> laws(calibration.fits.size());
-  const Dataset& data = input.validation;
+  const data::Dataset& data = input.validation;
   parallel_for(laws.size(), [&](std::size_t i) {
-    const Model& model = calibration.fits[i].model;
+    const models::Model& model = calibration.fits[i].model;
     laws[i] = {model.law->name,
                error_sums(data.values("tau_R_MPa"), predict(model, data), data.first_row)};
   });
   calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -9,7 +9,7 @@
 #include "calibrate/judgement.h"
 #include "calibrate/resampling.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 struct Calibration;
 struct CalibrationInput;
@@ -39,4 +39,4 @@ std::string family_sentence(const Comparisons& comparisons);
 // Fills calibration.comparisons for its ranked laws on the validation experiments.
 void add_comparisons(Calibration& calibration, const CalibrationInput& input);
 
-} // namespace frictab
+} // namespace frictab::calibrate

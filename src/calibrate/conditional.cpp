@@ -13,7 +13,9 @@
 #include "core/parallel.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::calibrate {
+
+using data::Dataset;
 
 namespace {
 
@@ -61,7 +63,7 @@ Rest rest_of(const Dataset& data, Rows plain, Rows gained, double x_mm) {
   return rest;
 }
 
-std::vector<double> shear_limit(const Model& model, const Dataset& data) {
+std::vector<double> shear_limit(const models::Model& model, const Dataset& data) {
   std::vector<double> limit;
   if (!model.conventions.shear_limit) return limit;
   for (const double sigma_f : data.values("sigma_f_MPa"))
@@ -69,7 +71,7 @@ std::vector<double> shear_limit(const Model& model, const Dataset& data) {
   return limit;
 }
 
-ConditionalFit fit_of(const Model& model, const CalibrationInput& input, double x_mm) {
+ConditionalFit fit_of(const models::Model& model, const CalibrationInput& input, double x_mm) {
   const GainPrior prior = gain_prior(input.training, predict(model, input.training), x_mm);
   const Dataset& data = input.validation;
   const std::vector<double> plain = predict(model, data);
@@ -233,4 +235,4 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
                    });
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

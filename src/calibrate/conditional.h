@@ -7,7 +7,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Rows with s_mm <= x of one experiment, and what they say.
 struct FirstPart {
@@ -36,11 +36,12 @@ struct GainPrior {
 
 FirstPart first_part(std::span<const double> s_mm, std::span<const double> measured,
                      std::span<const double> predicted, double x_mm);
-GainPrior gain_prior(const Dataset& training, std::span<const double> predicted, double x_mm);
+GainPrior gain_prior(const data::Dataset& training, std::span<const double> predicted, double x_mm);
 
 // Predictions times the gain of their experiment's rest, kept to tau_R <= `limit` (per row;
 // empty: no limit).
-std::vector<double> conditioned_predictions(const Dataset& data, std::span<const double> predicted,
+std::vector<double> conditioned_predictions(const data::Dataset& data,
+                                            std::span<const double> predicted,
                                             std::span<const double> limit, const GainPrior& prior,
                                             double x_mm);
 
@@ -49,4 +50,4 @@ void check_conditional(const CalibrationInput& input);
 // Fills calibration.conditional where the job asks for it.
 void add_conditional(Calibration& calibration, const CalibrationInput& input);
 
-} // namespace frictab
+} // namespace frictab::calibrate

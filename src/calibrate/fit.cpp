@@ -10,7 +10,7 @@
 
 #include "calibrate/normal_equations.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -21,10 +21,10 @@ using Eigen::VectorXd;
 // What a step moves: the parameter, or its logarithm where its bounds say that it is a positive
 // scale of unknown size. In C p^a the scale C and the exponent a trade off against each other along
 // a curved valley; with ln C it is a straight one, along which a step can go.
-double to_step_scale(const Parameter& p, double value) {
+double to_step_scale(const models::Parameter& p, double value) {
   return is_scale(p) ? std::log(value) : value;
 }
-double from_step_scale(const Parameter& p, double moved) {
+double from_step_scale(const models::Parameter& p, double moved) {
   return std::clamp(is_scale(p) ? std::exp(moved) : moved, p.lower, p.upper);
 }
 
@@ -73,7 +73,7 @@ Step bounded_step(const FitProblem& problem, const NormalEquations& n, std::vect
     std::vector<Index> inside;
     for (std::size_t a = 0; a < free.size(); ++a) {
       const auto i = static_cast<std::size_t>(free[a]);
-      const Parameter& p = problem.parameters[i];
+      const models::Parameter& p = problem.parameters[i];
       const double here = to_step_scale(p, x[i]), low = to_step_scale(p, p.lower),
                    high = to_step_scale(p, p.upper);
       const double wanted = here + part(static_cast<Index>(a));
@@ -91,7 +91,7 @@ Step bounded_step(const FitProblem& problem, const NormalEquations& n, std::vect
   }
   Step result{x, step.dot(n.descent) - 0.5 * step.dot(n.hessian * step)};
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Parameter& p = problem.parameters[i];
+    const models::Parameter& p = problem.parameters[i];
     const double move = step(static_cast<Index>(i));
     if (move != 0) result.to[i] = from_step_scale(p, to_step_scale(p, x[i]) + move);
   }
@@ -199,7 +199,7 @@ private:
     VectorXd step(size), scale(size);
     for (Index i = 0; i < size; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const Parameter& p = problem_.parameters[at];
+      const models::Parameter& p = problem_.parameters[at];
       step(i) = to_step_scale(p, to[at]) - to_step_scale(p, x_[at]);
       scale(i) = there.hessian(i, i) > 0 ? std::sqrt(there.hessian(i, i)) : 1;
     }
@@ -262,4 +262,4 @@ FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vec
   return Solver(problem, loss, std::move(start), options).run();
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -20,13 +20,13 @@
 #include "expr/program.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // The rows a law is fitted to: its formula bound to their columns, and the measured tau_R in MPa.
 struct FitProblem {
-  const BoundProgram& law; // scalars = parameters
+  const expr::BoundProgram& law; // scalars = parameters
   std::span<const double> measured;
-  std::span<const Parameter> parameters; // bounds, which may be infinite
+  std::span<const models::Parameter> parameters; // bounds, which may be infinite
 };
 
 struct FitResult {
@@ -41,7 +41,7 @@ struct FitResult {
 
 // Whether a parameter's bounds say that it is a positive scale of unknown size: it is then searched
 // and stepped by its logarithm.
-inline bool is_scale(const Parameter& p) {
+inline bool is_scale(const models::Parameter& p) {
   return p.lower > 0 && p.upper > 1e5 * p.lower && p.upper < 1e300;
 }
 
@@ -59,4 +59,4 @@ struct FitOptions {
 FitResult fit_from(const FitProblem& problem, const LossFunction& loss, std::vector<double> start,
                    const FitOptions& options = {});
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t folds,
                                           std::uint64_t seed, std::uint64_t repeat) {
@@ -28,7 +28,7 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
 namespace {
 
 // One experiment's rows in the given columns, as a key.
-std::string rows_of(const Dataset& data, std::size_t experiment,
+std::string rows_of(const data::Dataset& data, std::size_t experiment,
                     const std::vector<std::string>& names) {
   std::string key;
   const std::size_t first = data.first_row[experiment], end = data.first_row[experiment + 1];
@@ -41,9 +41,9 @@ std::string rows_of(const Dataset& data, std::size_t experiment,
 
 } // namespace
 
-std::string leak_note(const Dataset& training, const Dataset& validation) {
+std::string leak_note(const data::Dataset& training, const data::Dataset& validation) {
   std::vector<std::string> names;
-  for (const Column& column : validation.columns)
+  for (const data::Column& column : validation.columns)
     if (column.levels.empty() && training.has(column.name)) names.push_back(column.name);
   std::set<std::string> known;
   for (std::size_t e = 0; e < training.experiments.size(); ++e)
@@ -57,4 +57,4 @@ std::string leak_note(const Dataset& training, const Dataset& validation) {
                      shared, validation.experiments.size());
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -8,7 +8,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // The fold, 0 .. folds-1, of each experiment, drawn by seed and repeat. Fold sizes differ by one
 // experiment at most, and no fold is empty. Throws InputError where there are fewer than 2 folds or
@@ -18,6 +18,6 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
 
 // For two files, where equal names prove nothing: says how many validation experiments have the
 // very rows of a training experiment (every column both have, bit for bit). Empty where none has.
-std::string leak_note(const Dataset& training, const Dataset& validation);
+std::string leak_note(const data::Dataset& training, const data::Dataset& validation);
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -12,7 +12,9 @@
 #include "effects/extended_law.h"
 #include "expr/program.h"
 
-namespace frictab {
+namespace frictab::calibrate {
+
+using data::Dataset;
 
 namespace {
 
@@ -20,16 +22,16 @@ constexpr double settled_change = 1e-12; // relative change between two rounds
 constexpr int plain_rounds = 20, most_rounds = 80;
 
 // (A column that has the name of a history is not it.)
-const Column* recorded_column(const std::string& name, const Dataset& data) {
-  if (find_derived(name)) return nullptr;
-  if (const Column* column = data.find(name)) return column;
-  for (const Column& column : data.columns)
-    if (symbol_of(column.name) == name) return &column;
+const data::Column* recorded_column(const std::string& name, const Dataset& data) {
+  if (data::find_derived(name)) return nullptr;
+  if (const data::Column* column = data.find(name)) return column;
+  for (const data::Column& column : data.columns)
+    if (effects::symbol_of(column.name) == name) return &column;
   return nullptr;
 }
 
 // What a history lacks to be derived.
-std::vector<std::string> missing_needs(const DerivedQuantity& derived, const Dataset& data) {
+std::vector<std::string> missing_needs(const data::DerivedQuantity& derived, const Dataset& data) {
   std::vector<std::string> names;
   for (const std::string& need : derived.needs)
     if (need != "tau" && !data.has(need)) names.push_back(need);
@@ -37,7 +39,7 @@ std::vector<std::string> missing_needs(const DerivedQuantity& derived, const Dat
 }
 
 bool follows_tau(const std::string& name) {
-  const DerivedQuantity* derived = find_derived(name);
+  const data::DerivedQuantity* derived = data::find_derived(name);
   return derived && std::count(derived->needs.begin(), derived->needs.end(), "tau") > 0;
 }
 
@@ -46,7 +48,7 @@ Place place_of(const Dataset& data) {
 }
 
 // A text column's numbers by the law's levels: files number those that they have.
-std::vector<double> renumbered(const Column& column, const std::vector<std::string>& levels,
+std::vector<double> renumbered(const data::Column& column, const std::vector<std::string>& levels,
                                const Dataset& data) {
   if (column.levels.empty())
     throw InputError(place_of(data), "column " + column.name + " holds numbers",
@@ -74,7 +76,7 @@ std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
   std::vector<std::string> missing;
   for (const std::string& name : names) {
     if (recorded_column(name, data)) continue;
-    const DerivedQuantity* derived = find_derived(name);
+    const data::DerivedQuantity* derived = data::find_derived(name);
     const auto from = derived ? missing_needs(*derived, data) : std::vector<std::string>{};
     if (!derived)
       missing.push_back(name);
@@ -84,7 +86,8 @@ std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
   return missing;
 }
 
-InputColumns::InputColumns(const Law& law, std::vector<std::string> names, const Dataset& data)
+InputColumns::InputColumns(const models::Law& law, std::vector<std::string> names,
+                           const Dataset& data)
     : data_(&data), names_(std::move(names)), own_(names_.size()), follows_(names_.size()) {
   if (const auto missing = missing_inputs(names_, data); !missing.empty())
     throw InputError(
@@ -98,9 +101,9 @@ InputColumns::InputColumns(const Law& law, std::vector<std::string> names, const
   }
 }
 
-const double* InputColumns::find(const Law& law, std::size_t input) {
+const double* InputColumns::find(const models::Law& law, std::size_t input) {
   const std::string& name = names_[input];
-  const Column* column = recorded_column(name, *data_);
+  const data::Column* column = recorded_column(name, *data_);
   const auto levels = law.levels.find(name);
   if (column && levels == law.levels.end()) {
     if (!column->levels.empty())
@@ -115,7 +118,7 @@ const double* InputColumns::find(const Law& law, std::size_t input) {
   else if (follows_[input])
     own_[input].assign(data_->rows(), 0.0);
   else
-    own_[input] = derive(*find_derived(name), *data_, {});
+    own_[input] = data::derive(*data::find_derived(name), *data_, {});
   return own_[input].data();
 }
 
@@ -126,7 +129,7 @@ bool InputColumns::need_tau() const {
 void InputColumns::derive_from_tau(std::span<const double> tau) {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!follows_[i]) continue;
-    own_[i] = derive(*find_derived(names_[i]), *data_, tau);
+    own_[i] = data::derive(*data::find_derived(names_[i]), *data_, tau);
     pointers_[i] = own_[i].data();
   }
 }
@@ -161,7 +164,7 @@ double replace_tau(std::vector<double>& tau, const std::vector<double>& next, bo
   return change / std::max(largest(next), 1e-300);
 }
 
-[[noreturn]] void does_not_settle(const Model& model, const Dataset& data, double change) {
+[[noreturn]] void does_not_settle(const models::Model& model, const Dataset& data, double change) {
   throw InputError(place_of(data),
                    fmt::format("the shear stress of {} does not settle: it depends on a history "
                                "of itself, and still changes by {:.2g} of its value",
@@ -182,10 +185,10 @@ std::vector<const double*> pointers_to(const InputColumns& columns,
 
 } // namespace
 
-Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string> names,
+Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std::string> names,
                                const Dataset& data) {
-  const Model& model = law.model;
-  const Program program(law.tau_R, law.inputs, law.parameters);
+  const models::Model& model = law.model;
+  const expr::Program program(law.tau_R, law.inputs, law.parameters);
   Predicted out{InputColumns(*model.law, std::move(names), data), std::vector<double>(data.rows())};
   const auto evaluate = [&](std::vector<double>& tau) {
     program.evaluate(data.rows(), pointers_to(out.columns, law.inputs), model.parameters,
@@ -204,11 +207,11 @@ Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string>
   return out;
 }
 
-InputColumns input_columns(const AssembledLaw& law, std::vector<std::string> names,
+InputColumns input_columns(const models::AssembledLaw& law, std::vector<std::string> names,
                            const Dataset& data) {
   InputColumns columns(*law.model.law, names, data);
   if (!columns.need_tau()) return columns;
   return predict_with_columns(law, std::move(names), data).columns;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

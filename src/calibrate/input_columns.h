@@ -9,11 +9,12 @@
 #include "data/dataset.h"
 #include "models/assembled_law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Which of these inputs the data neither record nor allow to derive: "humidity_pct", "friction_work
 // (from s_mm)".
-std::vector<std::string> missing_inputs(const std::vector<std::string>& names, const Dataset& data);
+std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
+                                        const data::Dataset& data);
 
 // An input with the name of a derived quantity (data/derived.h) is that, whatever is recorded; any
 // other is a recorded column, found by its name or by its symbol_of. Numbers of a text column are
@@ -22,7 +23,7 @@ class InputColumns {
 public:
   // The data must outlive this. Throws InputError that names all inputs the data do not have, and
   // levels the law does not know.
-  InputColumns(const Law& law, std::vector<std::string> names, const Dataset& data);
+  InputColumns(const models::Law& law, std::vector<std::string> names, const data::Dataset& data);
 
   InputColumns(InputColumns&&) = default; // not copied: columns may lie in it
   InputColumns& operator=(InputColumns&&) = default;
@@ -39,9 +40,9 @@ public:
   std::vector<std::vector<double>> values() const; // copies
 
 private:
-  const double* find(const Law& law, std::size_t input);
+  const double* find(const models::Law& law, std::size_t input);
 
-  const Dataset* data_;
+  const data::Dataset* data_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> own_; // per input; empty: the dataset's own
   std::vector<bool> follows_;
@@ -54,11 +55,11 @@ struct Predicted {
   InputColumns columns;
   std::vector<double> tau_MPa;
 };
-Predicted predict_with_columns(const AssembledLaw& law, std::vector<std::string> names,
-                               const Dataset& data);
+Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std::string> names,
+                               const data::Dataset& data);
 
 // The columns alone; nothing is predicted where no history asks for it.
-InputColumns input_columns(const AssembledLaw& law, std::vector<std::string> names,
-                           const Dataset& data);
+InputColumns input_columns(const models::AssembledLaw& law, std::vector<std::string> names,
+                           const data::Dataset& data);
 
-} // namespace frictab
+} // namespace frictab::calibrate

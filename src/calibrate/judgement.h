@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 struct Interval {
   double low = 0;
@@ -89,4 +89,4 @@ struct Conditional {
   std::vector<ConditionalFit> laws; // by conditional MAE
 };
 
-} // namespace frictab
+} // namespace frictab::calibrate

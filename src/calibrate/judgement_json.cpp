@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -188,4 +188,4 @@ Conditional parse_conditional(const Json& j) {
   return c;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

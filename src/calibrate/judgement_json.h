@@ -5,7 +5,7 @@
 
 #include "calibrate/judgement.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // NaN and infinities are null in JSON.
 double number_or_nan(const nlohmann::ordered_json& value);
@@ -24,4 +24,4 @@ std::vector<NoiseFloor> parse_noise_floors(const nlohmann::ordered_json& j);
 nlohmann::ordered_json conditional_json(const Conditional& conditional);
 Conditional parse_conditional(const nlohmann::ordered_json& j);
 
-} // namespace frictab
+} // namespace frictab::calibrate

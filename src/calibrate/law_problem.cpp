@@ -11,7 +11,7 @@
 #include "calibrate/normal_equations.h"
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr std::size_t coarse_rows = 2800; // enough to come within a standard er
 
 std::vector<double> default_start(const FitProblem& problem) {
   std::vector<double> start;
-  for (const Parameter& p : problem.parameters)
+  for (const models::Parameter& p : problem.parameters)
     start.push_back(p.start);
   return start;
 }
@@ -29,7 +29,7 @@ std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
   std::vector<double> unit(problem.parameters.size()), start;
   halton(index, unit);
   for (std::size_t p = 0; p < unit.size(); ++p) {
-    const Parameter& b = problem.parameters[p];
+    const models::Parameter& b = problem.parameters[p];
     start.push_back(is_scale(b) ? b.lower * std::pow(b.upper / b.lower, unit[p])
                                 : b.lower + unit[p] * (b.upper - b.lower));
   }
@@ -40,7 +40,7 @@ std::vector<double> halton_start(const FitProblem& problem, std::size_t index) {
 std::vector<double> direct_start(const FitProblem& problem, const LossFunction& loss) {
   const std::size_t size = problem.parameters.size();
   std::vector<double> lower, upper, x = default_start(problem);
-  for (const Parameter& p : problem.parameters) {
+  for (const models::Parameter& p : problem.parameters) {
     lower.push_back(p.lower);
     upper.push_back(p.upper);
   }
@@ -136,9 +136,10 @@ void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
 
 } // namespace
 
-LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dataset& data)
-    : law_(law), conventions_(conventions), data_(data), names_(inputs(law, conventions)),
-      program_(tau_formula(law, conventions), names_, parameter_names(law)) {
+LawProblem::LawProblem(const models::Law& law, const models::Conventions& conventions,
+                       const data::Dataset& data)
+    : law_(law), conventions_(conventions), data_(data), names_(models::inputs(law, conventions)),
+      program_(models::tau_formula(law, conventions), names_, models::parameter_names(law)) {
   if (data.rows() >= 4 * few_rows) add_thinned(data, few_rows);
   if (data.rows() >= 4 * coarse_rows) add_thinned(data, coarse_rows);
   Level all;
@@ -151,14 +152,14 @@ LawProblem::LawProblem(const Law& law, const Conventions& conventions, const Dat
 
 LawProblem::Starts LawProblem::law_starts() const {
   if (!law_.starts) return {};
-  TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
+  models::TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
   for (const std::string& name : names_)
     rows[name] = data_.values(name);
   return law_.starts(conventions_, rows);
 }
 
 // Evenly spaced rows, so that every experiment is seen in proportion.
-void LawProblem::add_thinned(const Dataset& data, std::size_t rows) {
+void LawProblem::add_thinned(const data::Dataset& data, std::size_t rows) {
   Level& level = levels_.emplace_back();
   std::vector<std::string> names = names_;
   names.push_back("tau_R_MPa");
@@ -265,4 +266,4 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
   if (settled.cost <= here * (1 + 1e-9)) result.parameters = settled.parameters;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -10,7 +10,7 @@
 #include "calibrate/sandwich.h"
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 struct LawFit {
   FitResult result;
@@ -22,7 +22,8 @@ struct LawFit {
 class LawProblem {
 public:
   // The data must have inputs(law) and tau_R_MPa, and outlive the problem.
-  LawProblem(const Law& law, const Conventions& conventions, const Dataset& data);
+  LawProblem(const models::Law& law, const models::Conventions& conventions,
+             const data::Dataset& data);
 
   // The best fit found. L1 is rounded off over a thousandth of the residuals; with one parameter it
   // is exact (weighted median).
@@ -39,21 +40,21 @@ private:
     std::vector<std::vector<double>> kept; // of a thinned copy: columns, then tau_R
     std::vector<const double*> columns;
     std::span<const double> measured;
-    std::optional<BoundProgram> formula;
+    std::optional<expr::BoundProgram> formula;
   };
   FitProblem problem(const Level& level) const;
-  void add_thinned(const Dataset& data, std::size_t rows);
+  void add_thinned(const data::Dataset& data, std::size_t rows);
   std::vector<FitResult> search(const Level& level, const Starts& offered,
                                 LossFunction& loss) const;
 
   Starts law_starts() const; // the law's own
 
-  const Law& law_;
-  Conventions conventions_;
-  const Dataset& data_;
+  const models::Law& law_;
+  models::Conventions conventions_;
+  const data::Dataset& data_;
   std::vector<std::string> names_;
-  Program program_;
+  expr::Program program_;
   std::deque<Level> levels_; // coarse to fine; the last has all rows
 };
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -6,7 +6,7 @@
 
 #include "calibrate/options.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 struct LossFunction {
   Loss kind = Loss::l2;
@@ -66,4 +66,4 @@ struct LossFunction {
   }
 };
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -7,7 +7,7 @@
 
 #include "calibrate/normal_equations.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -48,7 +48,7 @@ double weighted_median(std::vector<Point> points) {
 
 void exact_median(const FitProblem& problem, FitResult& fit) {
   const LossFunction absolute{Loss::l1, 0};
-  const Parameter& bounds = problem.parameters[0];
+  const models::Parameter& bounds = problem.parameters[0];
   fit.cost = mean_cost(problem, absolute, fit.parameters);
   ++fit.evaluations;
   fit.termination = "converged: weighted median";
@@ -57,7 +57,7 @@ void exact_median(const FitProblem& problem, FitResult& fit) {
     const double p = fit.parameters[0];
     std::vector<Point> points;
     points.reserve(problem.measured.size());
-    problem.law.sweep(fit.parameters, true, [&](const BoundProgram::Block& b) {
+    problem.law.sweep(fit.parameters, true, [&](const expr::BoundProgram::Block& b) {
       for (std::size_t k = 0; k < b.count; ++k)
         if (const double g = b.derivative[0][k]; g != 0)
           points.push_back({p + (problem.measured[b.first + k] - b.value[k]) / g, std::abs(g)});
@@ -75,4 +75,4 @@ void exact_median(const FitProblem& problem, FitResult& fit) {
   }
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

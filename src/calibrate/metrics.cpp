@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -105,4 +105,4 @@ Metrics metrics(std::span<const double> measured, std::span<const double> predic
   return metrics(error_sums(measured, predicted, first_row), resamples, seed);
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -7,7 +7,7 @@
 #include "calibrate/judgement.h"
 #include "calibrate/resampling.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Intervals: bootstrap-t over whole experiments (Efron 1981; Davison and Hinkley 1997, ch. 5),
 // equal tails. Chosen by simulation: 1500 campaigns whose experiments differ by a gain of 8.6 %,
@@ -24,4 +24,4 @@ Metrics metrics(std::span<const double> measured, std::span<const double> predic
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed);
 Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uint64_t seed);
 
-} // namespace frictab
+} // namespace frictab::calibrate

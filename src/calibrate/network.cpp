@@ -15,7 +15,7 @@
 #include "core/random.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -33,7 +33,7 @@ struct Binning {
   std::vector<std::size_t> first; // row of each bin, and the end
   std::vector<Index> first_bin;   // of each experiment, and the end
 
-  explicit Binning(const Dataset& data) : first_bin{0} {
+  explicit Binning(const data::Dataset& data) : first_bin{0} {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const std::size_t from = data.first_row[e], rows = data.first_row[e + 1] - from;
       const std::size_t bins = std::min(rows, bins_per_experiment);
@@ -64,12 +64,14 @@ struct Binning {
   }
 };
 
-NetworkInput scaling(const std::string& name, std::span<const double> rows, const VectorXd& bins) {
-  NetworkInput input{.name = name};
+models::NetworkInput scaling(const std::string& name, std::span<const double> rows,
+                             const VectorXd& bins) {
+  models::NetworkInput input{.name = name};
   const double smallest = *std::min_element(rows.begin(), rows.end());
   const double low = bins.minCoeff(), high = bins.maxCoeff();
   // Degrees Celsius have no zero to count decades from.
-  input.log = find_quantity(name)->unit != "degC" && smallest >= 0 && low > 0 && high >= 10 * low;
+  input.log =
+      data::find_quantity(name)->unit != "degC" && smallest >= 0 && low > 0 && high >= 10 * low;
   if (input.log) {
     input.offset = low - smallest;
     input.floor = input.offset > 0 ? 0 : 1e-3 * low;
@@ -82,13 +84,14 @@ NetworkInput scaling(const std::string& name, std::span<const double> rows, cons
 }
 
 struct TrainingSet {
-  std::vector<NetworkInput> inputs;
+  std::vector<models::NetworkInput> inputs;
   NetworkBins bins;
   NetworkShape shape;
   double mu0 = 0; // Coulomb's least squares; 0 without any load
 };
 
-TrainingSet prepare(const Law& law, const Dataset& data, const Conventions& conventions) {
+TrainingSet prepare(const models::Law& law, const data::Dataset& data,
+                    const models::Conventions& conventions) {
   const Binning binning(data);
   TrainingSet set;
   NetworkBins& bins = set.bins;
@@ -277,7 +280,7 @@ std::vector<double> held_out_rmse(const std::vector<std::vector<NetworkFit>>& pa
 
 NetworkRecord describe(const TrainingSet& set, const std::vector<VectorXd>& members) {
   NetworkRecord record;
-  for (const NetworkInput& input : set.inputs)
+  for (const models::NetworkInput& input : set.inputs)
     record.inputs.push_back(input.name);
   record.hidden = hidden_units;
   record.members = members.size();
@@ -289,7 +292,7 @@ NetworkRecord describe(const TrainingSet& set, const std::vector<VectorXd>& memb
 
 } // namespace
 
-std::vector<std::string> network_inputs(const Law& law, const Dataset& data) {
+std::vector<std::string> network_inputs(const models::Law& law, const data::Dataset& data) {
   std::vector<std::string> names;
   for (const std::string& name : law.may_use) {
     if (!data.has(name)) continue;
@@ -304,8 +307,8 @@ std::string network_size(const NetworkRecord& record) {
   return fmt::format("{} nets of {} weights", record.members, record.weights);
 }
 
-TrainedNetwork train_network(const Law& law, const Dataset& training,
-                             const Conventions& conventions, std::uint64_t seed) {
+TrainedNetwork train_network(const models::Law& law, const data::Dataset& training,
+                             const models::Conventions& conventions, std::uint64_t seed) {
   const TrainingSet set = prepare(law, training, conventions);
   const Training nets(set, seed);
   const NetworkScatter scatter = nets.scatter();
@@ -318,7 +321,7 @@ TrainedNetwork train_network(const Law& law, const Dataset& training,
   for (const auto& path : paths)
     members.push_back(path[best].weights);
   members = without_failed(set, std::move(members));
-  Network network{set.inputs, hidden_units, {}};
+  models::Network network{set.inputs, hidden_units, {}};
   for (const VectorXd& w : members)
     network.members.emplace_back(w.begin(), w.end());
 
@@ -335,7 +338,8 @@ TrainedNetwork train_network(const Law& law, const Dataset& training,
   for (const auto& path : paths)
     for (const NetworkFit& fit : path)
       record.iterations += fit.iterations;
-  return {neural_network(network), set.mu0, nets.held_out_gains(paths, best), std::move(record)};
+  return {models::neural_network(network), set.mu0, nets.held_out_gains(paths, best),
+          std::move(record)};
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -9,7 +9,7 @@
 #include "data/dataset.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // What was tried and what came out; goes to calibration.json.
 struct NetworkRecord {
@@ -35,7 +35,7 @@ struct NetworkRecord {
 std::string network_size(const NetworkRecord& record);
 
 struct TrainedNetwork {
-  Law law; // its own formula; parameter mu0
+  models::Law law; // its own formula; parameter mu0
   double mu0 = 0;
   std::vector<double> held_out_gains; // per experiment, by nets that were not trained on it
   NetworkRecord record;
@@ -45,11 +45,11 @@ struct TrainedNetwork {
 constexpr std::size_t network_experiments = 5;
 
 // Of the states that the law may use, those that vary in the data.
-std::vector<std::string> network_inputs(const Law& law, const Dataset& data);
+std::vector<std::string> network_inputs(const models::Law& law, const data::Dataset& data);
 
 // Trains on whole experiments of `training` (at least network_experiments, at least one input);
 // the result depends on data and seed alone, not on the number of threads.
-TrainedNetwork train_network(const Law& law, const Dataset& training,
-                             const Conventions& conventions, std::uint64_t seed);
+TrainedNetwork train_network(const models::Law& law, const data::Dataset& training,
+                             const models::Conventions& conventions, std::uint64_t seed);
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -6,7 +6,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -196,4 +196,4 @@ NetworkFit fit_network(const NetworkProblem& problem, VectorXd start) {
   return fit;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -17,7 +17,7 @@
 
 #include "models/neural_network.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Experiments cut into bins of consecutive rows, averaged: rows inside an experiment are so alike
 // that single rows add time and no information.
@@ -43,7 +43,7 @@ struct NetworkShape {
   std::size_t inputs = 0;
   std::size_t hidden = 0;
   Eigen::Index weights() const {
-    return static_cast<Eigen::Index>(Network::weights(inputs, hidden));
+    return static_cast<Eigen::Index>(models::Network::weights(inputs, hidden));
   }
 };
 
@@ -80,4 +80,4 @@ struct NetworkProblem {
 // Stops early when the held-out experiments have not improved for some iterations.
 NetworkFit fit_network(const NetworkProblem& problem, Eigen::VectorXd start);
 
-} // namespace frictab
+} // namespace frictab::calibrate

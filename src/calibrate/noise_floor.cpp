@@ -10,7 +10,7 @@
 #include "calibrate/replicates.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -43,7 +43,7 @@ constexpr std::size_t no_row = static_cast<std::size_t>(-1);
 // its sliding distance fits, else the nearest distance. `s` may be empty: position alone counts.
 class Partner {
 public:
-  Partner(const Dataset& data)
+  Partner(const data::Dataset& data)
       : first_(data.first_row), s_(data.has("s_mm") ? data.values("s_mm") : Rows{}) {
     if (s_.empty()) return;
     const auto [low, high] = std::minmax_element(s_.begin(), s_.end());
@@ -70,7 +70,7 @@ private:
 
 // One experiment against the others of its group, scaled to the scatter of a single one.
 void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std::size_t own,
-                     const Dataset& data, const Partner& partner) {
+                     const data::Dataset& data, const Partner& partner) {
   const Rows tau = data.values("tau_R_MPa");
   for (std::size_t i = data.first_row[own]; i < data.first_row[own + 1]; ++i) {
     double sum = 0, others = 0;
@@ -129,14 +129,14 @@ ErrorSums scatter_within(Rows tau) {
 
 } // namespace
 
-std::optional<NoiseFloor> oracle_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> oracle_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed) {
   if (data.oracle_MPa.empty()) return {};
   return floor_of("oracle", error_sums(data.values("tau_R_MPa"), data.oracle_MPa, data.first_row),
                   resamples, seed);
 }
 
-std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t resamples,
                                           std::uint64_t seed) {
   const auto groups = replicate_groups(data);
   const Partner partner(data);
@@ -157,7 +157,7 @@ std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resam
   return floor;
 }
 
-std::optional<NoiseFloor> within_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed) {
   const Rows tau = data.values("tau_R_MPa");
   std::vector<ErrorSums> sums;
@@ -215,4 +215,4 @@ std::string noise_floor_advice(const Calibration& calibration) {
   return known ? "" : "repeat some tests at the same set levels to know it";
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -8,17 +8,17 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // oracle: error of the noise-free stress that synthetic data bring with them (data.oracle).
-std::optional<NoiseFloor> oracle_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> oracle_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed);
 
 // replicates: each row against the mean of the other replicates at the same row, or at the nearest
 // sliding distance (at most 1 % of its range away). With n replicates of variance S that difference
 // has the variance S n/(n-1); each one is multiplied by sqrt((n-1)/n). The RMSE is then unbiased in
 // its square for any distribution; the MAE is unbiased for normal scatter.
-std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t resamples,
                                           std::uint64_t seed);
 
 // within_experiments: scatter around a straight line through the neighbouring rows (a twentieth of
@@ -26,7 +26,7 @@ std::optional<NoiseFloor> replicate_floor(const Dataset& data, std::size_t resam
 // residual is too small: it is divided by sqrt(1 - h). A lower bound: factors
 // that a whole experiment shares, and slow ones, are not in it. None where no experiment has 9
 // rows.
-std::optional<NoiseFloor> within_floor(const Dataset& data, std::size_t resamples,
+std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed);
 
 // All that the data allow, for validation and training; the one to trust most comes first: the
@@ -44,4 +44,4 @@ std::string noise_floor_advice(const Calibration& calibration);
 // "the twin's own truth" -> table cell: "oracle (synthetic data only)".
 std::string noise_floor_name(const NoiseFloor& floor);
 
-} // namespace frictab
+} // namespace frictab::calibrate

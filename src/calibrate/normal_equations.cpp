@@ -6,7 +6,7 @@
 
 #include "core/wide.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -39,7 +39,7 @@ FRICTAB_WIDE double sum(const double* a, std::size_t n) {
          rest;
 }
 
-constexpr std::size_t block = Program::block;
+constexpr std::size_t block = expr::Program::block;
 
 // What the loss makes of a block's residuals.
 struct Terms {
@@ -120,7 +120,7 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
                  std::span<const double> parameters) {
   double total = 0;
   Terms terms;
-  problem.law.sweep(parameters, false, [&](const BoundProgram::Block& b) {
+  problem.law.sweep(parameters, false, [&](const expr::BoundProgram::Block& b) {
     fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, false, false);
     total += sum(terms.cost, b.count);
   });
@@ -132,7 +132,7 @@ NormalEquations normal_equations(const FitProblem& problem, const LossFunction& 
   const auto size = static_cast<Eigen::Index>(parameters.size());
   NormalEquations n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   Terms terms;
-  problem.law.sweep(parameters, true, [&](const BoundProgram::Block& b) {
+  problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
     fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, true, true);
     n.cost += sum(terms.cost, b.count);
     add_rows(terms, loss.kind, b.derivative, 0, b.count, n.descent, n.hessian);
@@ -153,7 +153,7 @@ std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const 
       first_row.size() - 1, {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   std::size_t experiment = 0;
   Terms terms;
-  problem.law.sweep(parameters, true, [&](const BoundProgram::Block& b) {
+  problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
     fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, true, false);
     for (std::size_t from = 0; from < b.count;) {
       while (first_row[experiment + 1] <= b.first + from)
@@ -169,4 +169,4 @@ std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const 
   return sums;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

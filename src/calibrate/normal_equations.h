@@ -9,7 +9,7 @@
 #include "calibrate/fit.h"
 #include "calibrate/sandwich.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Mean loss and what a step needs to lower it, at one set of parameters.
 struct NormalEquations {
@@ -28,4 +28,4 @@ std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const 
                                                std::span<const double> parameters,
                                                std::span<const std::size_t> first_row);
 
-} // namespace frictab
+} // namespace frictab::calibrate

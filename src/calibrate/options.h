@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 enum class Loss { l2, l1, huber };
 
@@ -28,4 +28,4 @@ struct CalibrationOptions {
   Place place;                           // of condition_on_mm
 };
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -7,7 +7,7 @@
 
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr std::size_t parts = 10;
 using Profile = std::vector<double>; // inputs x parts, in shares of the input's range
 
 // The input's values in its own coordinate, scaled so that the range is 1; empty where constant.
-std::vector<double> scaled(const Quantity& quantity, std::span<const double> values) {
+std::vector<double> scaled(const data::Quantity& quantity, std::span<const double> values) {
   std::vector<double> x(values.begin(), values.end());
   if (x.empty()) return {};
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
@@ -42,8 +42,8 @@ void append_means(Profile& profile, std::span<const double> x) {
 }
 
 // The values of a column per experiment, where it was set for each: levels that several share.
-std::vector<double> set_values(const Column& column, const Dataset& data) {
-  if (find_quantity(column.name) || column.name == "origin") return {};
+std::vector<double> set_values(const data::Column& column, const data::Dataset& data) {
+  if (data::find_quantity(column.name) || column.name == "origin") return {};
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);
@@ -66,10 +66,10 @@ bool alike(const Profile& a, const Profile& b) {
 
 } // namespace
 
-std::vector<std::vector<std::size_t>> replicate_groups(const Dataset& data) {
+std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data) {
   std::vector<Profile> profiles(data.experiments.size());
   std::size_t inputs = 0;
-  for (const Quantity& quantity : quantities()) {
+  for (const data::Quantity& quantity : data::quantities()) {
     if (!data.has(quantity.name) || !(quantity.state || quantity.name == "T_tool_C")) continue;
     const std::vector<double> x = scaled(quantity, data.values(quantity.name));
     if (x.empty()) continue;
@@ -78,7 +78,7 @@ std::vector<std::vector<std::size_t>> replicate_groups(const Dataset& data) {
       append_means(profiles[e],
                    {x.data() + data.first_row[e], data.first_row[e + 1] - data.first_row[e]});
   }
-  for (const Column& column : data.columns) {
+  for (const data::Column& column : data.columns) {
     const std::vector<double> values = set_values(column, data);
     if (values.empty()) continue;
     ++inputs;
@@ -100,4 +100,4 @@ std::vector<std::vector<std::size_t>> replicate_groups(const Dataset& data) {
   return groups;
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -5,7 +5,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Two experiments are replicates where every recorded model input is alike in each tenth of the
 // rows: the means differ by at most 1 % of the input's range in `data`, in ln where the input spans
@@ -14,8 +14,8 @@ namespace frictab {
 // tool, an additive; what is merely measured, as humidity, or counts the tests, sets nothing).
 // Groups of at least 2, as indices of experiments; each experiment is in one group at most, joined
 // to the first experiment it is like. Empty where nothing that varies tells experiments apart.
-std::vector<std::vector<std::size_t>> replicate_groups(const Dataset& data);
+std::vector<std::vector<std::size_t>> replicate_groups(const data::Dataset& data);
 
 constexpr double replicate_tolerance = 0.01;
 
-} // namespace frictab
+} // namespace frictab::calibrate

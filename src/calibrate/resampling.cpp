@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 std::vector<ErrorSums> error_sums(std::span<const double> measured,
                                   std::span<const double> predicted,
@@ -65,4 +65,4 @@ double quantile_of(std::vector<double>& values, double share) {
   return part == 0 || next == values[i] ? values[i] : values[i] + part * (next - values[i]);
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // Sums over the rows of one experiment; residual r = measured - predicted in MPa.
 struct ErrorSums {
@@ -36,4 +36,4 @@ double standard_error(std::span<const double> influence, std::span<const double>
 // Linear interpolation between order statistics; `values` is sorted in place.
 double quantile_of(std::vector<double>& values, double share);
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -10,7 +10,9 @@
 
 #include "calibrate/fit.h"
 
-namespace frictab {
+namespace frictab::calibrate {
+
+using models::Parameter;
 
 namespace {
 
@@ -251,4 +253,4 @@ Uncertainty cluster_sandwich(Parameters parameters, std::span<const double> valu
   return Judge(parameters, values).of(sums, penalty);
 }
 
-} // namespace frictab
+} // namespace frictab::calibrate

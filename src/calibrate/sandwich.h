@@ -18,7 +18,7 @@
 
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::calibrate {
 
 // What one experiment says about the parameters at the optimum; J are the derivatives of its
 // predicted values (tau_R in MPa, or whitened), r what is measured beyond them.
@@ -48,8 +48,8 @@ struct Uncertainty {
 // ended, `sums` hold one entry per experiment. `penalty` (symmetric; empty: none) is what the fit
 // adds to the curvature; it counts as data that do not scatter, so that stiff curves look as well
 // known as the penalty makes them.
-Uncertainty cluster_sandwich(std::span<const Parameter> parameters, std::span<const double> values,
-                             std::span<const ExperimentSums> sums,
+Uncertainty cluster_sandwich(std::span<const models::Parameter> parameters,
+                             std::span<const double> values, std::span<const ExperimentSums> sums,
                              const Eigen::MatrixXd& penalty = {});
 
-} // namespace frictab
+} // namespace frictab::calibrate

@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace frictab {
+namespace frictab::cli {
 
 // Options every command has.
 struct CommonOptions {
@@ -41,4 +41,4 @@ struct Command {
 // A line to stderr, unless -q.
 void note(const CommonOptions& common, const std::string& line);
 
-} // namespace frictab
+} // namespace frictab::cli

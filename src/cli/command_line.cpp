@@ -16,7 +16,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -126,4 +126,4 @@ int run_command_line(int argc, char** argv) {
   }
 }
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -18,7 +18,9 @@
 #include "core/text.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::cli {
+
+using expr::Expr;
 
 namespace {
 
@@ -94,26 +96,28 @@ void add_compilers(std::vector<Finding>& out) {
 }
 
 // The smallest table: enough for a target to say how it would be compiled.
-Table probe_table() {
-  Table table;
+table::Table probe_table() {
+  table::Table table;
   table.model = "coulomb";
   table.value = {0.1};
-  table.combine = limited(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"), Conventions{});
+  table.combine =
+      models::limited(Expr::symbol("value") * Expr::symbol("sigma_n_MPa"), models::Conventions{});
   return table;
 }
 
-Finding target_finding(const Exporter& target) {
+Finding target_finding(const codegen::Exporter& target) {
   Finding finding{"target", target.name, true, false, "verify can run it", ""};
-  const Table table = probe_table();
+  const table::Table table = probe_table();
   try {
-    const auto variants = target.variants ? target.variants(ExportRequest{table, "mm-t-s", {}})
-                                          : std::vector<BuildVariant>{};
+    const auto variants = target.variants
+                              ? target.variants(codegen::ExportRequest{table, "mm-t-s", {}})
+                              : std::vector<codegen::BuildVariant>{};
     if (variants.empty()) {
       finding.text = "written, but verify has no way to run it here";
       return finding;
     }
     std::vector<std::string> lacking;
-    for (const BuildVariant& variant : variants) {
+    for (const codegen::BuildVariant& variant : variants) {
       const std::string& program = variant.program();
       const bool there =
           program.empty() || (program.find('/') == program.npos && !on_path(program).empty());
@@ -146,7 +150,7 @@ std::vector<Finding> examine() {
   std::vector<Finding> out;
   add_libraries(out);
   add_compilers(out);
-  for (const Exporter& target : all_exporters())
+  for (const codegen::Exporter& target : codegen::all_exporters())
     out.push_back(target_finding(target));
   out.push_back({"machine", "threads", true, true,
                  std::to_string(std::max(1u, std::thread::hardware_concurrency())), ""});
@@ -207,4 +211,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -108,4 +108,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

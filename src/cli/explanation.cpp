@@ -12,15 +12,15 @@
 #include "job/schema.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
 using Item = Explanation::Item;
 
-std::vector<Item> parameter_items(const std::vector<Parameter>& parameters, bool fixed) {
+std::vector<Item> parameter_items(const std::vector<models::Parameter>& parameters, bool fixed) {
   std::vector<Item> items;
-  for (const Parameter& p : parameters) {
+  for (const models::Parameter& p : parameters) {
     Item item{p.name, p.meaning, {{"unit", p.unit}}};
     item.fields.push_back({fixed ? "value" : "start", shortest(p.start)});
     if (!fixed) item.fields.push_back({"bounds", shortest(p.lower) + " .. " + shortest(p.upper)});
@@ -29,22 +29,22 @@ std::vector<Item> parameter_items(const std::vector<Parameter>& parameters, bool
   return items;
 }
 
-std::string how_calibrated(Calibrated how) {
+std::string how_calibrated(models::Calibrated how) {
   switch (how) {
-  case Calibrated::fixed:
+  case models::Calibrated::fixed:
     return "no: constants of the literature";
-  case Calibrated::mean:
+  case models::Calibrated::mean:
     return "means of mu_meas and m_meas over the training rows";
-  case Calibrated::fit:
+  case models::Calibrated::fit:
     return "by calibration.loss";
-  case Calibrated::train:
+  case models::Calibrated::train:
     return "trained on squared residuals of tau_R; weight decay by cross-validation over "
            "experiments";
   }
   return "";
 }
 
-std::string remarks_of(const Law& law) {
+std::string remarks_of(const models::Law& law) {
   std::vector<std::string> remarks;
   if (law.log_value) remarks.push_back("tabulated as its logarithm");
   for (const auto& [axis, positions] : law.kinks) {
@@ -59,10 +59,10 @@ std::string remarks_of(const Law& law) {
   return join(remarks, "; ");
 }
 
-Explanation about(const Law& law) {
-  const Conventions usual;
+Explanation about(const models::Law& law) {
+  const models::Conventions usual;
   std::vector<std::string> free_inputs =
-      inputs(law, Conventions{"mises", usual.k_over_sigma_f, false});
+      models::inputs(law, models::Conventions{"mises", usual.k_over_sigma_f, false});
   Explanation out{law.name, "friction law", law.title, {}, "parameters", {}};
   out.fields = {{"formula", law.formula},
                 {"inputs", join(free_inputs, ", ")},
@@ -71,28 +71,28 @@ Explanation about(const Law& law) {
                 {"tabulated", law.quantity},
                 {"reference", law.reference},
                 {"remarks", remarks_of(law)}};
-  out.items = parameter_items(law.parameters, law.calibrated == Calibrated::fixed);
+  out.items = parameter_items(law.parameters, law.calibrated == models::Calibrated::fixed);
   return out;
 }
 
-std::string what_it_takes(const EffectForm& effect) {
+std::string what_it_takes(const effects::EffectForm& effect) {
   const std::string count = effect.columns == 2 ? "two columns" : "three columns";
   if (!effect.categorical) return effect.columns == 1 ? "one column" : count;
   return effect.columns == 1 ? "a text column: one factor per level"
                              : count + ", the first of text";
 }
 
-Explanation about(const EffectForm& effect) {
+Explanation about(const effects::EffectForm& effect) {
   Explanation out{effect.name, "effect", effect.title, {}, "parameters", {}};
   out.fields = {{"formula", effect.formula}, {"acts on", what_it_takes(effect)}};
   out.items = parameter_items(effect.parameters, false);
   return out;
 }
 
-Explanation about(const Exporter& target) {
+Explanation about(const codegen::Exporter& target) {
   Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
   out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
-  for (const ExportOption& option : target.options)
+  for (const codegen::ExportOption& option : target.options)
     out.items.push_back(
         {option.name,
          option.meaning,
@@ -100,7 +100,7 @@ Explanation about(const Exporter& target) {
   return out;
 }
 
-Explanation about(const Quantity& quantity) {
+Explanation about(const data::Quantity& quantity) {
   Explanation out{quantity.name, "quantity", quantity.meaning, {}, "", {}};
   out.fields = {{"symbol", quantity.symbol}, {"unit", quantity.unit}};
   if (quantity.lowest > -std::numeric_limits<double>::infinity())
@@ -113,9 +113,9 @@ Explanation about(const Quantity& quantity) {
   return out;
 }
 
-std::vector<std::pair<std::string, std::string>> key_fields(const KeyRule& rule) {
-  std::vector<std::pair<std::string, std::string>> fields{{"value", expected(rule)}};
-  const std::string normal = default_text(rule);
+std::vector<std::pair<std::string, std::string>> key_fields(const job::KeyRule& rule) {
+  std::vector<std::pair<std::string, std::string>> fields{{"value", job::expected(rule)}};
+  const std::string normal = job::default_text(rule);
   if (!normal.empty())
     fields.push_back({"default", normal});
   else
@@ -124,7 +124,7 @@ std::vector<std::pair<std::string, std::string>> key_fields(const KeyRule& rule)
   return fields;
 }
 
-Explanation about(const KeyRule& rule) {
+Explanation about(const job::KeyRule& rule) {
   return {rule.path, "job key", rule.meaning, key_fields(rule), "", {}};
 }
 
@@ -134,7 +134,7 @@ bool is_below(const std::string& path, const std::string& section) {
 
 Explanation about_section(const std::string& path, const std::string& title) {
   Explanation out{path.empty() ? "job" : path, "job section", title, {}, "keys", {}};
-  for (const KeyRule& rule : key_rules())
+  for (const job::KeyRule& rule : job::key_rules())
     if (is_below(rule.path, path)) out.items.push_back({rule.path, rule.meaning, key_fields(rule)});
   return out;
 }
@@ -200,7 +200,7 @@ std::string rule_path(const std::string& path) {
     const std::size_t dot = rest.find('.');
     const std::string key = rest.substr(0, dot);
     rest = dot == rest.npos ? "" : rest.substr(dot + 1);
-    const SectionRule* section = find_section(out);
+    const job::SectionRule* section = job::find_section(out);
     bool by_name = false;
     if (section && section->children)
       for (const std::string& name : section->children())
@@ -213,37 +213,38 @@ std::string rule_path(const std::string& path) {
 } // namespace
 
 std::optional<Explanation> explain(const std::string& name) {
-  if (const Law* law = find_law(name)) return about(*law);
-  if (const EffectForm* effect = find_effect(name)) return about(*effect);
-  if (const Exporter* target = find_exporter(name)) return about(*target);
-  if (const Quantity* quantity = find_quantity(name)) return about(*quantity);
+  if (const models::Law* law = models::find_law(name)) return about(*law);
+  if (const effects::EffectForm* effect = effects::find_effect(name)) return about(*effect);
+  if (const codegen::Exporter* target = codegen::find_exporter(name)) return about(*target);
+  if (const data::Quantity* quantity = data::find_quantity(name)) return about(*quantity);
   if (name == "job")
     return about_section("", "the job file (TOML): every key, all optional but data.training; "
                              "'*' stands for a canonical quantity");
   if (name == "table-layout") return about_table_layout();
   const std::string path = rule_path(name);
-  if (const KeyRule* key = find_key(path)) return about(*key);
-  if (const SectionRule* section = find_section(path)) return about_section(path, section->meaning);
+  if (const job::KeyRule* key = job::find_key(path)) return about(*key);
+  if (const job::SectionRule* section = job::find_section(path))
+    return about_section(path, section->meaning);
   return std::nullopt;
 }
 
 std::vector<std::string> explainable() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
-  for (const EffectForm& effect : all_effects())
+  for (const effects::EffectForm& effect : effects::all_effects())
     names.push_back(effect.name);
-  for (const Exporter& target : all_exporters())
+  for (const codegen::Exporter& target : codegen::all_exporters())
     names.push_back(target.name);
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     names.push_back(quantity.name);
   names.push_back("job");
   names.push_back("table-layout");
-  for (const SectionRule& section : section_rules())
+  for (const job::SectionRule& section : job::section_rules())
     names.push_back(section.path);
-  for (const KeyRule& key : key_rules())
+  for (const job::KeyRule& key : job::key_rules())
     names.push_back(key.path);
   return names;
 }
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace frictab {
+namespace frictab::cli {
 
 struct Explanation {
   std::string name;
@@ -29,4 +29,4 @@ std::optional<Explanation> explain(const std::string& name);
 // Every name that explain() knows.
 std::vector<std::string> explainable();
 
-} // namespace frictab
+} // namespace frictab::cli

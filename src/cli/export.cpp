@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -24,11 +24,11 @@ struct Options {
 int export_alone(const Options& options, const CommonOptions& common) {
   if (common.output.empty())
     throw InputError({}, "nowhere to write the sources to", "give -o DIR with --table FILE");
-  const auto exporters = exporters_named(options.targets);
-  check_request_size(read_description(options.table).table, exporters, {});
-  const Table table = read_table(options.table);
-  OutputFiles output(common.output);
-  for (const Exporter* exporter : exporters)
+  const auto exporters = codegen::exporters_named(options.targets);
+  codegen::check_request_size(table::read_description(options.table).table, exporters, {});
+  const table::Table table = table::read_table(options.table);
+  io::OutputFiles output(common.output);
+  for (const codegen::Exporter* exporter : exporters)
     for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
       output.write(exporter->name + "/" + path, text);
   if (!common.force && output.would_change())
@@ -60,7 +60,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                                               "each other",
                        "give a JOB file, or --table FILE -o DIR [--targets c,abaqus_vfric]");
     if (!options->table.empty()) return export_alone(*options, common);
-    return run_stages(options->job, common, [](Pipeline& p) { p.generate(); });
+    return run_stages(options->job, common, [](run::Pipeline& p) { p.generate(); });
   };
 }
 
@@ -70,4 +70,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "job/schema.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -25,8 +25,8 @@ void write_job(const fs::path& directory, bool force) {
   if (fs::exists(file, error) && !force)
     throw InputError({file.string(), 0, 0}, "is there already",
                      "name another directory, or --force to replace it");
-  OutputFiles files(directory);
-  files.write("job.toml", job_template());
+  io::OutputFiles files(directory);
+  files.write("job.toml", job::job_template());
   files.commit();
 }
 
@@ -53,4 +53,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

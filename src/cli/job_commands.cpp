@@ -8,24 +8,25 @@
 #include "cli/job_commands.h"
 #include "run/summary.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
-  Job job = read_job(file, common.set);
+  job::Job job = job::read_job(file, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (common.seed) job.calibration.seed = *common.seed;
-  Pipeline pipeline(std::move(job));
+  run::Pipeline pipeline(std::move(job));
   stages(pipeline);
   pipeline.commit();
   if (const auto& data = pipeline.data())
-    if (const std::string leak = leak_note(data->training, data->validation); !leak.empty())
+    if (const std::string leak = calibrate::leak_note(data->training, data->validation);
+        !leak.empty())
       note(common, "warning: " + leak);
   for (const std::string& line : pipeline.notes())
     note(common, line);
   if (common.verbose && pipeline.data())
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
-  fmt::print("{}", common.json ? summary_json(pipeline) : summary_text(pipeline));
+  fmt::print("{}", common.json ? run::summary_json(pipeline) : run::summary_text(pipeline));
   for (const std::string& miss : pipeline.missed())
     fmt::print(stderr, "error: {}\n", miss);
   const bool verified = !pipeline.verification() || pipeline.verification()->passed();
@@ -41,7 +42,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
   return [file, &common, stages] { return run_stages(*file, common, stages); };
 }
 
-void all_stages(Pipeline& p) {
+void all_stages(run::Pipeline& p) {
   p.calibrate();
   p.trace();
   p.check_sizes();
@@ -70,22 +71,22 @@ const Registered<Command> run{[] {
 const Registered<Command> calibrate{[] {
   return stage(3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
                [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](Pipeline& p) { p.calibrate(); });
+                 return declare(app, common, [](run::Pipeline& p) { p.calibrate(); });
                });
 }};
 const Registered<Command> tabulate{[] {
   return stage(4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
                [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](Pipeline& p) { p.tabulate(); });
+                 return declare(app, common, [](run::Pipeline& p) { p.tabulate(); });
                });
 }};
 const Registered<Command> report{[] {
   return stage(8, "report", "Write report.html from the results so far",
                [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](Pipeline& p) { p.report(); });
+                 return declare(app, common, [](run::Pipeline& p) { p.report(); });
                });
 }};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -6,11 +6,11 @@
 #include "cli/command.h"
 #include "run/pipeline.h"
 
-namespace frictab {
+namespace frictab::cli {
 
-using Stages = std::function<void(Pipeline&)>;
+using Stages = std::function<void(run::Pipeline&)>;
 
 // Reads the job, runs the stages, commits, prints the summary; the exit code.
 int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages);
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -12,7 +12,7 @@
 #include "effects/effect.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -29,9 +29,9 @@ template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
 }
 
 std::vector<Line> lines_of(const std::string& what) {
-  if (what == "models") return lines_of(all_laws());
-  if (what == "effects") return lines_of(all_effects());
-  if (what == "targets") return lines_of(all_exporters());
+  if (what == "models") return lines_of(models::all_laws());
+  if (what == "effects") return lines_of(effects::all_effects());
+  if (what == "targets") return lines_of(codegen::all_exporters());
   const std::vector<std::string> known{"models", "effects", "targets"};
   throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, known));
 }
@@ -69,4 +69,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

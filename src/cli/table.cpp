@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace fs = std::filesystem;
 
@@ -24,7 +24,7 @@ void write_result(const CommonOptions& common, const std::function<void(std::ost
     return;
   }
   const fs::path file(common.output);
-  OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  io::OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."));
   const std::string name = file.filename().string();
   std::ofstream out(output.stage(name), std::ios::binary);
   write(out);
@@ -51,4 +51,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -10,7 +10,7 @@ namespace CLI {
 class Option;
 }
 
-namespace frictab {
+namespace frictab::cli {
 
 // Makes -o the name of one file, which `frictab table` commands write instead of stdout.
 void output_is_a_file(CLI::App& app);
@@ -22,4 +22,4 @@ void write_result(const CommonOptions& common, const std::function<void(std::ost
 // --at NAME=VALUE, as often as needed.
 void add_held_states_option(CLI::App& app, std::vector<std::string>& at);
 
-} // namespace frictab
+} // namespace frictab::cli

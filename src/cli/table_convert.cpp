@@ -9,7 +9,7 @@
 #include "table/plain_text.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -20,10 +20,10 @@ struct Options {
 };
 
 int run(const Options& options, const CommonOptions& common) {
-  const PlainFormat& format = plain_format(options.to);
-  const Table table = read_table(options.file);
-  const HeldStates held = held_states(options.at, table.inputs());
-  for (const std::string& line : check_held(table, held))
+  const table::PlainFormat& format = table::plain_format(options.to);
+  const table::Table table = table::read_table(options.file);
+  const table::HeldStates held = table::held_states(options.at, table.inputs());
+  for (const std::string& line : table::check_held(table, held))
     note(common, "note: " + line);
   write_result(common, [&](std::ostream& out) { format.write({table, held}, out); });
   return 0;
@@ -31,7 +31,7 @@ int run(const Options& options, const CommonOptions& common) {
 
 std::string formats_text() {
   std::string text = "Formats:\n";
-  for (const PlainFormat& format : Registry<PlainFormat>::instance().all())
+  for (const table::PlainFormat& format : Registry<table::PlainFormat>::instance().all())
     text += fmt::format("  {:<8} {}\n           ({})\n", format.name, format.title, format.source);
   return text;
 }
@@ -53,4 +53,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

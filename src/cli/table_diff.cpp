@@ -9,7 +9,7 @@
 #include "table/difference.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -20,19 +20,20 @@ struct Options {
 };
 
 int run(const Options& options, const CommonOptions& common) {
-  const Table a = read_table(options.a), b = read_table(options.b);
+  const table::Table a = table::read_table(options.a), b = table::read_table(options.b);
   std::vector<std::string> inputs = a.inputs();
   const std::vector<std::string> others = b.inputs();
   inputs.insert(inputs.end(), others.begin(), others.end());
-  const HeldStates held = held_states(options.at, inputs);
-  for (const Table* table : {&a, &b})
-    for (const std::string& line : check_held(*table, held))
+  const table::HeldStates held = table::held_states(options.at, inputs);
+  for (const table::Table* table : {&a, &b})
+    for (const std::string& line : table::check_held(*table, held))
       note(common, "note: " + line);
-  const TableDifference apart = difference(a, b, held);
+  const table::TableDifference apart = table::difference(a, b, held);
   const std::array<std::string, 2> names{options.a, options.b};
   const bool over = options.max_MPa && !(apart.drift.max_abs <= *options.max_MPa);
   write_result(common, [&](std::ostream& out) {
-    out << (common.json ? difference_json(apart, names) : difference_text(apart, names));
+    out << (common.json ? table::difference_json(apart, names)
+                        : table::difference_text(apart, names));
     if (options.max_MPa && !common.json)
       out << fmt::format("Allowed: {:g} MPa: {}\n", *options.max_MPa, over ? "EXCEEDED" : "ok");
   });
@@ -58,4 +59,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -7,7 +7,7 @@
 #include "cli/table_command.h"
 #include "table/info.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -19,9 +19,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->required();
   output_is_a_file(app);
   return [file, &common] {
-    const TableDescription table = read_description(*file);
+    const table::TableDescription table = table::read_description(*file);
     write_result(common, [&](std::ostream& out) {
-      out << (common.json ? info_json(table, *file) : info_text(table, *file));
+      out << (common.json ? table::info_json(table, *file) : table::info_text(table, *file));
     });
     return 0;
   };
@@ -33,4 +33,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -10,7 +10,7 @@
 #include "table/slice.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -26,15 +26,15 @@ struct Options {
 int run(const Options& options, const CommonOptions& common) {
   if (options.along.size() > 2)
     throw InputError({}, "--along is given more than twice", "hold the other states by --at");
-  const Table table = read_table(options.file);
-  const HeldStates held = held_states(options.at, table.inputs());
+  const table::Table table = table::read_table(options.file);
+  const table::HeldStates held = table::held_states(options.at, table.inputs());
   std::size_t points = options.points;
   if (points == 0) points = options.along.size() == 2 ? 41 : 101;
-  const Slice result = slice(table, held, options.along, points);
-  for (const std::string& line : check_held(table, held))
+  const table::Slice result = table::slice(table, held, options.along, points);
+  for (const std::string& line : table::check_held(table, held))
     note(common, "note: " + line);
   write_result(common, [&](std::ostream& out) {
-    out << (options.svg ? slice_svg(result) : slice_csv(result));
+    out << (options.svg ? report::slice_svg(result) : table::slice_csv(result));
   });
   return 0;
 }
@@ -64,4 +64,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

@@ -7,7 +7,7 @@
 #include "cli/job_commands.h"
 #include "trace/trace_text.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -22,11 +22,11 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                "Say how large an effect these experiments would have shown, column by column");
   return [arguments, &common] {
     std::string power;
-    const int code = run_stages(arguments->file, common, [&](Pipeline& p) {
+    const int code = run_stages(arguments->file, common, [&](run::Pipeline& p) {
       p.trace();
       if (arguments->power && !common.json)
-        for (const Trace& trace : p.traces())
-          power += detectable_text(trace);
+        for (const trace::Trace& trace : p.traces())
+          power += trace::detectable_text(trace);
     });
     fmt::print("{}", power);
     return code;
@@ -44,4 +44,4 @@ const Registered<Command> trace{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

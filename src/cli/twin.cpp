@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "twin/twin_summary.h"
 
-namespace frictab {
+namespace frictab::cli {
 namespace {
 
 struct Options {
@@ -19,35 +19,37 @@ struct Options {
   std::string design;
   std::string scatter;
   std::vector<std::string> effects;
-  TwinOptions twin;
+  twin::TwinOptions twin;
   bool oracle = false;
   bool no_bystanders = false;
 };
 
 // Rows of oracle stress, keyed by experiment and row (from 1).
-Dataset oracle_data(const Twin& twin, const TwinPart& part) {
-  Dataset data;
+data::Dataset oracle_data(const twin::Twin& twin, const twin::TwinPart& part) {
+  data::Dataset data;
   data.experiments = part.data.experiments;
   data.first_row = part.data.first_row;
-  Column row{"row", "", std::vector<double>(part.data.rows()), {}};
+  data::Column row{"row", "", std::vector<double>(part.data.rows()), {}};
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       row.values[i] = static_cast<double>(i - data.first_row[e] + 1);
-  data.columns = {
-      std::move(row),
-      {"tau_oracle_MPa", "MPa", part.oracle_MPa, {}},
-      {"origin", "", std::vector<double>(part.data.rows(), 0.0), {twin_origin(twin.options)}}};
+  data.columns = {std::move(row),
+                  {"tau_oracle_MPa", "MPa", part.oracle_MPa, {}},
+                  {"origin",
+                   "",
+                   std::vector<double>(part.data.rows(), 0.0),
+                   {twin::twin_origin(twin.options)}}};
   return data;
 }
 
-void write_part(const Options& options, const Twin& twin, const TwinPart& part,
-                const std::string& name, OutputFiles& files) {
+void write_part(const Options& options, const twin::Twin& twin, const twin::TwinPart& part,
+                const std::string& name, io::OutputFiles& files) {
   if (part.data.rows() == 0) return;
-  const auto write = [&](const Dataset& data, const std::string& stem) {
+  const auto write = [&](const data::Dataset& data, const std::string& stem) {
     if (options.format == "csv")
-      files.write(stem + ".csv", csv_text(data));
+      files.write(stem + ".csv", data::csv_text(data));
     else
-      write_hdf5_columns(data, files.stage(stem + ".h5"));
+      data::write_hdf5_columns(data, files.stage(stem + ".h5"));
   };
   write(part.data, name);
   if (options.oracle) write(oracle_data(twin, part), name + "_oracle");
@@ -57,16 +59,17 @@ void read_options(Options& options, const CommonOptions& common) {
   if (options.directory.empty()) options.directory = common.output;
   if (options.directory.empty())
     throw InputError({"twin"}, "no output directory is given", "frictab twin OUT");
-  options.twin.seed = common.seed.value_or(TwinOptions{}.seed);
+  options.twin.seed = common.seed.value_or(twin::TwinOptions{}.seed);
   options.twin.bystanders = !options.no_bystanders;
   if (!options.design.empty())
-    options.twin.design = parse_design(options.design, default_design(twin_set(options.twin.set)));
-  options.twin.scatter = parse_scatter(options.scatter);
+    options.twin.design =
+        twin::parse_design(options.design, twin::default_design(twin::twin_set(options.twin.set)));
+  options.twin.scatter = twin::parse_scatter(options.scatter);
   FaultList faults;
   options.twin.effects.clear();
   for (const std::string& text : options.effects) {
     try {
-      options.twin.effects.push_back(parse_effect(text));
+      options.twin.effects.push_back(twin::parse_effect(text));
     } catch (const InputError& error) {
       for (const Fault& fault : error.faults())
         faults.add(fault.place, fault.what, fault.hint);
@@ -77,21 +80,22 @@ void read_options(Options& options, const CommonOptions& common) {
 
 int run(Options& options, const CommonOptions& common) {
   read_options(options, common);
-  const Twin twin = make_twin(options.twin);
-  const TwinSummary summary = summarise(twin);
-  const std::string json = twin_json(twin, summary);
+  const twin::Twin twin = twin::make_twin(options.twin);
+  const twin::TwinSummary summary = twin::summarise(twin);
+  const std::string json = twin::twin_json(twin, summary);
 
-  OutputFiles files(options.directory);
+  io::OutputFiles files(options.directory);
   write_part(options, twin, twin.training, "training", files);
   write_part(options, twin, twin.validation, "validation", files);
   files.write("twin.json", json);
-  files.write("job.toml", twin_job(twin, options.format == "csv" ? "csv" : "h5", options.oracle));
+  files.write("job.toml",
+              twin::twin_job(twin, options.format == "csv" ? "csv" : "h5", options.oracle));
   if (!common.force && files.would_change())
     throw InputError({options.directory}, "holds other files of the same names",
                      "choose another directory, or overwrite them with --force");
   files.commit();
 
-  const std::string text = common.json ? json : twin_text(twin, summary, options.directory);
+  const std::string text = common.json ? json : twin::twin_text(twin, summary, options.directory);
   std::fputs(text.c_str(), stdout);
   return 0;
 }
@@ -144,4 +148,4 @@ Command make() {
 const Registered<Command> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::cli

@@ -12,7 +12,7 @@
 #include "table/table_file.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::cli {
 
 namespace {
 
@@ -28,47 +28,50 @@ struct Options {
 };
 
 // Data for the rows alone: canonical column names, or the mapping of a job file.
-Dataset load_rows(const Options& options, const CommonOptions& common) {
-  DataOptions mapping;
-  if (!options.job.empty()) mapping = read_job(options.job, common.set).data;
+data::Dataset load_rows(const Options& options, const CommonOptions& common) {
+  data::DataOptions mapping;
+  if (!options.job.empty()) mapping = job::read_job(options.job, common.set).data;
   mapping.base = ""; // the file is relative to where the command runs
-  return load_dataset({options.data}, mapping);
+  return data::load_dataset({options.data}, mapping);
 }
 
-void write_junit(const Options& options, const Verification& verification) {
+void write_junit(const Options& options, const verify::Verification& verification) {
   if (options.junit.empty()) return;
   const fs::path file(options.junit);
-  OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."));
-  out.write(file.filename().string(), verification_junit(verification));
+  io::OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  out.write(file.filename().string(), verify::verification_junit(verification));
   out.commit();
 }
 
 int verify_alone(const Options& options, const CommonOptions& common) {
-  const Table table = read_table(options.table);
-  const AssembledLaw law(at_quantile(parse_model(read_file(options.model), options.model),
-                                     table.quantile(), {options.table, 0, 0}));
-  std::optional<Dataset> rows;
+  const table::Table table = table::read_table(options.table);
+  const models::AssembledLaw law(
+      calibrate::at_quantile(calibrate::parse_model(io::read_file(options.model), options.model),
+                             table.quantile(), {options.table, 0, 0}));
+  std::optional<data::Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
   const double allowed = options.max_drift_MPa.value_or(table.record.tolerance_MPa.value_or(0.5));
-  Verification verification{allowed, {}};
-  verification.records = verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
+  verify::Verification verification{allowed, {}};
+  verification.records =
+      verify::verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
   write_junit(options, verification);
   if (common.json)
-    fmt::print("{}", verification_json(verification));
+    fmt::print("{}", verify::verification_json(verification));
   else
-    fmt::print("{}", drift_text(verification));
+    fmt::print("{}", run::drift_text(verification));
   return verification.passed() ? 0 : 1;
 }
 
 int verify_job(const Options& options, const CommonOptions& common) {
-  Job job = read_job(options.job, common.set);
+  job::Job job = job::read_job(options.job, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
-  Pipeline pipeline(std::move(job));
+  run::Pipeline pipeline(std::move(job));
   pipeline.verify();
   pipeline.commit();
   write_junit(options, *pipeline.verification());
-  fmt::print("{}", common.json ? summary_json(pipeline) : drift_text(*pipeline.verification()));
+  fmt::print("{}",
+             common.json ? run::summary_json(pipeline) : run::drift_text(*pipeline.verification()));
   return pipeline.verification()->passed() ? 0 : 1;
 }
 
@@ -103,4 +106,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::cli

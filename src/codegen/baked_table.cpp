@@ -4,42 +4,42 @@
 #include "codegen/layer.h"
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
 // Nodes, 1/width, polynomials of the cells; of the law itself the two ends.
-std::size_t numbers_per_node(const Table& table) {
+std::size_t numbers_per_node(const table::Table& table) {
   if (table.is_direct()) return 1;
   return is_cubic(table) ? 18 : 2;
 }
 
 } // namespace
 
-bool is_cubic(const Table& table) {
-  return table.interpolation == Interpolation::cubic && !table.axes.empty();
+bool is_cubic(const table::Table& table) {
+  return table.interpolation == table::Interpolation::cubic && !table.axes.empty();
 }
 
-std::vector<double> baked_values(const Table& table) {
+std::vector<double> baked_values(const table::Table& table) {
   if (table.stored) { // linear always
     std::vector<double> values(table.stored->size());
     table.stored->read(0, values);
     return values;
   }
   if (!is_cubic(table)) return table.value;
-  std::vector<SplineAxis> axes;
-  for (const TableAxis& axis : table.axes)
-    axes.push_back(spline_axis(axis));
-  return spline_coefficients(axes, table.value);
+  std::vector<table::SplineAxis> axes;
+  for (const table::TableAxis& axis : table.axes)
+    axes.push_back(table::spline_axis(axis));
+  return table::spline_coefficients(axes, table.value);
 }
 
-std::size_t baked_numbers(const Table& table) {
+std::size_t baked_numbers(const table::Table& table) {
   std::size_t numbers = table.nodes() + table.constants.size() + count_numbers(table.combine);
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     numbers += axis.nodes.size() * numbers_per_node(table);
   if (!table.extension) return numbers;
   const LayeredFormula law = split_layer(*table.extension);
   return numbers + (law.layer ? law.layer->numbers() : 0) + count_numbers(law.rest);
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -8,7 +8,7 @@
 #include "codegen/compile.h"
 #include "codegen/entry_arguments.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -90,4 +90,4 @@ void drive_entry(const Built& built, const ExportRequest& request, std::size_t r
   }
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

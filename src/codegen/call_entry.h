@@ -3,7 +3,7 @@
 
 #include "codegen/exporter.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // frictab_tau_R through its own argument list, one state at a time; as Exporter::drive.
 void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
@@ -13,4 +13,4 @@ void drive_entry(const Built& built, const ExportRequest& request, std::size_t r
 void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
                  std::span<const double* const> columns, std::span<double> tau);
 
-} // namespace frictab
+} // namespace frictab::codegen

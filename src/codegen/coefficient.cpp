@@ -11,23 +11,23 @@
 #include "codegen/number_text.h"
 #include "core/error.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 namespace {
 
-std::size_t n_states(const Table& table) {
+std::size_t n_states(const table::Table& table) {
   return std::max<std::size_t>(table.inputs().size(), 1);
 }
 
 // From 1; 0 where the table does not take it.
-std::size_t number_of(const Table& table, const std::string& name) {
+std::size_t number_of(const table::Table& table, const std::string& name) {
   const std::vector<std::string> inputs = table.inputs();
   const auto at = std::find(inputs.begin(), inputs.end(), name);
   return at == inputs.end() ? 0 : static_cast<std::size_t>(at - inputs.begin()) + 1;
 }
 
 // All inputs at `share` (0 the low end, 1 the high end) of what is known of them.
-std::vector<double> state_at(const Table& table, double share) {
+std::vector<double> state_at(const table::Table& table, double share) {
   std::vector<double> state;
   for (const std::string& name : table.inputs()) {
     const auto [low, high] = table.range(name).value_or(std::pair{400.0, 600.0});
@@ -38,7 +38,7 @@ std::vector<double> state_at(const Table& table, double share) {
 
 } // namespace
 
-std::string coefficient(const Table& table, Coefficient kind) {
+std::string coefficient(const table::Table& table, Coefficient kind) {
   const std::size_t pressure = number_of(table, "sigma_n_MPa");
   TemplateValues values;
   values.flags = {{"coulomb", kind == Coefficient::coulomb},
@@ -50,13 +50,13 @@ std::string coefficient(const Table& table, Coefficient kind) {
   return without_last_break(render_template("fortran/frictab_coef.f", values));
 }
 
-bool same_at_every_pressure(const Table& table, Coefficient kind) {
+bool same_at_every_pressure(const table::Table& table, Coefficient kind) {
   const std::size_t pressure = number_of(table, "sigma_n_MPa");
   if (kind != Coefficient::coulomb || pressure == 0)
     return kind != Coefficient::coulomb && pressure == 0;
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     if (axis.name == "sigma_n_MPa") return false;
-  const TableFunction tau(table);
+  const table::TableFunction tau(table);
   for (const double share : {0.0, 0.5, 1.0}) {
     std::vector<double> state = state_at(table, share);
     double first = 0;
@@ -92,4 +92,4 @@ std::string constants_data(const std::vector<SolverInput>& inputs) {
   return without_last_break(render_template("fortran/frictab_constants.f", fill));
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -8,7 +8,7 @@
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 enum class Coefficient {
   coulomb, // mu = tau_R/p
@@ -23,11 +23,11 @@ inline constexpr double least_pressure = 1e-3;
 // The function ftcoef(x, press, flow): the coefficient, tau_R in MPa; x as for fttau, press and
 // flow (used by m alone) in MPa. NaN where one of them is. mu: never 0/0; m and tau: 0 where there
 // is no pressure, m also where there is no flow stress.
-std::string coefficient(const Table& table, Coefficient kind);
+std::string coefficient(const table::Table& table, Coefficient kind);
 
 // Whether the coefficient of any state is the same at every pressure: mu of a law without shear
 // limit, m of a law that does not take the pressure.
-bool same_at_every_pressure(const Table& table, Coefficient kind);
+bool same_at_every_pressure(const table::Table& table, Coefficient kind);
 
 // States that the solver does not give are constants of the source. They lie in COMMON /FTCONS/
 // CST(n), by the number of the state, so that they can be read in the source at one place, and set
@@ -39,4 +39,4 @@ std::string constants_data(const std::vector<SolverInput>& inputs);
 // How a routine reads them: SolverGives::constant.
 inline const GivenState settable_constant = {.read = "cst(@{index})", .canonical = true};
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

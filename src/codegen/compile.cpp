@@ -18,7 +18,7 @@
 
 extern char** environ;
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -144,4 +144,4 @@ CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& re
         .tell_directory(directory_.path());
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -7,7 +7,7 @@
 
 #include "codegen/exporter.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // True where a program of this name is on PATH (or is a path that can be executed), or none is
 // asked for.
@@ -78,4 +78,4 @@ private:
   std::optional<Library> library_;
 };
 
-} // namespace frictab
+} // namespace frictab::codegen

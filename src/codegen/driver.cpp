@@ -14,7 +14,7 @@
 #include "codegen/histories.h"
 #include "codegen/solver_units.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -213,4 +213,4 @@ void add_driver(BuildVariant& variant, const std::string& text) {
   variant.extra["driver.f"] = text;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

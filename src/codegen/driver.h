@@ -19,7 +19,7 @@
 #include "codegen/coefficient.h"
 #include "codegen/solver_inputs.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 struct Driver {
   const SolverGives& gives;
@@ -45,4 +45,4 @@ void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs,
 // Adds the driver's file to what the variant compiles.
 void add_driver(BuildVariant& variant, const std::string& text);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -9,7 +9,7 @@
 #include "data/meaning.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -20,7 +20,7 @@ std::string replace_ending(const std::string& name, std::string_view from, std::
 
 // A column's own name may hold anything; the prefix keeps it off keywords and generated names.
 std::string identifier(const std::string& name) {
-  std::string text = find_quantity(name) ? "" : "in_";
+  std::string text = data::find_quantity(name) ? "" : "in_";
   for (const char c : name)
     text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
   return text;
@@ -35,9 +35,9 @@ std::string argument_name(const InputArgument& input) {
   return name;
 }
 
-InputArgument argument(const Table& table, const std::string& name, std::string_view units) {
+InputArgument argument(const table::Table& table, const std::string& name, std::string_view units) {
   InputArgument input;
-  const Meaning meaning = meaning_of(name);
+  const data::Meaning meaning = data::meaning_of(name);
   input.name = name;
   input.unit = meaning.unit;
   input.meaning = meaning.text;
@@ -47,11 +47,11 @@ InputArgument argument(const Table& table, const std::string& name, std::string_
     input.unit = table.axes[a].unit;
     if (!table.axes[a].long_name.empty()) input.meaning = table.axes[a].long_name;
   }
-  if (find_quantity(name)) { // whatever the axis says
+  if (data::find_quantity(name)) { // whatever the axis says
     input.unit = meaning.unit;
     input.meaning = meaning.text;
   }
-  if (input.meaning == Meaning{}.text) input.meaning = name + " " + input.meaning;
+  if (input.meaning == data::Meaning{}.text) input.meaning = name + " " + input.meaning;
   if (const auto& levels = table.record.input(name).levels) input.meaning = name + ": " + *levels;
   input.solver = solver_unit(input.unit, units);
   input.argument = argument_name(input);
@@ -60,11 +60,11 @@ InputArgument argument(const Table& table, const std::string& name, std::string_
 
 } // namespace
 
-std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units) {
+std::vector<InputArgument> entry_arguments(const table::Table& table, std::string_view units) {
   std::vector<InputArgument> arguments;
   std::set<std::string> taken;
   const std::vector<std::string> needed = table.inputs();
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (quantity.argument) arguments.push_back(argument(table, quantity.name, units));
   for (const std::string& name : needed) {
     const auto same = [&](const InputArgument& a) { return a.name == name; };
@@ -80,15 +80,15 @@ std::vector<InputArgument> entry_arguments(const Table& table, std::string_view 
   return arguments;
 }
 
-std::optional<double> typical_value(const Table& table, const std::string& name) {
+std::optional<double> typical_value(const table::Table& table, const std::string& name) {
   const auto range = table.range(name);
   if (!range) return std::nullopt;
   if (table.record.input(name).levels) return range->first; // the level whose factor is 1
-  bool log = meaning_of(name).log_axis;
-  for (const TableAxis& axis : table.axes)
+  bool log = data::meaning_of(name).log_axis;
+  for (const table::TableAxis& axis : table.axes)
     if (axis.name == name) log = axis.log;
   const auto [low, high] = *range;
   return log && low > 0 ? std::sqrt(low) * std::sqrt(high) : 0.5 * (low + high);
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

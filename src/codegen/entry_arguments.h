@@ -12,7 +12,7 @@
 #include "codegen/solver_units.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // One state of the law as an argument of generated code.
 struct InputArgument {
@@ -27,10 +27,10 @@ struct InputArgument {
 
 // sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa as the contract lists them, then the
 // table's further inputs.
-std::vector<InputArgument> entry_arguments(const Table& table, std::string_view units);
+std::vector<InputArgument> entry_arguments(const table::Table& table, std::string_view units);
 
 // The value an input has where the solver gives none: the middle of its range (of its logarithms
 // where that is the quantity's coordinate); nullopt where no range is known.
-std::optional<double> typical_value(const Table& table, const std::string& name);
+std::optional<double> typical_value(const table::Table& table, const std::string& name);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -7,10 +7,10 @@
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 std::vector<std::string> about_entry(const ExportRequest& request) {
-  const Table& table = request.table;
+  const table::Table& table = request.table;
   std::vector<std::string> lines = {
       fmt::format("Law: {}", comment_text(table.model)),
       fmt::format("Data: {}", comment_text(origin_text(table))),
@@ -18,7 +18,7 @@ std::vector<std::string> about_entry(const ExportRequest& request) {
                   request.units, solver_unit("MPa", request.units).name,
                   solver_unit("mm/s", request.units).name, solver_unit("mm", request.units).name),
       fmt::format("Worst drift from the law: {}", drift_text(table))};
-  for (const std::string& line : wrap_text("tau_R_MPa = " + to_text(table.combine), 92))
+  for (const std::string& line : wrap_text("tau_R_MPa = " + expr::to_text(table.combine), 92))
     lines.push_back(comment_text(line));
   return lines;
 }
@@ -40,7 +40,7 @@ std::vector<std::string> argument_lines(const ExportRequest& request,
   return lines;
 }
 
-std::vector<std::string> outside_bits(const Table& table, const std::string& suffix) {
+std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix) {
   std::vector<std::string> names;
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     names.push_back(fmt::format("{}{} {}", 1u << a, suffix, comment_text(table.axes[a].name)));
@@ -49,7 +49,7 @@ std::vector<std::string> outside_bits(const Table& table, const std::string& suf
 }
 
 std::vector<std::string> entry_notes(const ExportRequest& request) {
-  const Table& table = request.table;
+  const table::Table& table = request.table;
   std::vector<std::string> text;
   if (table.is_direct()) text.push_back("This is the law itself, not a table.");
   const std::vector<std::string> sides = outside_lines(table);
@@ -72,4 +72,4 @@ std::vector<std::string> entry_notes(const ExportRequest& request) {
   return text;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -7,7 +7,7 @@
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // Law, data, units, drift, formula.
 std::vector<std::string> about_entry(const ExportRequest& request);
@@ -17,9 +17,9 @@ std::vector<std::string> argument_lines(const ExportRequest& request,
                                         const std::vector<InputArgument>& inputs);
 
 // "1u psi" per axis (`suffix`: u), as frictab_outside gives them.
-std::vector<std::string> outside_bits(const Table& table, const std::string& suffix);
+std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix);
 
 // What holds outside the range, for NaN and in threads; where a file of values lies.
 std::vector<std::string> entry_notes(const ExportRequest& request);
 
-} // namespace frictab
+} // namespace frictab::codegen

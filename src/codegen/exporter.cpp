@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 const std::string& Exporter::option(const ExportRequest& request, const std::string& wanted) const {
   if (const auto said = request.options.find(wanted); said != request.options.end())
@@ -53,4 +53,4 @@ std::vector<const Exporter*> exporters_named(const std::vector<std::string>& nam
   return chosen;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -14,13 +14,13 @@
 #include "table/states.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // Files by path relative to export/<target>/, in memory until everything succeeded.
 using SourceBundle = std::map<std::string, std::string>;
 
 struct ExportRequest {
-  const Table& table;
+  const table::Table& table;
   std::string units = "mm-t-s"; // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
   std::map<std::string, std::string> inputs = {};  // job's [export.inputs]; checked by the exporter
   std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
@@ -74,7 +74,7 @@ struct Exporter {
       drive = {};
   // Where the target is a solver's own table, which has fewer axes than the law: the states of
   // request.table.inputs() that it holds, at which values (canonical). Empty for a whole routine.
-  std::function<HeldStates(const ExportRequest&)> held = {};
+  std::function<table::HeldStates(const ExportRequest&)> held = {};
   // Its own entry for many states at once, in the units of the request and without any conversion:
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
@@ -97,4 +97,4 @@ const Exporter* find_exporter(std::string_view name);
 // is none, naming the nearest.
 std::vector<const Exporter*> exporters_named(const std::vector<std::string>& names);
 
-} // namespace frictab
+} // namespace frictab::codegen

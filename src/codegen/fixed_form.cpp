@@ -8,7 +8,7 @@
 
 #include "codegen/number_text.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::string fixed_form_data(const std::string& name, const std::vector<int>& val
   return data(name, numbers);
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

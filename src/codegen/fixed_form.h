@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace frictab {
+namespace frictab::codegen {
 
 // A Fortran statement in fixed form: columns 7..72, continuation lines marked in column 6. Throws
 // std::logic_error where it would need more than 19 of them.
@@ -16,4 +16,4 @@ std::string fixed_form(const std::string& statement);
 std::string fixed_form_data(const std::string& name, std::span<const double> values);
 std::string fixed_form_data(const std::string& name, const std::vector<int>& values);
 
-} // namespace frictab
+} // namespace frictab::codegen

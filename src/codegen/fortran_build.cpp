@@ -4,7 +4,7 @@
 #include "codegen/fortran_stop.h"
 #include "core/text.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 namespace {
 
@@ -46,4 +46,4 @@ BuildVariant fortran_variant(const ExportRequest& request, const std::string& na
   return out;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -8,7 +8,7 @@
 
 #include "codegen/exporter.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 // gfortran with `flags` behind its own, up to the library's name; sources are to follow.
 std::vector<std::string> library_command(const std::vector<std::string>& flags);
@@ -23,4 +23,4 @@ BuildVariant fortran_variant(const ExportRequest& request, const std::string& na
                              const std::vector<std::string>& sources,
                              const std::vector<std::string>& flags = {}, bool quits = false);
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

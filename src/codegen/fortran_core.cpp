@@ -17,20 +17,22 @@
 #include "core/text.h"
 #include "table/outside.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
+
+using table::Table;
 
 namespace {
 
 // The direct form has no nodes.
-std::vector<TableAxis> tabulated(const Table& table) {
-  return table.is_direct() ? std::vector<TableAxis>{} : table.axes;
+std::vector<table::TableAxis> tabulated(const Table& table) {
+  return table.is_direct() ? std::vector<table::TableAxis>{} : table.axes;
 }
 
 void add_coordinates(TemplateValues& values, const Table& table) {
   const auto rename = symbol_names(table);
   bool logarithm = false;
   Lines& axes = values.lists["axes"];
-  for (const TableAxis& axis : tabulated(table)) {
+  for (const table::TableAxis& axis : tabulated(table)) {
     logarithm = logarithm || axis.log;
     const std::string& x = rename.at(axis.name);
     axes.emplace_back();
@@ -50,7 +52,7 @@ void add_coordinates(TemplateValues& values, const Table& table) {
 
 // What lies beyond the ends of the axes.
 void add_ends(TemplateValues& values, const Table& table) {
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
     TemplateValues one;
     one.text = {{"index", std::to_string(axis.input + 1)},
                 {"low", fortran_number(axis.low)},
@@ -58,7 +60,7 @@ void add_ends(TemplateValues& values, const Table& table) {
     values.lists["ends"].push_back(one);
   }
   values.lists["ends"]; // also where there are none
-  values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, Outside::law);
+  values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, table::Outside::law);
 }
 
 // The program units of the piece and of the gradient, and the helpers that any unit calls. Gives
@@ -67,7 +69,7 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
                       const CoreOptions& options, std::vector<std::string> helpers) {
   const Table& table = request.table;
   const bool gradient = options.gradient;
-  const bool has_piece = table.is_direct() || !sides(table, Outside::law).empty();
+  const bool has_piece = table.is_direct() || !sides(table, table::Outside::law).empty();
   const Piece law = has_piece ? piece(table, gradient, options.units) : Piece{};
   const Piece slopes = gradient ? gradient_unit(request, values, options.units) : Piece{};
   for (const Piece& unit : {law, slopes})
@@ -86,7 +88,8 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
 std::string add_formula(TemplateValues& values, const ExportRequest& request,
                         const CoreOptions& options) {
   const Table& table = request.table;
-  const Statements code = to_statements(table.combine, Language::fortran, symbol_names(table));
+  const expr::Statements code =
+      to_statements(table.combine, expr::Language::fortran, symbol_names(table));
   Lines statements;
   for (const std::string& line : code.lines)
     statements.push_back(item(fixed_form(line)));
@@ -119,7 +122,7 @@ std::vector<std::string> about(const ExportRequest& request) {
                       solver_unit("mm/s", request.units).name,
                       solver_unit("mm", request.units).name),
           fmt::format("Worst drift from the law: {}", drift_text(table)),
-          fmt::format("tau_R_MPa = {}", to_text(table.combine))};
+          fmt::format("tau_R_MPa = {}", expr::to_text(table.combine))};
 }
 
 std::vector<std::string> outside(const Table& table, const std::string& error_action) {
@@ -205,4 +208,4 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   values.offered = {"stress", "length", "to_solver", "properties"};
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

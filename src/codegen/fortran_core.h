@@ -25,7 +25,7 @@
 #include "codegen/fortran_parts.h"
 #include "codegen/solver_inputs.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 // fttau(x): tau_R in MPa of x(1..n), the table's inputs in canonical units, NaN where one of them
 // is; ftnan(x); where the table has axes, ftout(x), true beyond one of their ends; where asked for,
@@ -71,4 +71,4 @@ struct Head {
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
               const std::vector<SolverInput>& inputs, const Head& head);
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

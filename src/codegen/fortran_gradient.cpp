@@ -11,14 +11,14 @@
 #include "expr/several.h"
 #include "table/outside.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 namespace {
 
 // Coordinates of the axes that are looked up, and the states behind them.
-Lines axes(const Table& table, const TemplateValues& core) {
+Lines axes(const table::Table& table, const TemplateValues& core) {
   Lines out;
-  const std::vector<AxisEnds> ends = axis_ends(table);
+  const std::vector<table::AxisEnds> ends = table::axis_ends(table);
   for (const TemplateValues& axis : core.lists.at("axes")) {
     TemplateValues one;
     one.text = {{"number", axis.text.at("number")},
@@ -31,22 +31,24 @@ Lines axes(const Table& table, const TemplateValues& core) {
 }
 
 // The states by which the value inside the formula may change.
-std::vector<bool> behind_value(const Table& table) {
+std::vector<bool> behind_value(const table::Table& table) {
   std::vector<bool> out;
   for (const std::string& name : table.inputs())
-    out.push_back((table.extension && symbols(*table.extension).count(name)) ||
+    out.push_back((table.extension && expr::symbols(*table.extension).count(name)) ||
                   std::any_of(table.axes.begin(), table.axes.end(),
-                              [&](const TableAxis& axis) { return axis.name == name; }));
+                              [&](const table::TableAxis& axis) { return axis.name == name; }));
   return out;
 }
 
 // tau, then dtau(i) = what the formula says at a fixed value, and through the value.
-void add_formula(TemplateValues& values, const Table& table, std::vector<std::string>& helpers) {
+void add_formula(TemplateValues& values, const table::Table& table,
+                 std::vector<std::string>& helpers) {
   const std::vector<std::string> inputs = table.inputs();
-  std::vector<Expr> formulas{table.combine, derivative(table.combine, "value")};
+  std::vector<expr::Expr> formulas{table.combine, derivative(table.combine, "value")};
   for (const std::string& name : inputs)
     formulas.push_back(derivative(table.combine, name));
-  const SeveralStatements code = to_statements(formulas, Language::fortran, symbol_names(table));
+  const expr::SeveralStatements code =
+      to_statements(formulas, expr::Language::fortran, symbol_names(table));
   const auto value_lines = static_cast<std::ptrdiff_t>(code.first_lines[0]);
   std::vector<std::string> lines(code.lines.begin() + value_lines, code.lines.end());
   const std::vector<bool> behind = behind_value(table);
@@ -75,13 +77,13 @@ void add_formula(TemplateValues& values, const Table& table, std::vector<std::st
 } // namespace
 
 Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Units units) {
-  const Table& table = request.table;
+  const table::Table& table = request.table;
   TemplateValues values;
   Piece out;
   add_formula(values, table, out.helpers);
   values.lists["axes"] = axes(table, core);
   values.lists["extending"] = core.lists.at("extending");
-  values.lists["refusing"] = sides(table, Outside::error);
+  values.lists["refusing"] = sides(table, table::Outside::error);
   values.lists["constants"] = constant_lines(table, table.combine);
   values.lists["helpers"] = items(out.helpers);
   for (const char* name : {"n_x", "n_axes", "only_value", "pure_tau"})
@@ -104,4 +106,4 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
   return out;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -12,7 +12,9 @@
 #include "table/axis_search.h"
 #include "table/spline.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
+
+using table::Table;
 
 namespace {
 
@@ -21,7 +23,7 @@ using Strings = std::vector<std::string>;
 std::vector<long> strides(const Table& table) {
   std::vector<long> out;
   long stride = static_cast<long>(table.nodes());
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     out.push_back(stride /= static_cast<long>(axis.nodes.size()));
   return out;
 }
@@ -150,7 +152,8 @@ struct Data {
   std::vector<int> guide, first;
 };
 
-void add_axis(TemplateValues& axis, const AxisSearch& search, long stride, const Data& data) {
+void add_axis(TemplateValues& axis, const table::AxisSearch& search, long stride,
+              const Data& data) {
   const std::size_t node = data.nodes.size() + 1, cell = data.per_cell.size() + 1;
   const std::size_t n = search.u.size();
   const auto text = [&](const char* name, std::size_t number) {
@@ -181,7 +184,7 @@ std::vector<TemplateValues> search_axes(const Table& table, const std::vector<lo
     to.insert(to.end(), from.begin(), from.end());
   };
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
-    const AxisSearch search = axis_search(table.axes[a].coordinates());
+    const table::AxisSearch search = table::axis_search(table.axes[a].coordinates());
     axes.emplace_back();
     axes.back().text["number"] = std::to_string(a + 1);
     add_axis(axes.back(), search, stride[a], data);
@@ -189,7 +192,7 @@ std::vector<TemplateValues> search_axes(const Table& table, const std::vector<lo
     append(data.per_cell, search.per_cell);
     append(data.guide, search.guide);
     if (!is_cubic(table)) continue;
-    const SplineAxis spline = spline_axis(table.axes[a]);
+    const table::SplineAxis spline = table::spline_axis(table.axes[a]);
     append(data.first, spline.first);
     append(data.basis, spline.basis);
   }
@@ -282,4 +285,4 @@ Piece interpolation(const ExportRequest& request, const std::vector<double>& bak
   return out;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -8,7 +8,7 @@
 #include "codegen/exporter.h"
 #include "codegen/fortran_parts.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 // `values` are baked_values. The function ftintp(u), one coordinate per axis; with `gradient` also
 // the subroutine ftintg, which gives the derivatives as well: on its own it holds the numbers for
@@ -22,6 +22,6 @@ struct Slopes {
   std::vector<std::string> names, steps;
 };
 Slopes linear_slopes(const std::vector<long>& stride);
-Slopes cubic_slopes(const Table& table, const std::vector<long>& stride);
+Slopes cubic_slopes(const table::Table& table, const std::vector<long>& stride);
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

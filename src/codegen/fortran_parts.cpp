@@ -15,7 +15,11 @@
 #include "expr/several.h"
 #include "table/outside.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
+
+using expr::Expr;
+using table::Outside;
+using table::Table;
 
 namespace {
 
@@ -70,7 +74,7 @@ Lines declarations(const std::vector<std::string>& names) {
 }
 
 Lines constant_lines(const Table& table, const Expr& formula) {
-  const std::set<std::string> used = symbols(formula);
+  const std::set<std::string> used = expr::symbols(formula);
   const auto rename = symbol_names(table);
   Lines constants;
   for (const auto& [name, number] : table.constants) {
@@ -100,7 +104,7 @@ struct Body {
   std::vector<std::string> held, before;
   std::string all; // every statement, to see which helpers they call
 
-  std::string add(const Statements& code, std::vector<std::string>& lines) {
+  std::string add(const expr::Statements& code, std::vector<std::string>& lines) {
     names.insert(names.end(), code.temporaries.begin(), code.temporaries.end());
     for (const std::string& line : code.lines) {
       all += line + "\n";
@@ -112,8 +116,8 @@ struct Body {
 
 // h1 stands for x(1) where an axis is held at an end.
 void hold(Body& body, const Table& table) {
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (!symbols(*table.extension).count(axis.name)) continue;
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
+    if (!expr::symbols(*table.extension).count(axis.name)) continue;
     if (axis.below == Outside::law && axis.above == Outside::law) continue;
     const std::string h = fmt::format("h{}", axis.input + 1);
     body.names.push_back(h);
@@ -134,8 +138,8 @@ void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Bo
   const UnitLayer& l = layer ? *layer : none;
   Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const Statements code =
-        to_statements(l.features[f], Language::fortran, body.rename, fmt::format("f{}t", f));
+    const expr::Statements code =
+        to_statements(l.features[f], expr::Language::fortran, body.rename, fmt::format("f{}t", f));
     TemplateValues feature;
     feature.text = {{"index", std::to_string(f)}, {"name", body.add(code, body.before)}};
     features.push_back(feature);
@@ -196,7 +200,8 @@ void add_formulas(TemplateValues& values, const Table& table, const LayeredFormu
   if (gradient)
     for (const Expr& slope : input_slopes(table, formula))
       formulas.push_back(slope);
-  const SeveralStatements code = to_statements(formulas, Language::fortran, body.rename);
+  const expr::SeveralStatements code =
+      to_statements(formulas, expr::Language::fortran, body.rename);
   body.names.insert(body.names.end(), code.temporaries.begin(), code.temporaries.end());
   std::vector<std::string> lines;
   for (const std::string& line : code.lines) {
@@ -227,8 +232,8 @@ void add_formulas(TemplateValues& values, const Table& table, const LayeredFormu
 Lines stopped_sides(const Table& table) {
   Lines lines;
   for (const Outside kind : {Outside::clamp, Outside::error})
-    for (const AxisEnds& axis : axis_ends(table)) {
-      if (!symbols(*table.extension).count(axis.name)) continue;
+    for (const table::AxisEnds& axis : table::axis_ends(table)) {
+      if (!expr::symbols(*table.extension).count(axis.name)) continue;
       const auto add = [&](const char* relation, double limit) {
         TemplateValues side;
         side.text = {{"index", std::to_string(axis.input + 1)},
@@ -277,7 +282,7 @@ Piece piece(const Table& table, bool gradient, Units units) {
 
 Lines sides(const Table& table, Outside kind) {
   Lines lines;
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
     const bool refuses = kind == Outside::error;
     const auto add = [&](const char* relation, double limit) {
       TemplateValues side;
@@ -292,4 +297,4 @@ Lines sides(const Table& table, Outside kind) {
   return lines;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -9,7 +9,7 @@
 #include "expr/expr.h"
 #include "table/table.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 // Comment lines; what does not fit goes on, set in by two blanks.
 Lines comments(const std::vector<std::string>& texts);
@@ -21,10 +21,10 @@ std::string clip(const std::string& text, std::size_t indent = 0);
 Lines declarations(const std::vector<std::string>& names);
 
 // States as x(1), ..., constants as c1, ..., "value" as val.
-std::map<std::string, std::string> symbol_names(const Table& table);
+std::map<std::string, std::string> symbol_names(const table::Table& table);
 
 // The constants that a formula uses, as named constants.
-Lines constant_lines(const Table& table, const Expr& formula);
+Lines constant_lines(const table::Table& table, const expr::Expr& formula);
 
 // ftmin, ftmax, ftwhle, where these statements call them.
 std::vector<std::string> helpers_of(const std::string& statements);
@@ -44,12 +44,12 @@ struct Piece {
 };
 
 // The law's own formula, ftpiec; with `gradient` also ftpieg, which gives its derivatives as well.
-Piece piece(const Table& table, bool gradient, Units units);
+Piece piece(const table::Table& table, bool gradient, Units units);
 
 // "x(index) relation limit" for each side of that kind.
-Lines sides(const Table& table, Outside kind);
+Lines sides(const table::Table& table, table::Outside kind);
 
 // A template's text, to be inserted into another one: without the line break at its end.
 std::string without_last_break(std::string text);
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

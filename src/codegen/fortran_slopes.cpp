@@ -6,7 +6,7 @@
 
 #include "codegen/fortran_interpolation.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 namespace {
 
@@ -60,7 +60,7 @@ private:
 // axis k; a1, a2, ... gather it along the axes before.
 class Bundle {
 public:
-  Bundle(const Table& table, const std::vector<long>& stride, Slopes& out)
+  Bundle(const table::Table& table, const std::vector<long>& stride, Slopes& out)
       : table_(table), stride_(stride), out_(out) {}
 
   void write(std::size_t axis, const std::string& at) {
@@ -114,7 +114,7 @@ private:
     if (n > 3) out.push_back(fmt::format("{0} = {0} + ({1} + {2})", to, term(2), term(3)));
   }
 
-  const Table& table_;
+  const table::Table& table_;
   const std::vector<long>& stride_;
   Slopes& out_;
 };
@@ -155,7 +155,7 @@ Slopes linear_slopes(const std::vector<long>& stride) {
   return out;
 }
 
-Slopes cubic_slopes(const Table& table, const std::vector<long>& stride) {
+Slopes cubic_slopes(const table::Table& table, const std::vector<long>& stride) {
   Slopes out;
   const std::size_t axes = stride.size();
   name_slopes(axes, out);
@@ -172,4 +172,4 @@ Slopes cubic_slopes(const Table& table, const std::vector<long>& stride) {
   return out;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

@@ -10,7 +10,7 @@
 #include "codegen/values_file.h"
 #include "table/outside.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 std::string quit(const std::string& statement) {
   TemplateValues values;
@@ -29,27 +29,27 @@ std::string say() {
          "C";
 }
 
-std::string stop(const Table& table) {
+std::string stop(const table::Table& table) {
   TemplateValues values;
-  Lines refusing = sides(table, Outside::error);
+  Lines refusing = sides(table, table::Outside::error);
   std::size_t side = 0;
-  const auto say = [&](const AxisEnds& axis, const char* where, double end) {
+  const auto say = [&](const table::AxisEnds& axis, const char* where, double end) {
     std::string name = comment_text(axis.name).substr(0, 30);
     std::replace(name.begin(), name.end(), '\'', ' ');
     refusing[side++].text["name"] = fmt::format("{} {} {:.6g}", name, where, end);
   };
-  for (const AxisEnds& axis : axis_ends(table)) {
-    if (axis.below == Outside::error) say(axis, "below", axis.low);
-    if (axis.above == Outside::error) say(axis, "above", axis.high);
+  for (const table::AxisEnds& axis : table::axis_ends(table)) {
+    if (axis.below == table::Outside::error) say(axis, "below", axis.low);
+    if (axis.above == table::Outside::error) say(axis, "above", axis.high);
   }
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
   values.lists["refusing"] = refusing;
   return without_last_break(render_template("fortran/frictab_refuse.f", values));
 }
 
-bool refuses(const Table& table) {
-  return std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
-    return axis.below == Outside::error || axis.above == Outside::error;
+bool refuses(const table::Table& table) {
+  return std::any_of(table.axes.begin(), table.axes.end(), [](const table::TableAxis& axis) {
+    return axis.below == table::Outside::error || axis.above == table::Outside::error;
   });
 }
 
@@ -57,4 +57,4 @@ bool ends(const ExportRequest& request) {
   return refuses(request.table) || values_in_file(request);
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

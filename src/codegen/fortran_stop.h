@@ -6,17 +6,17 @@
 
 #include "codegen/exporter.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 // The function ftstop of Core.
-std::string stop(const Table& table);
+std::string stop(const table::Table& table);
 
 // ftquit(text) of Core for a solver without a message routine of its own: writes the text to the
 // standard output and does `statement` ("call quit(1234)").
 std::string quit(const std::string& statement);
 
 // Whether any side of the table's axes has outside = error.
-bool refuses(const Table& table);
+bool refuses(const table::Table& table);
 
 // ftquit(text) of a module: writes the text to the error unit, and ends nothing.
 std::string say();
@@ -25,4 +25,4 @@ std::string say();
 // cannot be read.
 bool ends(const ExportRequest& request);
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

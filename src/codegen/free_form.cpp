@@ -4,7 +4,7 @@
 
 #include "codegen/fortran_core.h"
 
-namespace frictab::fortran {
+namespace frictab::codegen::fortran {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string free_form(const std::string& fixed) {
   return out;
 }
 
-} // namespace frictab::fortran
+} // namespace frictab::codegen::fortran

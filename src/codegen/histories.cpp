@@ -11,16 +11,16 @@
 #include "codegen/solver_units.h"
 #include "data/derived.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
-using C = Continuation;
+using C = data::Continuation;
 
 constexpr double zero_celsius = 273.15; // K: a peak is kept above absolute zero, 0 stands for none
 
-const Continuation& continuation(const SolverInput& input) {
-  return find_derived(input.argument.name)->continuation;
+const data::Continuation& continuation(const SolverInput& input) {
+  return data::find_derived(input.argument.name)->continuation;
 }
 
 bool is(const SolverInput& input, C::Rule rule) {
@@ -64,7 +64,7 @@ public:
                {"convert", fortran_conversion(input.argument.solver)},
                {"from_stress", fortran_conversion(solver_unit("MPa", units))},
                {"from_speed", fortran_conversion(solver_unit("mm/s", units))},
-               {"at_peak", fortran_number(at_peak)}} {}
+               {"at_peak", fortran_number(data::at_peak)}} {}
 
   TemplateValues values() const {
     TemplateValues out;
@@ -134,12 +134,12 @@ double pressure_now(const std::vector<SolverInput>& inputs, double canonical) {
 } // namespace
 
 bool is_further_history(const std::string& name) {
-  const DerivedQuantity* derived = find_derived(name);
+  const data::DerivedQuantity* derived = data::find_derived(name);
   return derived && derived->continuation.rule != C::none && !derived->continuation.always;
 }
 
 bool follows_temperature(const std::string& name) {
-  return is_further_history(name) && find_derived(name)->continuation.of == C::temperature;
+  return is_further_history(name) && data::find_derived(name)->continuation.of == C::temperature;
 }
 
 std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
@@ -248,7 +248,7 @@ bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
     if (is(inputs[c], C::per_time)) time = columns[c];
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (inputs[c].source != Source::history) continue;
-    const Continuation how = continuation(inputs[c]);
+    const data::Continuation how = continuation(inputs[c]);
     const double now = present(how.of, inputs, columns, row), value = columns[c][row];
     if (takes_mean(inputs[c]) && time && !(time[row] > 0)) return false;
     if (how.rule == C::peak && value < now) return false;
@@ -258,4 +258,4 @@ bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
   return true;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -32,7 +32,7 @@
 #include "codegen/solver_inputs.h"
 #include "codegen/template.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // One state variable.
 struct HistoryState {
@@ -90,4 +90,4 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
 bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
                             std::span<const double* const> columns, std::size_t row);
 
-} // namespace frictab
+} // namespace frictab::codegen

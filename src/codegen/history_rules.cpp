@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
-using C = Continuation;
+using C = data::Continuation;
 
 const char* const is_h = "@{x} = @{h}@{convert}";
 
@@ -129,7 +129,7 @@ HistoryRule flash_heating() {
 
 } // namespace
 
-HistoryRule history_rule(const Continuation& how) {
+HistoryRule history_rule(const data::Continuation& how) {
   switch (how.rule) {
   case C::per_slip:
     return energy();
@@ -157,7 +157,7 @@ HistoryRule history_rule(const Continuation& how) {
   throw std::logic_error("no routine continues this history");
 }
 
-const Followed& followed(Continuation::Of of) {
+const Followed& followed(data::Continuation::Of of) {
   static const Followed pressure = {"sigma_n_MPa", "MPa", "pressure", "p"};
   static const Followed speed = {"v_rel_mm_s", "mm/s", "sliding speed", "v"};
   static const Followed temperature = {"T_contact_C", "degC", "temperature (degC)", "t"};
@@ -165,4 +165,4 @@ const Followed& followed(Continuation::Of of) {
   return of == C::speed ? speed : temperature;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -6,7 +6,7 @@
 
 #include "data/derived.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // Statements, a line each. They may hold @{x} (the law's input), @{h} and @{h1} (the state variable
 // before and behind the increment), @{time} (the state variable of the time that means are taken
@@ -24,7 +24,7 @@ struct HistoryRule {
 };
 
 // Throws std::logic_error for the rule `none`.
-HistoryRule history_rule(const Continuation& how);
+HistoryRule history_rule(const data::Continuation& how);
 
 // A quantity that a rule may follow.
 struct Followed {
@@ -33,6 +33,6 @@ struct Followed {
   const char* name;     // for people
   const char* argument; // of the Fortran routines
 };
-const Followed& followed(Continuation::Of of);
+const Followed& followed(data::Continuation::Of of);
 
-} // namespace frictab
+} // namespace frictab::codegen

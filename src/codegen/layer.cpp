@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
-namespace frictab {
+namespace frictab::codegen {
+
+using expr::Expr;
+using expr::Op;
 
 namespace {
 
@@ -172,4 +175,4 @@ std::size_t count_numbers(const Expr& formula) {
   return numbers.size();
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

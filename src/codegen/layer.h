@@ -8,13 +8,13 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // output_m = offset[m] + sum over its units of gain[u] tanh(bias[u] + sum_f weight[f][u]
 // feature_f). Unit u belongs to output u % outputs: neighbours belong to different outputs, so that
 // sums over units run in parallel and keep the formula's own order.
 struct UnitLayer {
-  std::vector<Expr> features;
+  std::vector<expr::Expr> features;
   std::size_t outputs = 0;
   std::vector<std::vector<double>> weight;
   std::vector<double> bias, gain;
@@ -26,16 +26,16 @@ struct UnitLayer {
 
 struct LayeredFormula {
   std::optional<UnitLayer> layer; // from `least_units` tanh on that are sums of the same features
-  Expr rest;                      // the formula, with layer_output(m) in place of each output
+  expr::Expr rest;                // the formula, with layer_output(m) in place of each output
 };
 
 inline constexpr std::size_t least_units = 6;
 
 std::string layer_output(std::size_t m); // a symbol
 
-LayeredFormula split_layer(const Expr& formula);
+LayeredFormula split_layer(const expr::Expr& formula);
 
 // Different numbers in a formula.
-std::size_t count_numbers(const Expr& formula);
+std::size_t count_numbers(const expr::Expr& formula);
 
-} // namespace frictab
+} // namespace frictab::codegen

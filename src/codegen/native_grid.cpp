@@ -11,7 +11,9 @@
 #include "core/columns.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::codegen {
+
+using table::States;
 
 namespace {
 
@@ -124,7 +126,7 @@ private:
 
 Maker::Maker(const NativeProblem& problem, const NativeGoal& goal)
     : problem_(problem), goal_(goal), axes_(problem.axes.size()) {
-  std::vector<StateRange> ranges;
+  std::vector<table::StateRange> ranges;
   for (const NativeAxis& axis : problem_.axes)
     ranges.push_back({axis.state, axis.low, axis.high, ""});
   place_candidates();
@@ -132,9 +134,9 @@ Maker::Maker(const NativeProblem& problem, const NativeGoal& goal)
     box_.coefficient = coefficients({});
     return;
   }
-  box_.states = box_points(ranges, probes);
+  box_.states = table::box_points(ranges, probes);
   box_.coefficient = coefficients(box_.states);
-  add_lines(box_points(ranges, lines_inside)); // and through all corners
+  add_lines(table::box_points(ranges, lines_inside)); // and through all corners
 }
 
 // tau_R / factor, without the limit.
@@ -363,4 +365,4 @@ NativeGrid make_native_grid(const NativeProblem& problem, const NativeGoal& goal
   return Maker(problem, goal).make();
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

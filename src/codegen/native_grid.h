@@ -22,7 +22,7 @@
 
 #include "codegen/solver_units.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // A table as a solver reads it.
 struct NativeValues {
@@ -76,4 +76,4 @@ NativeGrid make_native_grid(const NativeProblem& problem, const NativeGoal& goal
 std::string native_number(double value);
 double as_written(double value);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -15,7 +15,9 @@
 #include "io/atomic_file.h"
 #include "io/number.h"
 
-namespace frictab {
+namespace frictab::codegen {
+
+using expr::Expr;
 
 namespace {
 
@@ -38,9 +40,10 @@ InputArgument argument_of(const ExportRequest& request, const std::string& name)
   return *std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == name; });
 }
 
-std::optional<std::pair<double, double>> range_of(const Table& table, const std::string& name) {
+std::optional<std::pair<double, double>> range_of(const table::Table& table,
+                                                  const std::string& name) {
   if (const auto known = table.range(name)) return known;
-  const Quantity* quantity = find_quantity(name);
+  const data::Quantity* quantity = data::find_quantity(name);
   return quantity && quantity->paper_range ? quantity->paper_range : std::nullopt;
 }
 
@@ -55,7 +58,7 @@ double flow_stress_of(const std::string& choice) {
   const std::string number = choice.starts_with("constant:") ? choice.substr(9) : "";
   double value = 0;
   const char* const end = number.data() + number.size();
-  if (scan_number(number.data(), end, '.', value) != end || !(value > 0))
+  if (io::scan_number(number.data(), end, '.', value) != end || !(value > 0))
     throw InputError(input_place("sigma_f_MPa"), "'" + choice + "' is no flow stress to hold",
                      "constant:480");
   return value;
@@ -109,8 +112,8 @@ std::vector<NativeColumn> native_columns(const ExportRequest& request, const Nat
   return columns;
 }
 
-HeldStates native_held(const ExportRequest& request, const NativeForm& form) {
-  HeldStates held;
+table::HeldStates native_held(const ExportRequest& request, const NativeForm& form) {
+  table::HeldStates held;
   for (const SolverInput& input : solver_inputs(request, form.gives)) {
     if (input.source != Source::constant) continue;
     if (!input.fallback) no_value(input.argument.name);
@@ -137,7 +140,7 @@ struct Limited {
 
 class LimitSplit {
 public:
-  LimitSplit(const Table& table, const HeldStates& held) {
+  LimitSplit(const table::Table& table, const table::HeldStates& held) {
     for (const auto& [name, value] : table.constants)
       known_.emplace(name, value);
     for (const auto& [name, value] : held)
@@ -147,7 +150,7 @@ public:
   Limited split(const Expr& e) const {
     if (const auto number = constant(e)) return {std::nullopt, number};
     const auto& a = e.operands();
-    if (e.op() == Op::minimum) {
+    if (e.op() == expr::Op::minimum) {
       const auto first = constant(a[0]), second = constant(a[1]);
       if (!first && !second) return {e, std::nullopt};
       Limited out = split(first ? a[1] : a[0]);
@@ -155,13 +158,13 @@ public:
       out.limit = out.limit ? std::min(*out.limit, limit) : limit;
       return out;
     }
-    if (e.op() == Op::maximum || e.op() == Op::multiply) {
+    if (e.op() == expr::Op::maximum || e.op() == expr::Op::multiply) {
       const auto first = constant(a[0]), second = constant(a[1]);
       const std::optional<double> number = first ? first : second;
       if (!number || *number < 0) return {e, std::nullopt};
       const Limited inner = split(first ? a[1] : a[0]);
       if (!inner.limit || !inner.rest || *inner.limit < 0) return {e, std::nullopt};
-      if (e.op() == Op::multiply) return {*number * *inner.rest, *number * *inner.limit};
+      if (e.op() == expr::Op::multiply) return {*number * *inner.rest, *number * *inner.limit};
       return {maximum(*inner.rest, *number), std::max(*inner.limit, *number)};
     }
     return {e, std::nullopt};
@@ -172,13 +175,13 @@ private:
   std::optional<double> constant(const Expr& e) const {
     std::vector<std::string> names;
     std::vector<double> values;
-    for (const std::string& name : symbols(e)) {
+    for (const std::string& name : expr::symbols(e)) {
       const auto found = known_.find(name);
       if (found == known_.end()) return std::nullopt;
       names.push_back(name);
       values.push_back(found->second);
     }
-    const double value = Program(e, {}, names)({}, values);
+    const double value = expr::Program(e, {}, names)({}, values);
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   }
 
@@ -188,7 +191,8 @@ private:
 // A table at its held states, as a function of columns.
 class HeldTable {
 public:
-  HeldTable(const Table& table, const std::vector<NativeColumn>& columns, const HeldStates& held)
+  HeldTable(const table::Table& table, const std::vector<NativeColumn>& columns,
+            const table::HeldStates& held)
       : function_(table) {
     for (const std::string& name : function_.inputs()) {
       const auto at = std::find_if(columns.begin(), columns.end(),
@@ -213,7 +217,7 @@ public:
 
 private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  TableFunction function_;
+  table::TableFunction function_;
   std::vector<std::size_t> column_;
   std::vector<double> value_;
 };
@@ -232,9 +236,9 @@ NativeAxis axis_of(const ExportRequest& request, const NativeForm& form,
   axis.low = range ? range->first : 0;
   axis.high = range ? range->second : 1;
   axis.fewest = form.every_column ? 2 : 1;
-  const Quantity* quantity = find_quantity(name);
+  const data::Quantity* quantity = data::find_quantity(name);
   axis.log = quantity && quantity->log_axis;
-  for (const TableAxis& own : request.table.axes) {
+  for (const table::TableAxis& own : request.table.axes) {
     if (own.name != name) continue;
     axis.log = own.log;
     if (!request.table.is_direct()) axis.kinks = own.nodes;
@@ -242,7 +246,7 @@ NativeAxis axis_of(const ExportRequest& request, const NativeForm& form,
   return axis;
 }
 
-double aim_of(const Table& table) {
+double aim_of(const table::Table& table) {
   const double tolerance = table.record.tolerance_MPa.value_or(usual_tolerance_MPa);
   const double own = table.is_direct() ? 0 : table.record.worst_case_MPa.value_or(0);
   return std::max(share_of_tolerance * (tolerance - own), least_share * tolerance);
@@ -255,7 +259,7 @@ double limit_as_written(double limit, const ExportRequest& request) {
 }
 
 NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
-                         const std::vector<NativeColumn>& columns, const HeldStates& held) {
+                         const std::vector<NativeColumn>& columns, const table::HeldStates& held) {
   NativeProblem problem;
   for (const NativeColumn& column : columns) {
     if (form.factor == NativeFactor::pressure && is_pressure(column))
@@ -264,7 +268,7 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
   }
   if (form.factor == NativeFactor::shear_yield)
     problem.factor_MPa = shear_yield(held.at("sigma_f_MPa"));
-  Table table = request.table;
+  table::Table table = request.table;
   if (form.limits) {
     const Limited parts = LimitSplit(table, held).split(table.combine);
     if (parts.limit) problem.limit_MPa = limit_as_written(*parts.limit, request);
@@ -310,7 +314,7 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,
                   std::size_t rows, std::span<const double* const> given, std::span<double> tau) {
   const std::vector<NativeColumn> columns = native_columns(request, form);
-  const HeldStates held = native_held(request, form);
+  const table::HeldStates held = native_held(request, form);
   if (values.nodes.size() != columns.size())
     throw std::runtime_error(fmt::format("the table was written for {} columns, it has {}",
                                          columns.size(), values.nodes.size()));
@@ -377,7 +381,7 @@ Exporter native_exporter(const NativeTarget& target) {
   out.variants = [](const ExportRequest&) { return native_variants(); };
   out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> columns, std::span<double> tau) {
-    const NativeValues values = target.read(read_file(built.directory / target.file), request);
+    const NativeValues values = target.read(io::read_file(built.directory / target.file), request);
     drive_native(target.form(request), values, request, rows, columns, tau);
   };
   out.held = [target](const ExportRequest& request) {
@@ -386,4 +390,4 @@ Exporter native_exporter(const NativeTarget& target) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

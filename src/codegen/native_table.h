@@ -13,7 +13,7 @@
 #include "codegen/solver_inputs.h"
 #include "table/plain_text.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 enum class NativeFactor {
   pressure,   // Coulomb: tau_R = mu * pressure
@@ -43,12 +43,12 @@ struct NativeColumn {
 std::vector<NativeColumn> native_columns(const ExportRequest& request, const NativeForm& form);
 
 // The states without a column, at the job's constants or the middle of their ranges.
-HeldStates native_held(const ExportRequest& request, const NativeForm& form);
+table::HeldStates native_held(const ExportRequest& request, const NativeForm& form);
 
 struct NativeTable {
   std::vector<NativeColumn> columns;
   NativeValues values; // nodes per column; empty: the law does not depend on it
-  HeldStates held;
+  table::HeldStates held;
   double aim_MPa = 0, found_MPa = 0;
   bool met = false;
 };
@@ -96,7 +96,7 @@ Exporter native_exporter(const NativeTarget& target);
 
 // The same text, with what the command holds as constants. Refuses (InputError) a state that is
 // neither held nor a column.
-PlainFormat native_plain_format(const NativeTarget& target);
+table::PlainFormat native_plain_format(const NativeTarget& target);
 
 // The nodes at which value number i holds, one per column; NaN where the column is blank.
 std::vector<double> place_of(const NativeValues& values, std::size_t i);
@@ -112,4 +112,4 @@ std::vector<std::string_view> deck_lines(std::string_view text, std::string_view
 NativeValues values_of_rows(const std::vector<std::vector<double>>& places,
                             const std::vector<double>& value);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -15,7 +15,7 @@
 #include "core/text.h"
 #include "io/json.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -127,12 +127,12 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
   out["compile"] = json::array();
   out["input_deck"] = input_deck;
   out["table"] = recipe_table(request);
-  return json_text(out);
+  return io::json_text(out);
 }
 
 namespace {
 
-std::string plain_text(const PlainRequest& request, const NativeTarget& target) {
+std::string plain_text(const table::PlainRequest& request, const NativeTarget& target) {
   std::vector<std::string> columns;
   ExportRequest asked{request.table, "mm-t-s", {}};
   for (const auto& [name, value] : request.held)
@@ -146,15 +146,15 @@ std::string plain_text(const PlainRequest& request, const NativeTarget& target) 
       throw InputError({}, column.argument.name + " is a column of this table",
                        "leave out --at " + column.argument.name);
   }
-  check_all_known(request.table, request.held, columns);
+  table::check_all_known(request.table, request.held, columns);
   return find_exporter(target.about.name)->generate(asked).at(target.file);
 }
 
 } // namespace
 
-PlainFormat native_plain_format(const NativeTarget& target) {
+table::PlainFormat native_plain_format(const NativeTarget& target) {
   return {target.plain_name, target.plain_order, target.plain_title, target.about.signature_source,
-          [target](const PlainRequest& request, std::ostream& out) {
+          [target](const table::PlainRequest& request, std::ostream& out) {
             out << plain_text(request, target);
           }};
 }
@@ -235,4 +235,4 @@ NativeValues values_of_rows(const std::vector<std::vector<double>>& places,
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace frictab {
+namespace frictab::codegen {
 
 std::string c_number(double value) {
   std::string text = fmt::format("{}", value);
@@ -56,4 +56,4 @@ std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
   return lines;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frictab {
+namespace frictab::codegen {
 
 // 17 significant digits at most, reads back to the same bits. C: 1.0, 1e-20. Fortran: 1.0D0.
 std::string c_number(double value);
@@ -19,4 +19,4 @@ std::string number_lines(const std::vector<std::string>& items, std::size_t widt
 // Text broken at blanks into lines of at most `width` columns.
 std::vector<std::string> wrap_text(std::string_view text, std::size_t width);
 
-} // namespace frictab
+} // namespace frictab::codegen

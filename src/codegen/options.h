@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 struct ExportOptions {
   std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
@@ -22,4 +22,4 @@ struct ExportOptions {
   Place place;
 };
 
-} // namespace frictab
+} // namespace frictab::codegen

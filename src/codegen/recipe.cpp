@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "io/json.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -26,7 +26,7 @@ json unit_names(std::string_view units) {
           {"temperature", "degC"}};
 }
 
-json axis_json(const TableAxis& axis, std::size_t bit, const InputArgument& input) {
+json axis_json(const table::TableAxis& axis, std::size_t bit, const InputArgument& input) {
   return {{"name", axis.name},
           {"unit", axis.unit},
           {"meaning", input.meaning},
@@ -34,7 +34,7 @@ json axis_json(const TableAxis& axis, std::size_t bit, const InputArgument& inpu
           {"nodes", axis.nodes.size()},
           {"transform", axis.log ? "log" : "linear"},
           {"outside_bit", bit},
-          {"outside", {outside_name(axis.below), outside_name(axis.above)}}};
+          {"outside", {table::outside_name(axis.below), table::outside_name(axis.above)}}};
 }
 
 } // namespace
@@ -62,7 +62,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
 }
 
 json recipe_table(const ExportRequest& request) {
-  const Table& table = request.table;
+  const table::Table& table = request.table;
   const std::vector<InputArgument> inputs = entry_arguments(table, request.units);
   json axes = json::array();
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
@@ -73,8 +73,8 @@ json recipe_table(const ExportRequest& request) {
   json out = {{"axes", axes},
               {"quantity", table.quantity},
               {"transform", table.log_value ? "log" : "linear"},
-              {"interpolation", interpolation_name(table.interpolation)},
-              {"combine", to_text(table.combine)},
+              {"interpolation", table::interpolation_name(table.interpolation)},
+              {"combine", expr::to_text(table.combine)},
               {"constants", table.constants},
               {"worst_case_MPa", nullptr},
               {"outside",
@@ -86,19 +86,19 @@ json recipe_table(const ExportRequest& request) {
   if (table.is_direct())
     for (json& axis : out["axes"])
       axis.erase("nodes"), axis.erase("transform");
-  const TableRecord& record = table.record;
+  const table::TableRecord& record = table.record;
   if (record.worst_case_MPa) out["worst_case_MPa"] = *record.worst_case_MPa;
   if (record.proven_drift_MPa) out["proven_drift_MPa"] = *record.proven_drift_MPa;
   return out;
 }
 
 bool is_direct_recipe(const std::string& text, const std::string& file) {
-  const json recipe = parse_json(text, file);
+  const json recipe = io::parse_json(text, file);
   return recipe.is_object() && recipe.value("form", json("table")) == "direct";
 }
 
 std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file) {
-  const json recipe = parse_json(text, file);
+  const json recipe = io::parse_json(text, file);
   std::vector<std::string> files;
   if (recipe.is_object() && recipe.contains("files") && recipe.at("files").is_array())
     for (const json& name : recipe.at("files"))
@@ -114,4 +114,4 @@ std::vector<std::string> files_of_recipe(const std::string& text, const std::str
   return files;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

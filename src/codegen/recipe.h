@@ -7,7 +7,7 @@
 
 #include "codegen/exporter.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // schema, target, model, form (table or direct), data_origin, units, entry, files,
 // signature_source; values_file, where the files hold one.
@@ -24,4 +24,4 @@ bool is_direct_recipe(const std::string& text, const std::string& file);
 // recipe, or a name leads out of the directory.
 std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file);
 
-} // namespace frictab
+} // namespace frictab::codegen

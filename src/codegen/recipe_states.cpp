@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace frictab {
+namespace frictab::codegen {
 
 using json = nlohmann::ordered_json;
 
@@ -37,4 +37,4 @@ json recipe_properties(const std::vector<SolverInput>& inputs) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

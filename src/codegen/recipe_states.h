@@ -7,7 +7,7 @@
 
 #include "codegen/solver_inputs.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // One object per state: quantity, unit, meaning, source; `constant` (solver's unit) where the
 // source is one.
@@ -16,4 +16,4 @@ nlohmann::ordered_json recipe_states(const std::vector<SolverInput>& inputs);
 // One object per property of the deck: number, quantity, unit, meaning, used_when, where_absent.
 nlohmann::ordered_json recipe_properties(const std::vector<SolverInput>& inputs);
 
-} // namespace frictab
+} // namespace frictab::codegen

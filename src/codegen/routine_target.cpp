@@ -8,7 +8,7 @@
 #include "codegen/values_file.h"
 #include "io/json.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -28,7 +28,7 @@ SourceBundle bundle(const RoutineTarget& target, const ExportRequest& request) {
       recipe_head(*find_exporter(target.about.name), request, target.entry, files);
   target.recipe(recipe, request, inputs);
   recipe["table"] = recipe_table(request);
-  files["recipe.json"] = json_text(recipe);
+  files["recipe.json"] = io::json_text(recipe);
   return files;
 }
 
@@ -56,4 +56,4 @@ Exporter routine_exporter(const RoutineTarget& target) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -12,7 +12,7 @@
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 struct RoutineTarget {
   Exporter about;    // name, order, title, signature_source, notes, options
@@ -35,4 +35,4 @@ struct RoutineTarget {
 
 Exporter routine_exporter(const RoutineTarget& target);
 
-} // namespace frictab
+} // namespace frictab::codegen

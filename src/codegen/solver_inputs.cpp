@@ -19,7 +19,7 @@
 #include "data/meaning.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -97,7 +97,7 @@ public:
       return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
     case Source::history:
       return "from " + insert_names(gives_.history, numbers) + ", " +
-             meaning_of(input_.argument.name).text;
+             data::meaning_of(input_.argument.name).text;
     case Source::given:
       break;
     }
@@ -121,7 +121,7 @@ private:
   void read_constant(std::string_view text) {
     const std::string& name = input_.argument.name;
     const auto value = number<double>(text);
-    const Quantity* known = find_quantity(name);
+    const data::Quantity* known = data::find_quantity(name);
     input_.source = Source::constant;
     input_.fallback = value;
     if (!value || !std::isfinite(*value))
@@ -133,7 +133,7 @@ private:
 
   // The word that asks for what the solver, or the routine's own memory, gives.
   static std::string choice_of(const std::string& name) {
-    const Quantity* known = find_quantity(name);
+    const data::Quantity* known = data::find_quantity(name);
     return known ? known->choice : "state";
   }
 
@@ -146,16 +146,16 @@ private:
 };
 
 // What stands in where the deck or the solver gives nothing.
-std::optional<double> fallback(const Table& table, const std::string& name) {
+std::optional<double> fallback(const table::Table& table, const std::string& name) {
   if (const auto typical = typical_value(table, name)) return typical;
-  const Quantity* known = find_quantity(name);
+  const data::Quantity* known = data::find_quantity(name);
   return known ? known->unknown : std::nullopt;
 }
 
 void check_names(const ExportRequest& request, const std::vector<std::string>& needed,
                  FaultList& faults) {
   std::vector<std::string> known = needed;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (quantity.state) known.push_back(quantity.name);
   // Columns of other tables of the same job are not ours to judge; typing errors are.
   for (const auto& [name, choice] : request.inputs)
@@ -393,4 +393,4 @@ std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs) 
   return lines;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -11,7 +11,7 @@
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 enum class Source {
   given,    // by the solver: a row of its table
@@ -106,4 +106,4 @@ std::vector<std::string> state_lines(const ExportRequest& request,
                                      const std::vector<SolverInput>& inputs);
 std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) {
   if (units != "mm-t-s" && units != "m-kg-s")
@@ -24,4 +24,4 @@ SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) 
   return {std::string(canonical_unit), 1, 1};
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

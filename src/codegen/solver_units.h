@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace frictab {
+namespace frictab::codegen {
 
 // A unit of the solver: canonical = value * times / over (one of the two is 1, so that every
 // conversion is one correctly rounded operation).
@@ -22,4 +22,4 @@ struct SolverUnit {
 // (degC, 1, a traced column's) stay as they are.
 SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units);
 
-} // namespace frictab
+} // namespace frictab::codegen

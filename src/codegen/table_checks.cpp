@@ -11,12 +11,12 @@
 #include "core/text.h"
 #include "table/frictab_kernel.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
-void check_table(const Table& table) {
+void check_table(const table::Table& table) {
   FaultList faults;
   std::size_t nodes = 1;
-  for (const TableAxis& axis : table.axes) {
+  for (const table::TableAxis& axis : table.axes) {
     nodes *= axis.nodes.size();
     for (std::size_t i = 0; i < axis.nodes.size(); ++i)
       if (!std::isfinite(axis.nodes[i]) || (i > 0 && axis.nodes[i] <= axis.nodes[i - 1]) ||
@@ -33,16 +33,17 @@ void check_table(const Table& table) {
   if (!std::all_of(table.value.begin(), table.value.end(),
                    [](double v) { return std::isfinite(v); }))
     faults.add({}, "the table holds values that are not finite");
-  const bool extends = std::any_of(table.axes.begin(), table.axes.end(), [](const TableAxis& axis) {
-    return axis.below == Outside::law || axis.above == Outside::law;
-  });
+  const bool extends =
+      std::any_of(table.axes.begin(), table.axes.end(), [](const table::TableAxis& axis) {
+        return axis.below == table::Outside::law || axis.above == table::Outside::law;
+      });
   if ((extends || table.is_direct()) && !table.extension)
     faults.add({}, fmt::format("the table of {} does not hold the law's own formula", table.model),
                "tabulate again with outside = \"law\" in [table.axes]");
   faults.throw_if_any();
 }
 
-void check_table_size(const Table& table, std::size_t elsewhere, const std::string& remedy) {
+void check_table_size(const table::Table& table, std::size_t elsewhere, const std::string& remedy) {
   const std::size_t numbers = baked_numbers(table) - elsewhere;
   if (numbers <= most_baked_numbers) return;
   const std::string cubic = is_cubic(table) ? "" : "table.interpolation = \"cubic\", ";
@@ -54,4 +55,4 @@ void check_table_size(const Table& table, std::size_t elsewhere, const std::stri
       remedy + cubic + smaller_table);
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -6,11 +6,11 @@
 
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // Throws InputError where a table cannot be made into code: values that are not finite, sizes that
 // do not fit, more axes than the kernel holds, no law's formula where the table goes on by it.
-void check_table(const Table& table);
+void check_table(const table::Table& table);
 
 // Most numbers (nodes, values, cell polynomials) that a source may hold: gfortran takes 281 MB and
 // 4 to 7 s for 210,000 in DATA statements.
@@ -23,7 +23,7 @@ inline constexpr const char* smaller_table =
 
 // Throws InputError where the source would hold more numbers than a compiler takes; `elsewhere` of
 // them are not in it. Needs no values: `table` may be a description. `remedy`: a further one.
-void check_table_size(const Table& table, std::size_t elsewhere = 0,
+void check_table_size(const table::Table& table, std::size_t elsewhere = 0,
                       const std::string& remedy = {});
 
-} // namespace frictab
+} // namespace frictab::codegen

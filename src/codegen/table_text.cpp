@@ -6,7 +6,9 @@
 #include "table/bound.h"
 #include "table/states.h"
 
-namespace frictab {
+namespace frictab::codegen {
+
+using table::Outside;
 
 namespace {
 
@@ -24,7 +26,7 @@ const char* outside_text(Outside outside) {
 
 } // namespace
 
-std::string range_text(const InputArgument& input, const Table& table) {
+std::string range_text(const InputArgument& input, const table::Table& table) {
   const auto known = table.range(input.name);
   if (!known) return "no axis, any value";
   const SolverUnit& unit = input.solver;
@@ -34,10 +36,10 @@ std::string range_text(const InputArgument& input, const Table& table) {
   return input.axis ? text : text + " (no axis: any value, verified there)";
 }
 
-std::vector<std::string> outside_lines(const Table& table) {
+std::vector<std::string> outside_lines(const table::Table& table) {
   std::vector<std::string> lines;
   bool all_clamp = true;
-  for (const TableAxis& axis : table.axes) {
+  for (const table::TableAxis& axis : table.axes) {
     all_clamp = all_clamp && axis.below == Outside::clamp && axis.above == Outside::clamp;
     lines.push_back(fmt::format("{} below {:.6g}: {}, above {:.6g}: {}", axis.name,
                                 axis.nodes.front(), outside_text(axis.below), axis.nodes.back(),
@@ -46,26 +48,27 @@ std::vector<std::string> outside_lines(const Table& table) {
   return all_clamp ? std::vector<std::string>{} : lines;
 }
 
-std::string drift_text(const Table& table) {
+std::string drift_text(const table::Table& table) {
   if (table.is_direct()) return "none but rounding, it is the law itself; measured in verify.json";
-  const TableRecord& record = table.record;
+  const table::TableRecord& record = table.record;
   if (!record.worst_case_MPa)
     return "not measured here; see verify.json of the run that wrote this file";
   std::string text =
       fmt::format("{:.3g} MPa, the largest found over the whole range", *record.worst_case_MPa);
   if (record.proven_drift_MPa)
-    text += fmt::format("; proven: nowhere above {:.3g} MPa", rounded_up(*record.proven_drift_MPa));
+    text += fmt::format("; proven: nowhere above {:.3g} MPa",
+                        table::rounded_up(*record.proven_drift_MPa));
   return text;
 }
 
-std::string origin_text(const Table& table) {
+std::string origin_text(const table::Table& table) {
   const std::string origin = table.record.data_origin.value_or("");
   return origin.empty() ? "not stated" : origin;
 }
 
-std::string edge_text(const Table& table) {
+std::string edge_text(const table::Table& table) {
   const char* const pressure = "sigma_n_MPa";
-  const TableAxis* axis = find_axis(table, pressure);
+  const table::TableAxis* axis = table::find_axis(table, pressure);
   if (!axis || axis->below != Outside::clamp || axis->nodes.front() <= 0) return "";
   const double low = axis->nodes.front();
   std::vector<double> state;
@@ -76,7 +79,7 @@ std::string edge_text(const Table& table) {
     if (!typical) return "";
     state.push_back(*typical);
   }
-  const TableFunction tau(table);
+  const table::TableFunction tau(table);
   state[at] = low;
   const double at_low = tau(state);
   state[at] = 0.001 * low;
@@ -96,4 +99,4 @@ std::string comment_text(std::string_view text) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 extern const std::pair<std::string_view, std::string_view> embedded_files[];
 extern const unsigned embedded_count;
@@ -231,4 +231,4 @@ Lines items(const std::vector<std::string>& texts) {
   return lines;
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

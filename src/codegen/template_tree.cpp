@@ -4,7 +4,7 @@
 #include <cctype>
 #include <sstream>
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::vector<TemplateNode> parse_template(std::string_view text, std::string_view
   return Parser(text, file, faults).parse();
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 namespace {
 
@@ -38,7 +38,7 @@ bool has_option(const Exporter& exporter) {
   return false;
 }
 
-void check_values(const Table& table) {
+void check_values(const table::Table& table) {
   if (table.nodes() <= most_filed_values) return;
   throw InputError({},
                    fmt::format("the table of {} has {} values; a routine holds at most {} of them "
@@ -78,7 +78,7 @@ void check_request(const ExportRequest& request) {
   check_size(request);
 }
 
-void check_request_size(const Table& table, const std::vector<const Exporter*>& targets,
+void check_request_size(const table::Table& table, const std::vector<const Exporter*>& targets,
                         const std::map<std::string, std::string>& options) {
   for (const Exporter* target : targets) {
     if (!target->whole()) continue; // a table of its own
@@ -124,4 +124,4 @@ std::vector<std::string> values_file_lines(const ExportRequest& request,
                   values_file_name, solver.empty() ? "" : "what " + solver + " says, else ")};
 }
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -11,7 +11,7 @@
 #include "codegen/exporter.h"
 #include "codegen/template.h"
 
-namespace frictab {
+namespace frictab::codegen {
 
 // 8-byte IEEE 754 numbers, lowest byte first, in the order of the table (last axis fastest), no
 // header: numpy.fromfile(name, "<f8"). The source knows how many, and their CRC-32.
@@ -32,7 +32,7 @@ bool values_in_file(const ExportRequest& request);
 void check_request(const ExportRequest& request);
 
 // The last of these for targets and options of a job, of sizes alone: `table` may be a description.
-void check_request_size(const Table& table, const std::vector<const Exporter*>& targets,
+void check_request_size(const table::Table& table, const std::vector<const Exporter*>& targets,
                         const std::map<std::string, std::string>& options);
 
 // Adds the file to the bundle where the request makes one.
@@ -51,4 +51,4 @@ std::uint32_t values_crc32(const std::vector<double>& numbers);
 // where the job lies besides the environment, "vgetoutdir"; may be empty.
 std::vector<std::string> values_file_lines(const ExportRequest& request, const std::string& solver);
 
-} // namespace frictab
+} // namespace frictab::codegen

@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::data {
 
 const Column* Dataset::find(std::string_view name) const {
   for (const Column& column : columns)
@@ -92,4 +92,4 @@ Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   return split;
 }
 
-} // namespace frictab
+} // namespace frictab::data

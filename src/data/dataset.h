@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frictab {
+namespace frictab::data {
 
 struct Column {
   std::string name;                // canonical name, or the file's own for a bystander
@@ -55,4 +55,4 @@ struct Split {
 };
 Split hold_out(const Dataset& data, double share, std::uint64_t seed);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -6,7 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace frictab {
+namespace frictab::data {
 
 namespace {
 
@@ -303,4 +303,4 @@ std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::data

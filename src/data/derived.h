@@ -8,7 +8,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // How a contact point of a simulation continues a history from one increment to the next.
 struct Continuation {
@@ -52,4 +52,4 @@ const DerivedQuantity* find_derived(std::string_view name); // nullptr where the
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
                            std::span<const double> tau);
 
-} // namespace frictab
+} // namespace frictab::data

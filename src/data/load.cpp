@@ -16,7 +16,7 @@
 #include "data/mapping.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::data {
 
 namespace fs = std::filesystem;
 
@@ -25,7 +25,7 @@ namespace {
 // One file as a campaign, with the raw row of each of its rows.
 struct Part {
   Dataset data;
-  CsvTable raw;
+  io::CsvTable raw;
   std::vector<std::size_t> row; // raw row
   bool measured_tau = true;
   FaultList faults;
@@ -132,7 +132,7 @@ void derive_shear_stress(Part& part) {
   const Place header{part.raw.file, part.raw.header_line, 0};
   if (!friction || !normal) {
     std::vector<std::string> present;
-    for (const CsvColumn& column : part.raw.columns)
+    for (const io::CsvColumn& column : part.raw.columns)
       if (!column.name.empty()) present.push_back(column.name);
     part.faults.add(header, "there is neither tau_R_MPa nor the pair F_R_N, F_N_N",
                     "map it in [data.columns]; the file has: " + join(present, ", "));
@@ -265,7 +265,7 @@ void check_experiments(Part& part) {
 // A column that is mapped and absent has had its fault already.
 void check_needed(Part& part, const DataOptions& options) {
   std::vector<std::string> present;
-  for (const CsvColumn& column : part.raw.columns)
+  for (const io::CsvColumn& column : part.raw.columns)
     if (!column.name.empty()) present.push_back(column.name);
   if (!part.find("sigma_n_MPa") && !options.columns.count("sigma_n_MPa"))
     part.faults.add({part.raw.file, part.raw.header_line, 0}, "there is no column sigma_n_MPa",
@@ -387,4 +387,4 @@ Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& o
   return all;
 }
 
-} // namespace frictab
+} // namespace frictab::data

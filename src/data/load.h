@@ -7,7 +7,7 @@
 #include "data/dataset.h"
 #include "data/options.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // Reads and joins `files` (relative to options.base) with the mapping of the job. Afterwards there
 // is tau_R_MPa (measured, or eq. 1: F_R/F_N*sigma_N) and s_mm where v and t allow it. Without an
@@ -15,4 +15,4 @@ namespace frictab {
 // faults of every file: each with file:line:col, the first 20 in full.
 Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& options);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -14,7 +14,9 @@
 #include "data/quantity.h"
 #include "io/number.h"
 
-namespace frictab {
+namespace frictab::data {
+
+using io::CsvColumn;
 
 namespace {
 
@@ -41,7 +43,7 @@ bool is_missing(const std::string& text) {
 
 class Mapper {
 public:
-  Mapper(const CsvTable& raw, const DataOptions& options, FaultList& faults)
+  Mapper(const io::CsvTable& raw, const DataOptions& options, FaultList& faults)
       : raw_(raw), options_(options), faults_(faults) {}
 
   MappedFile map() {
@@ -114,7 +116,7 @@ private:
   std::string number_hint(const std::string& text) const {
     const auto looks_like = [&](char decimal) {
       double ignored = 0;
-      return scan_number(text.data(), text.data() + text.size(), decimal, ignored) ==
+      return io::scan_number(text.data(), text.data() + text.size(), decimal, ignored) ==
              text.data() + text.size();
     };
     if (options_.decimal == '.' && looks_like(','))
@@ -292,7 +294,7 @@ private:
       column.values[i] = index[cells[i]];
   }
 
-  const CsvTable& raw_;
+  const io::CsvTable& raw_;
   const DataOptions& options_;
   FaultList& faults_;
   MappedFile out_;
@@ -302,8 +304,8 @@ private:
 
 } // namespace
 
-MappedFile map_columns(const CsvTable& raw, const DataOptions& options, FaultList& faults) {
+MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options, FaultList& faults) {
   return Mapper(raw, options, faults).map();
 }
 
-} // namespace frictab
+} // namespace frictab::data

@@ -5,7 +5,7 @@
 #include "data/options.h"
 #include "data/raw.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // One file, mapped, not yet cut into experiments.
 struct MappedFile {
@@ -20,6 +20,6 @@ struct MappedFile {
 };
 
 // Adds every fault of the file's columns to `faults`; those of cells are in the result.
-MappedFile map_columns(const CsvTable& raw, const DataOptions& options, FaultList& faults);
+MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options, FaultList& faults);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -4,7 +4,7 @@
 #include "data/derived.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::data {
 
 Meaning meaning_of(const std::string& name) {
   if (const Quantity* known = find_quantity(name))
@@ -17,4 +17,4 @@ Meaning meaning_of(const std::string& name) {
   return meaning;
 }
 
-} // namespace frictab
+} // namespace frictab::data

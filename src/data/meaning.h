@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-namespace frictab {
+namespace frictab::data {
 
 struct Meaning {
   std::string unit = "1";
@@ -17,4 +17,4 @@ struct Meaning {
 
 Meaning meaning_of(const std::string& name);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // How one canonical column is taken from a file.
 struct ColumnSource {
@@ -47,4 +47,4 @@ struct DataOptions {
   Place oracle_place;
 };
 
-} // namespace frictab
+} // namespace frictab::data

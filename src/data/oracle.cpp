@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "data/raw.h"
 
-namespace frictab {
+namespace frictab::data {
 
 namespace {
 
@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 using Truth = std::map<std::string, std::vector<double>>; // per experiment, in row order
 
-const CsvColumn& needed(const CsvTable& table, const std::string& name) {
-  for (const CsvColumn& column : table.columns)
+const io::CsvColumn& needed(const io::CsvTable& table, const std::string& name) {
+  for (const io::CsvColumn& column : table.columns)
     if (column.name == name) return column;
   throw InputError({table.file, table.header_line, 0},
                    "there is no column " + name + ", which a file of data.oracle needs",
@@ -27,11 +27,11 @@ const CsvColumn& needed(const CsvTable& table, const std::string& name) {
 }
 
 // Cells of a column as text, whatever they look like.
-std::vector<std::string> texts_of(const CsvColumn& column) {
+std::vector<std::string> texts_of(const io::CsvColumn& column) {
   std::vector<std::string> texts(column.numbers.size());
   for (std::size_t i = 0; i < texts.size(); ++i)
     if (std::isfinite(column.numbers[i])) texts[i] = shortest(column.numbers[i]);
-  for (const CsvColumn::Text& cell : column.texts)
+  for (const io::CsvColumn::Text& cell : column.texts)
     texts[cell.row] = cell.text;
   return texts;
 }
@@ -40,7 +40,7 @@ void read_file_into(Truth& truth, const std::string& file, const DataOptions& op
   DataOptions plain; // not in the rig's dialect
   const fs::path path = options.base.empty() ? fs::path(file) : fs::path(options.base) / file;
   FaultList faults;
-  const CsvTable table = read_raw(path.string(), file, plain, faults);
+  const io::CsvTable table = read_raw(path.string(), file, plain, faults);
   faults.throw_if_any();
   const auto experiments = texts_of(needed(table, "experiment"));
   const std::vector<double>& row = needed(table, "row").numbers;
@@ -99,4 +99,4 @@ void read_oracle(const DataOptions& options, Dataset& training, Dataset& validat
                      "it belongs to other data: compare the names of the experiments");
 }
 
-} // namespace frictab
+} // namespace frictab::data

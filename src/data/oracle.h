@@ -4,7 +4,7 @@
 #include "data/dataset.h"
 #include "data/options.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // Fills oracle_MPa of both parts from options.oracle (columns experiment, row from 1 in steps of 1,
 // tau_oracle_MPa in MPa; HDF5, or CSV as `frictab twin --oracle` writes it). A part none of whose
@@ -12,4 +12,4 @@ namespace frictab {
 // not match.
 void read_oracle(const DataOptions& options, Dataset& training, Dataset& validation);
 
-} // namespace frictab
+} // namespace frictab::data

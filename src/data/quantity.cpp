@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace frictab {
+namespace frictab::data {
 
 std::span<const Quantity> quantities() {
   constexpr double any = -std::numeric_limits<double>::infinity();
@@ -90,4 +90,4 @@ bool is_measured(std::string_view name) {
   return name == "tau_R_MPa" || name == "F_R_N" || name == "F_N_N";
 }
 
-} // namespace frictab
+} // namespace frictab::data

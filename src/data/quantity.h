@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frictab {
+namespace frictab::data {
 
 struct Quantity {
   std::string name;      // CSV column, TOML key, HDF5 scale, JSON
@@ -36,4 +36,4 @@ const Quantity* find_quantity(std::string_view name);
 // What a tribometer measures of friction itself: no input of a law and no cause of an effect.
 bool is_measured(std::string_view name);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -9,14 +9,14 @@
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 
-namespace frictab {
+namespace frictab::data {
 
 namespace {
 
 // Every 1-D dataset of the root group is a column; other shapes are no data columns.
-CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList& faults) {
-  const Hdf5Reader in(path, named);
-  CsvTable table;
+io::CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList& faults) {
+  const io::Hdf5Reader in(path, named);
+  io::CsvTable table;
   table.file = named;
   std::string first;
   std::size_t rows = 0;
@@ -32,7 +32,7 @@ CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList&
                  fmt::format("column '{}' has {} rows, '{}' has {}", name, shape[0], first, rows));
       continue;
     }
-    CsvColumn column{name, in.text_attribute(name, "units").value_or(""), {}, {}};
+    io::CsvColumn column{name, in.text_attribute(name, "units").value_or(""), {}, {}};
     if (in.is_text(name)) {
       column.numbers.assign(rows, std::numeric_limits<double>::quiet_NaN());
       std::size_t row = 0;
@@ -52,26 +52,26 @@ CsvTable read_hdf5(const std::string& path, const std::string& named, FaultList&
 
 } // namespace
 
-Place row_place(const CsvTable& table, std::size_t row, std::size_t column) {
+Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {
   if (table.header_line == 0) return {table.file, 0, 0};
   return {table.file, table.line[row], column};
 }
 
-CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
-                  FaultList& faults) {
-  if (looks_like_hdf5(path)) return read_hdf5(path, named, faults);
-  CsvFormat format{options.delimiter,
-                   options.decimal,
-                   options.skip_rows,
-                   options.skip_footer,
-                   options.units_row,
-                   {"experiment"},
-                   0};
+io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
+                      FaultList& faults) {
+  if (io::looks_like_hdf5(path)) return read_hdf5(path, named, faults);
+  io::CsvFormat format{options.delimiter,
+                       options.decimal,
+                       options.skip_rows,
+                       options.skip_footer,
+                       options.units_row,
+                       {"experiment"},
+                       0};
   if (const auto named_so = options.columns.find("experiment"); named_so != options.columns.end()) {
     format.text_columns = named_so->second.names;
     format.text_number = named_so->second.number;
   }
-  return parse_csv(read_file(path), named, format, faults);
+  return io::parse_csv(io::read_file(path), named, format, faults);
 }
 
-} // namespace frictab
+} // namespace frictab::data

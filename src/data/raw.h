@@ -5,14 +5,14 @@
 #include "data/options.h"
 #include "io/csv.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // Where a row of a raw table stands, for messages: file:line, or file with the row number in
 // `what`.
-Place row_place(const CsvTable& table, std::size_t row, std::size_t column = 0);
+Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column = 0);
 
 // CSV, or HDF5 where the file starts like it (then `line` counts rows from 1 and header_line is 0).
-CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
-                  FaultList& faults);
+io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
+                      FaultList& faults);
 
-} // namespace frictab
+} // namespace frictab::data

@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "io/hdf5.h"
 
-namespace frictab {
+namespace frictab::data {
 
 namespace {
 
@@ -73,7 +73,7 @@ std::string csv_text(const Dataset& data) {
 }
 
 void write_hdf5_columns(const Dataset& data, const std::filesystem::path& file) {
-  Hdf5Writer out(file);
+  io::Hdf5Writer out(file);
   const std::size_t rows = data.rows();
   std::vector<std::string> text(rows);
   for (std::size_t e = 0; e < data.experiments.size(); ++e)
@@ -94,4 +94,4 @@ void write_hdf5_columns(const Dataset& data, const std::filesystem::path& file) 
   out.close();
 }
 
-} // namespace frictab
+} // namespace frictab::data

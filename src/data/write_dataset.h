@@ -6,7 +6,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::data {
 
 // One header line, one line per row: `experiment` first, then the columns in their order. Numbers
 // in the shortest text that reads back to the same bits; text is quoted where it must be.
@@ -17,4 +17,4 @@ std::string csv_text(const Dataset& data);
 // where the disk refuses.
 void write_hdf5_columns(const Dataset& data, const std::filesystem::path& file);
 
-} // namespace frictab
+} // namespace frictab::data

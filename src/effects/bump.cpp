@@ -1,7 +1,10 @@
 // A hump or a dip around one value: a hot spot in temperature, a resonance in speed.
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 Expr factor() {
@@ -41,4 +44,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

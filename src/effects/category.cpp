@@ -3,13 +3,16 @@
 
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 // 1 + a1, 1 + a2, ...; the first level is the reference.
-std::vector<Parameter> parameters(const PlacedEffect& effect) {
+std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   const auto& levels = effect.inputs[0].levels;
-  std::vector<Parameter> all;
+  std::vector<models::Parameter> all;
   for (std::size_t level = 1; level < levels.size(); ++level)
     all.push_back({fmt::format("a{}", level), "1",
                    fmt::format("relative change of {} against {}", levels[level], levels[0]), 0,
@@ -19,7 +22,7 @@ std::vector<Parameter> parameters(const PlacedEffect& effect) {
 
 Expr factor(const PlacedEffect& effect) {
   std::vector<Expr> changes{0.0};
-  for (const Parameter& parameter : parameters(effect))
+  for (const models::Parameter& parameter : parameters(effect))
     changes.push_back(Expr::symbol(parameter.name));
   return 1.0 + value_by_level(Expr::symbol("x"), changes);
 }
@@ -51,4 +54,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -4,12 +4,15 @@
 
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
-std::vector<Parameter> parameters(const PlacedEffect& effect) {
+std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   const auto& levels = effect.inputs[0].levels;
-  std::vector<Parameter> all;
+  std::vector<models::Parameter> all;
   for (std::size_t level = 0; level < levels.size(); ++level)
     all.push_back({fmt::format("a{}", level), "1",
                    fmt::format("relative change of {} over the range of x2", levels[level]), 0, -10,
@@ -22,7 +25,7 @@ Expr factor(const PlacedEffect& effect) {
   const EffectInput& y = effect.inputs[1];
   const double range = y.high > y.low ? y.high - y.low : 1.0;
   std::vector<Expr> slopes;
-  for (const Parameter& parameter : parameters(effect))
+  for (const models::Parameter& parameter : parameters(effect))
     slopes.push_back(Expr::symbol(parameter.name));
   return 1.0 + value_by_level(Expr::symbol("x"), slopes) *
                    ((Expr::symbol("x2") - 0.5 * (y.low + y.high)) / range);
@@ -58,4 +61,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -9,7 +9,9 @@
 #include "data/quantity.h"
 #include "effects/natural_spline.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
 
 namespace {
 
@@ -70,7 +72,7 @@ std::vector<double> growing_pattern(const PlacedEffect& effect) {
   return values;
 }
 
-std::vector<Parameter> parameters_of(const PlacedEffect& effect) {
+std::vector<models::Parameter> parameters_of(const PlacedEffect& effect) {
   const EffectForm& form = *effect.form;
   return form.parameters_of ? form.parameters_of(effect) : form.parameters;
 }
@@ -79,18 +81,19 @@ std::size_t amplitudes_of(const PlacedEffect& effect) {
   return effect.form->parameters_of ? parameters_of(effect).size() : 1;
 }
 
-const EffectInput* input_of(const Parameter& parameter, const PlacedEffect& effect) {
+const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffect& effect) {
   const auto symbols = input_symbols(*effect.form);
   const auto at = std::find(symbols.begin(), symbols.end(), parameter.unit);
   return at == symbols.end() ? nullptr
                              : &effect.inputs[static_cast<std::size_t>(at - symbols.begin())];
 }
 
-std::string unit_of(const Parameter& parameter, const PlacedEffect& effect) {
+std::string unit_of(const models::Parameter& parameter, const PlacedEffect& effect) {
   const EffectInput* input = input_of(parameter, effect);
   if (!input) return parameter.unit;
-  if (const Quantity* quantity = find_quantity(input->column)) return quantity->unit;
-  if (const DerivedQuantity* quantity = find_derived(input->column)) return quantity->unit;
+  if (const data::Quantity* quantity = data::find_quantity(input->column)) return quantity->unit;
+  if (const data::DerivedQuantity* quantity = data::find_derived(input->column))
+    return quantity->unit;
   return "";
 }
 
@@ -134,4 +137,4 @@ std::vector<std::string> effect_names() {
   return names;
 }
 
-} // namespace frictab
+} // namespace frictab::effects

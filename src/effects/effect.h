@@ -12,7 +12,7 @@
 #include "expr/expr.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::effects {
 
 // How a column's values are spread: what start values of shape parameters come from.
 struct Spread {
@@ -77,16 +77,17 @@ struct EffectForm {
   std::string name;
   int order = 0;
   std::string title;
-  std::string formula;               // for people
-  std::vector<Parameter> parameters; // the amplitude first; the others have units of x, x2 or x3
-  std::vector<Shape> shapes;         // one per parameter behind the amplitude
+  std::string formula; // for people
+  std::vector<models::Parameter>
+      parameters;            // the amplitude first; the others have units of x, x2 or x3
+  std::vector<Shape> shapes; // one per parameter behind the amplitude
   std::size_t columns = 1;
-  bool categorical = false;   // the first input is a text column: numbers of its levels
-  Expr (*factor)() = nullptr; // nullptr where `build` stands for it
+  bool categorical = false;         // the first input is a text column: numbers of its levels
+  expr::Expr (*factor)() = nullptr; // nullptr where `build` stands for it
   // Forms whose parameters depend on levels or knots: all of them are amplitudes, `parameters`
   // above holds one that stands for them.
-  std::vector<Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
-  Expr (*build)(const PlacedEffect&) = nullptr; // of x, x2, x3 and their names
+  std::vector<models::Parameter> (*parameters_of)(const PlacedEffect&) = nullptr;
+  expr::Expr (*build)(const PlacedEffect&) = nullptr; // of x, x2, x3 and their names
   // Their values at an amplitude of 1: what a synthetic campaign plants.
   std::vector<double> (*pattern)(const PlacedEffect&) = nullptr;
   // Smooth forms: knots per input (0: none), and the roughness of the amplitudes, symmetric, row by
@@ -105,20 +106,20 @@ struct EffectForm {
 void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values);
 
 // The value of a text column's level, whose number is x.
-Expr value_by_level(const Expr& x, std::span<const Expr> values);
+expr::Expr value_by_level(const expr::Expr& x, std::span<const expr::Expr> values);
 // Amplitudes of a planted effect of levels: they grow in equal steps up to 1.
 std::vector<double> growing_pattern(const PlacedEffect& effect);
 
 // All parameters of a form that is placed, and how many of them, in front, it is linear in.
-std::vector<Parameter> parameters_of(const PlacedEffect& effect);
+std::vector<models::Parameter> parameters_of(const PlacedEffect& effect);
 std::size_t amplitudes_of(const PlacedEffect& effect);
 // The input that a parameter of a form is a value of, as its unit x, x2 or x3 says; nullptr: none.
-const EffectInput* input_of(const Parameter& parameter, const PlacedEffect& effect);
+const EffectInput* input_of(const models::Parameter& parameter, const PlacedEffect& effect);
 // Its unit: that input's, empty where nobody has said it (a recorded column that is no canonical
 // quantity); of a parameter that is no value of an input, its own.
-std::string unit_of(const Parameter& parameter, const PlacedEffect& effect);
+std::string unit_of(const models::Parameter& parameter, const PlacedEffect& effect);
 // 1 + ..., of x, x2, x3 and the names of the parameters.
-Expr formula_of(const PlacedEffect& effect);
+expr::Expr formula_of(const PlacedEffect& effect);
 // x, x2, x3: as many as the form takes.
 std::vector<std::string> input_symbols(const EffectForm& form);
 
@@ -134,4 +135,4 @@ const std::vector<EffectForm>& all_effects();
 const EffectForm* find_effect(std::string_view name); // nullptr where there is none
 std::vector<std::string> effect_names();
 
-} // namespace frictab
+} // namespace frictab::effects

@@ -10,7 +10,11 @@
 
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+using models::Law;
+using models::Parameter;
 
 namespace {
 
@@ -45,11 +49,11 @@ std::string held_text(const EffectInput& input) {
 }
 
 bool uses_parameter(const Expr& formula, const std::string& name) {
-  return symbols(formula).count(name) > 0;
+  return expr::symbols(formula).count(name) > 0;
 }
 
 // The law's own limit parameter inside `combine`, or none.
-bool own_limit(const Law& law, const Formula& formula) {
+bool own_limit(const Law& law, const models::Formula& formula) {
   return std::any_of(law.parameters.begin(), law.parameters.end(),
                      [](const Parameter& p) { return p.name == "m"; }) &&
          uses_parameter(formula.combine, "m");
@@ -82,15 +86,15 @@ Factors collect_factors(std::span<const PlacedEffect> effects) {
   return all;
 }
 
-Formula with_factors(Formula formula, const Law& law, const Conventions& conventions,
-                     const Factors& factors) {
+models::Formula with_factors(models::Formula formula, const Law& law,
+                             const models::Conventions& conventions, const Factors& factors) {
   if (factors.on_mu)
     formula.combine = substitute(formula.combine, {{"value", Expr::symbol("value") * factors.mu}});
   if (factors.on_m && own_limit(law, formula))
     formula.combine = substitute(formula.combine, {{"m", Expr::symbol("m") * factors.m}});
   else if (factors.on_m)
     formula.combine = minimum(formula.combine, Expr::symbol(added_limit) * factors.m *
-                                                   shear_yield_stress(conventions));
+                                                   models::shear_yield_stress(conventions));
   if (factors.on_tau) formula.combine = formula.combine + factors.tau;
   return formula;
 }
@@ -110,7 +114,7 @@ bool is_taken(const std::string& symbol) {
   static const std::set<std::string> taken = [] {
     std::set<std::string> names = {"value",  "exp",     "log",     "sqrt",  "sin",      "tanh",
                                    "arccos", "minimum", "maximum", "where", added_limit};
-    for (const Law& law : all_laws())
+    for (const Law& law : models::all_laws())
       for (const Parameter& parameter : law.parameters)
         names.insert(parameter.name);
     return names;
@@ -171,14 +175,14 @@ Expr factor_of(const PlacedEffect& effect, const std::string& prefix) {
   return substitute(formula_of(effect), replacements);
 }
 
-Program factor_program(const PlacedEffect& effect) {
+expr::Program factor_program(const PlacedEffect& effect) {
   const std::string prefix = "e_";
   std::vector<std::string> symbols, names;
   for (const EffectInput& input : effect.inputs)
     symbols.push_back(symbol_of(input.column));
   for (const Parameter& p : fitted_parameters(effect))
     names.push_back(prefix + p.name);
-  return Program(factor_of(effect, prefix), symbols, names);
+  return expr::Program(factor_of(effect, prefix), symbols, names);
 }
 
 std::string formula_text(const PlacedEffect& effect) {
@@ -217,20 +221,21 @@ std::string columns_text(const PlacedEffect& effect) {
   return text;
 }
 
-bool has_limit(const Law& law, const Conventions& conventions) {
+bool has_limit(const Law& law, const models::Conventions& conventions) {
   return has_own_limit(law, conventions) || (law.quantity == "mu" && conventions.shear_limit);
 }
 
-bool has_own_limit(const Law& law, const Conventions& conventions) {
+bool has_own_limit(const Law& law, const models::Conventions& conventions) {
   return law.quantity == "mu" && own_limit(law, law.build(conventions));
 }
 
-Law extended_law(const Law& law, const Conventions& conventions, std::span<const double> start,
-                 std::span<const PlacedEffect> effects, const std::string& name) {
+Law extended_law(const Law& law, const models::Conventions& conventions,
+                 std::span<const double> start, std::span<const PlacedEffect> effects,
+                 const std::string& name) {
   Law extended = law;
   extended.name = name;
   extended.title = law.title + ", with effects found in the data";
-  extended.calibrated = Calibrated::fit;
+  extended.calibrated = models::Calibrated::fit;
   extended.starts = nullptr;
   extended.base = law.base.empty() ? law.name : law.base;
   for (std::size_t p = 0; p < extended.parameters.size(); ++p)
@@ -249,13 +254,13 @@ Law extended_law(const Law& law, const Conventions& conventions, std::span<const
     }
   }
   const Factors factors = collect_factors(effects);
-  const Formula base = law.build(conventions);
+  const models::Formula base = law.build(conventions);
   if (factors.on_m && !own_limit(law, base))
     extended.parameters.push_back({added_limit, "1", "friction factor of the limit", 1, 0.01, 1,
                                    "experiments that reach the limit"});
-  const Formula formula = with_factors(base, law, conventions, factors);
-  extended.build = [formula](const Conventions&) { return formula; };
+  const models::Formula formula = with_factors(base, law, conventions, factors);
+  extended.build = [formula](const models::Conventions&) { return formula; };
   return extended;
 }
 
-} // namespace frictab
+} // namespace frictab::effects

@@ -2,7 +2,10 @@
 // lubricant that was trapped stays trapped.
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 // x is the load over its peak so far: 1 while loading.
@@ -32,4 +35,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
 
 namespace {
 
@@ -181,4 +183,4 @@ std::string knots_text(std::span<const double> knots, std::span<const double> ch
   return text;
 }
 
-} // namespace frictab
+} // namespace frictab::effects

@@ -7,7 +7,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::effects {
 
 // At most `count` knots at quantiles of the values, ascending, ends at the least and the largest
 // one; fewer where values are few or closer together than 1/200 of their range.
@@ -16,16 +16,16 @@ std::vector<double> spline_knots(std::span<const double> values, int count);
 // Splines along x over the same knots.
 class NaturalSpline {
 public:
-  NaturalSpline(const Expr& x, std::span<const double> knots);
+  NaturalSpline(const expr::Expr& x, std::span<const double> knots);
   // The one through these values (one per knot; a straight line for two knots), constant beyond the
   // outer knots. Where all values are 0 it is 0, bit for bit.
-  Expr operator()(std::span<const Expr> values) const;
+  expr::Expr operator()(std::span<const expr::Expr> values) const;
 
 private:
   // Between two knots, with a coordinate t that runs from 0 to 1: what one unit of the second
   // derivative at its ends adds there.
   struct Piece {
-    Expr t, left, right;
+    expr::Expr t, left, right;
   };
   std::vector<Piece> pieces_;
   std::vector<std::vector<double>> bending_; // second derivatives at the knots, per value
@@ -48,4 +48,4 @@ std::vector<double> half_wave_pattern(std::span<const double> knots);
 // "(0, 1.02), (2.5, 0.97)": factors at knots.
 std::string knots_text(std::span<const double> knots, std::span<const double> changes);
 
-} // namespace frictab
+} // namespace frictab::effects

@@ -1,7 +1,10 @@
 // A wave along a quantity: eccentric tools, stick-slip, machining marks.
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 constexpr double two_pi = 6.283185307179586;
@@ -45,4 +48,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

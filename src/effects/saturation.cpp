@@ -1,7 +1,10 @@
 // Growth that comes to an end: running-in, depletion of a film.
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 Expr factor() {
@@ -36,4 +39,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

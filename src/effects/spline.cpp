@@ -4,11 +4,14 @@
 #include "effects/effect.h"
 #include "effects/natural_spline.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
-std::vector<Parameter> parameters(const PlacedEffect& effect) {
-  std::vector<Parameter> all;
+std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
+  std::vector<models::Parameter> all;
   for (const double knot : effect.inputs[0].knots)
     all.push_back({fmt::format("v{}", all.size() + 1), "1",
                    fmt::format("relative change at {:.6g}", knot), 0, -10, 10});
@@ -17,7 +20,7 @@ std::vector<Parameter> parameters(const PlacedEffect& effect) {
 
 Expr factor(const PlacedEffect& effect) {
   std::vector<Expr> values;
-  for (const Parameter& parameter : parameters(effect))
+  for (const models::Parameter& parameter : parameters(effect))
     values.push_back(Expr::symbol(parameter.name));
   return 1.0 + NaturalSpline(Expr::symbol("x"), effect.inputs[0].knots)(values);
 }
@@ -55,4 +58,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

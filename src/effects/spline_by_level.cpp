@@ -4,16 +4,19 @@
 #include "effects/effect.h"
 #include "effects/natural_spline.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 std::string name_of(std::size_t level, std::size_t knot) {
   return fmt::format("v{}_{}", level, knot + 1);
 }
 
-std::vector<Parameter> parameters(const PlacedEffect& effect) {
+std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   const EffectInput &text = effect.inputs[0], &y = effect.inputs[1];
-  std::vector<Parameter> all;
+  std::vector<models::Parameter> all;
   for (std::size_t level = 0; level < text.levels.size(); ++level)
     for (std::size_t k = 0; k < y.knots.size(); ++k)
       all.push_back({name_of(level, k), "1",
@@ -84,4 +87,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -1,7 +1,10 @@
 // Smooth step between two levels: a film that breaks down, a phase that changes.
 #include "effects/effect.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 Expr factor() {
@@ -39,4 +42,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -4,16 +4,19 @@
 #include "effects/effect.h"
 #include "effects/natural_spline.h"
 
-namespace frictab {
+namespace frictab::effects {
+
+using expr::Expr;
+
 namespace {
 
 std::string name_of(std::size_t i, std::size_t j) {
   return fmt::format("v{}_{}", i + 1, j + 1);
 }
 
-std::vector<Parameter> parameters(const PlacedEffect& effect) {
+std::vector<models::Parameter> parameters(const PlacedEffect& effect) {
   const auto &x = effect.inputs[0].knots, &y = effect.inputs[1].knots;
-  std::vector<Parameter> all;
+  std::vector<models::Parameter> all;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < y.size(); ++j)
       all.push_back({name_of(i, j), "1",
@@ -79,4 +82,4 @@ EffectForm make() {
 const Registered<EffectForm> registered{make};
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects

@@ -7,7 +7,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // The comparison stands alone, so that it becomes an instruction instead of a branch.
 inline double min_nan(double a, double b) {
@@ -59,4 +59,4 @@ inline double apply(Op op, double a, double b, double c, double d) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -6,7 +6,7 @@
 #include "expr/program.h"
 #include "expr/row_loops.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 BoundProgram::BoundProgram(const Program& program, std::size_t rows,
                            std::span<const double* const> columns)
@@ -218,4 +218,4 @@ void BoundProgram::sweep(std::span<const double> scalars, bool derivatives,
     take(sweep.run(first, std::min(Program::block, rows_ - first)));
 }
 
-} // namespace frictab
+} // namespace frictab::expr

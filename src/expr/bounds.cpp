@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -102,4 +102,4 @@ Bounds apply(Op op, const Bounds& a, const Bounds& b, const Bounds& c, const Bou
   return whole_line;
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -9,7 +9,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 struct Bounds {
   double low = 0;
@@ -37,4 +37,4 @@ Bounds operator/(const Bounds& a, const Bounds& b); // whole line where b holds 
 // Outside the domain (logarithm of a negative number, ...): the whole line.
 Bounds apply(Op op, const Bounds& a, const Bounds& b, const Bounds& c, const Bounds& d);
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -139,4 +139,4 @@ Expr log_in_coordinates(const Expr& formula) {
   return shared(with_monomials(Op::log, {formula}));
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -7,7 +7,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // `formula` with x = exp(symbol x) for every name in `logarithmic`. The result equals the formula
 // in exact arithmetic wherever the formula is defined; powers that are no small integers are
@@ -17,4 +17,4 @@ Expr in_coordinates(const Expr& formula, const std::set<std::string>& logarithmi
 // ln of a formula that is already in coordinates, with logarithms drawn inwards.
 Expr log_in_coordinates(const Expr& formula);
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <unordered_map>
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::vector<Expr> derivatives(const Expr& formula, const std::vector<std::string
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -6,7 +6,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // d formula/d symbol. Where a branch is chosen (minimum, maximum, where) it is that branch's, by
 // the same comparison that Program's reverse sweep makes, so that at a kink both give the same
@@ -18,4 +18,4 @@ Expr derivative(const Expr& formula, const std::string& symbol);
 // One per symbol.
 std::vector<Expr> derivatives(const Expr& formula, const std::vector<std::string>& symbols);
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -10,7 +10,7 @@
 #include "expr/arithmetic.h"
 #include "expr/several.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 struct Expr::Node {
   Op op;
@@ -219,4 +219,4 @@ Expr substitute(const Expr& formula, const std::vector<std::pair<Expr, Expr>>& n
   return replace(formula, {}, done);
 }
 
-} // namespace frictab
+} // namespace frictab::expr

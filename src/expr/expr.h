@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace frictab {
+namespace frictab::expr {
 
 enum class Op {
   constant,
@@ -110,4 +110,4 @@ Statements to_statements(const Expr& formula, Language language,
                          const std::map<std::string, std::string>& rename = {},
                          std::string_view prefix = "t");
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -177,4 +177,4 @@ Expr parse_expr(std::string_view text, std::string_view file) {
   return shared(Parser(text, file).parse());
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -9,7 +9,7 @@
 #include "expr/arithmetic.h"
 #include "expr/row_loops.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -212,4 +212,4 @@ void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
   });
 }
 
-} // namespace frictab
+} // namespace frictab::expr

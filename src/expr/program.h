@@ -10,7 +10,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // Symbols are either `columns` (one value per row) or `scalars` (one value for all rows).
 class Program {
@@ -94,4 +94,4 @@ private:
       cached_; // per instruction; filled for data nodes that row nodes use
 };
 
-} // namespace frictab
+} // namespace frictab::expr

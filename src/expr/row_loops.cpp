@@ -6,7 +6,7 @@
 #include "core/wide.h"
 #include "expr/arithmetic.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 double partial(Op op, std::size_t which, const double* v, double result) {
   switch (op) {
@@ -181,4 +181,4 @@ FRICTAB_WIDE void pass_back(Op op, std::size_t which, std::size_t n, const Opera
   });
 }
 
-} // namespace frictab
+} // namespace frictab::expr

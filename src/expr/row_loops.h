@@ -6,7 +6,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // One value per row of the block, or one value for all rows (stride 0).
 struct Register {
@@ -33,4 +33,4 @@ void pass_back(Op op, std::size_t which, std::size_t n, const Operands& operands
 // Derivative of an operation by operand `which`, given operand values and the result.
 double partial(Op op, std::size_t which, const double* v, double result);
 
-} // namespace frictab
+} // namespace frictab::expr

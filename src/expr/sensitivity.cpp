@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -141,4 +141,4 @@ Sensitivity::Result Sensitivity::operator()(std::span<const Bounds> box) const {
   return at.back();
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -14,7 +14,7 @@
 
 #include "expr/bounds.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 class Sensitivity {
 public:
@@ -41,4 +41,4 @@ private:
   std::size_t of_;
 };
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -8,7 +8,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // The same formulas with equal subformulas, of one or of different ones, stored once.
 std::vector<Expr> shared(const std::vector<Expr>& formulas);
@@ -25,4 +25,4 @@ SeveralStatements to_statements(const std::vector<Expr>& formulas, Language lang
                                 const std::map<std::string, std::string>& rename = {},
                                 std::string_view prefix = "t");
 
-} // namespace frictab
+} // namespace frictab::expr

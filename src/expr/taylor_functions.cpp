@@ -9,7 +9,7 @@
 
 #include "expr/arithmetic.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -148,4 +148,4 @@ double chebyshev_fit(Op op, double centre, double radius, std::span<double> c) {
   return truncation * (1 + 1e-9) + rounding + slope;
 }
 
-} // namespace frictab
+} // namespace frictab::expr

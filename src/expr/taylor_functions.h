@@ -5,7 +5,7 @@
 
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // Over centre - radius .. centre + radius: op(centre + radius y) is within the returned error of
 // sum_n c[n] y^n, |y| <= 1. Interpolation at Chebyshev points, whose error is at most
@@ -13,4 +13,4 @@ namespace frictab {
 // none of exp, log, sqrt, sin, tanh and 1/y (Op::divide), or is not smooth over the interval.
 double chebyshev_fit(Op op, double centre, double radius, std::span<double> c);
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -9,7 +9,7 @@
 #include "core/wide.h"
 #include "expr/taylor_functions.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -478,4 +478,4 @@ double TaylorProgram::operator()(std::span<const Bounds> box, Work& work,
   return last.error;
 }
 
-} // namespace frictab
+} // namespace frictab::expr

@@ -16,7 +16,7 @@
 
 #include "expr/bounds.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 // The monomials of total degree <= `degree`, by ascending total degree; the first is 1, and the
 // next `variables` are the variables themselves.
@@ -104,4 +104,4 @@ private:
   std::vector<double> error_;
 };
 
-} // namespace frictab
+} // namespace frictab::expr

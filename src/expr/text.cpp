@@ -9,7 +9,7 @@
 #include "expr/expr.h"
 #include "expr/several.h"
 
-namespace frictab {
+namespace frictab::expr {
 
 namespace {
 
@@ -209,4 +209,4 @@ SeveralStatements to_statements(const std::vector<Expr>& formulas, Language lang
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::expr

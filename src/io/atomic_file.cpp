@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::io {
 
 namespace fs = std::filesystem;
 
@@ -131,4 +131,4 @@ std::string read_file(const fs::path& file) {
   return text;
 }
 
-} // namespace frictab
+} // namespace frictab::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frictab {
+namespace frictab::io {
 
 // Files of one command, written beside the target directory and moved into place by commit();
 // without commit() nothing changes. Paths are relative to the directory.
@@ -47,4 +47,4 @@ private:
 // The whole file; throws InputError where it cannot be read.
 std::string read_file(const std::filesystem::path& file);
 
-} // namespace frictab
+} // namespace frictab::io

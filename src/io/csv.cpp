@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "io/number.h"
 
-namespace frictab {
+namespace frictab::io {
 
 namespace {
 
@@ -365,4 +365,4 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   return table;
 }
 
-} // namespace frictab
+} // namespace frictab::io

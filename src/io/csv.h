@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::io {
 
 struct CsvFormat {
   char delimiter = 0; // 0: found from the header line; ' ' = runs of blanks
@@ -48,4 +48,4 @@ struct CsvTable {
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 
-} // namespace frictab
+} // namespace frictab::io

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "io/hdf5_handle.h"
 
-namespace frictab {
+namespace frictab::io {
 
 using namespace hdf5;
 
@@ -345,4 +345,4 @@ bool looks_like_hdf5(const std::filesystem::path& file) {
   return in.gcount() == 8 && std::string_view(magic, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
 }
 
-} // namespace frictab
+} // namespace frictab::io

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frictab {
+namespace frictab::io {
 
 // How the values of a dataset lie in the file.
 struct Hdf5Storage {
@@ -106,4 +106,4 @@ private:
 // True where the file starts like HDF5.
 bool looks_like_hdf5(const std::filesystem::path& file);
 
-} // namespace frictab
+} // namespace frictab::io

@@ -10,7 +10,7 @@
 
 #include <hdf5.h>
 
-namespace frictab::hdf5 {
+namespace frictab::io::hdf5 {
 
 using Close = herr_t (*)(hid_t);
 
@@ -76,4 +76,4 @@ void for_blocks(const std::vector<hsize_t>& dims, const std::vector<hsize_t>& bl
   }
 }
 
-} // namespace frictab::hdf5
+} // namespace frictab::io::hdf5

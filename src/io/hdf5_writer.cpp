@@ -7,7 +7,7 @@
 #include "io/hdf5.h"
 #include "io/hdf5_handle.h"
 
-namespace frictab {
+namespace frictab::io {
 
 using namespace hdf5;
 
@@ -184,4 +184,4 @@ void Hdf5Writer::close() {
   data_->file.close();
 }
 
-} // namespace frictab
+} // namespace frictab::io

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::io {
 
 std::string json_text(const nlohmann::ordered_json& value) {
   // Names from a user's file may be no UTF-8: shown with replacement characters, not refused.
@@ -43,4 +43,4 @@ void read_json(const std::string& file, const std::string& mends,
   }
 }
 
-} // namespace frictab
+} // namespace frictab::io

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace frictab {
+namespace frictab::io {
 
 // Indented by two blanks, keys in the order they were set, newline at the end. Numbers read back
 // to the same bits; NaN and infinities become null.
@@ -21,4 +21,4 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
 void read_json(const std::string& file, const std::string& mends,
                const std::function<void()>& read);
 
-} // namespace frictab
+} // namespace frictab::io

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace frictab {
+namespace frictab::io {
 
 namespace {
 
@@ -100,4 +100,4 @@ const char* scan_number(const char* begin, const char* end, char decimal, double
   return convert_slowly(begin, p, decimal, value) ? p : nullptr;
 }
 
-} // namespace frictab
+} // namespace frictab::io

@@ -17,7 +17,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::io {
 
 namespace fs = std::filesystem;
 
@@ -126,4 +126,4 @@ void check_disk_space(const fs::path& directory, std::uint64_t bytes, const std:
                    hint);
 }
 
-} // namespace frictab
+} // namespace frictab::io

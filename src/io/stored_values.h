@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace frictab {
+namespace frictab::io {
 
 // `size` doubles from byte `offset` of a file on. Reading is by pread: safe from any thread, and no
 // page of the file counts as memory of this process.
@@ -60,4 +60,4 @@ private:
 void check_disk_space(const std::filesystem::path& directory, std::uint64_t bytes,
                       const std::string& what, const std::string& hint);
 
-} // namespace frictab
+} // namespace frictab::io

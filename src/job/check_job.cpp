@@ -9,12 +9,12 @@
 #include "job/reader.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
 void check_files(JobReader& reader) {
-  DataOptions& data = reader.job.data;
+  data::DataOptions& data = reader.job.data;
   if (reader.data_is_no_table) return;
   if (!reader.places.count("data.training")) {
     reader.fault(reader.place_of("data"), "data.training is missing",
@@ -30,17 +30,17 @@ void check_files(JobReader& reader) {
 }
 
 void check_signs(JobReader& reader) {
-  const DataOptions& data = reader.job.data;
+  const data::DataOptions& data = reader.job.data;
   if (data.delimiter != 0 && data.delimiter == data.decimal)
     reader.fault(reader.place_of("data.delimiter"),
                  fmt::format("data.delimiter and data.decimal are both \"{}\"", data.decimal),
                  "with decimal commas the columns are separated by \";\" or \"\\t\"");
 }
 
-void check_unit(JobReader& reader, const std::string& name, const ColumnSource& source,
+void check_unit(JobReader& reader, const std::string& name, const data::ColumnSource& source,
                 const std::string& path) {
   if (source.unit.empty() || source.slope_rows > 0) return; // the loader knows the path's unit
-  std::string target = find_quantity(name)->unit;
+  std::string target = data::find_quantity(name)->unit;
   if (source.area_mm2 > 0) target = "N";
   if (!source.times.empty()) target = "1";
   if (!convert(source.unit, target))
@@ -50,7 +50,7 @@ void check_unit(JobReader& reader, const std::string& name, const ColumnSource& 
         suggest(source.unit, units_like(target)));
 }
 
-void check_column(JobReader& reader, const std::string& name, ColumnSource& source) {
+void check_column(JobReader& reader, const std::string& name, data::ColumnSource& source) {
   const std::string path = "data.columns." + name;
   const Place& place = source.place;
   const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0);
@@ -72,7 +72,7 @@ void check_column(JobReader& reader, const std::string& name, ColumnSource& sour
 }
 
 void check_columns(JobReader& reader) {
-  DataOptions& data = reader.job.data;
+  data::DataOptions& data = reader.job.data;
   for (auto& [name, source] : data.columns)
     check_column(reader, name, source);
   for (const auto& [name, value] : data.constants)
@@ -80,7 +80,7 @@ void check_columns(JobReader& reader) {
       reader.fault(reader.place_of("data.constants." + name),
                    fmt::format("{} stands in [data.columns] and in [data.constants]", name),
                    "keep one of the two");
-  for (const DropRule& rule : data.drop) {
+  for (const data::DropRule& rule : data.drop) {
     const std::string path = "data.drop." + rule.column;
     const bool said = reader.places.count(path + ".below") || reader.places.count(path + ".above");
     if (!said)
@@ -98,7 +98,7 @@ void check_axes(JobReader& reader) {
   for (const auto& [name, axis] : reader.job.table.axes) {
     if (!axis.range) continue;
     const std::string path = "table.axes." + name + ".range";
-    const Quantity& quantity = *find_quantity(name);
+    const data::Quantity& quantity = *data::find_quantity(name);
     const double low = axis.range->first;
     if (low < quantity.lowest)
       reader.fault(reader.place_of(path),
@@ -121,7 +121,7 @@ void check_models(JobReader& reader, const std::string& path,
   const std::vector<std::string>& use = reader.job.models.use;
   if (use.empty() || path == "export.targets") return;
   for (const std::string& name : models)
-    if (const Law* law = read_model_name(name).base;
+    if (const models::Law* law = models::read_model_name(name).base;
         law && !std::count(use.begin(), use.end(), law->name))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),
@@ -147,4 +147,4 @@ void check_job(JobReader& reader) {
   remember_inputs(reader);
 }
 
-} // namespace frictab
+} // namespace frictab::job

@@ -12,17 +12,17 @@
 #include "trace/options.h"
 #include "verify/options.h"
 
-namespace frictab {
+namespace frictab::job {
 
 struct Job {
   std::string file; // as given by the user
-  DataOptions data;
-  ModelOptions models;
-  CalibrationOptions calibration;
-  TableOptions table;
-  ExportOptions exports;
-  VerifyOptions verify;
-  TraceOptions trace;
+  data::DataOptions data;
+  calibrate::ModelOptions models;
+  calibrate::CalibrationOptions calibration;
+  table::TableOptions table;
+  codegen::ExportOptions exports;
+  verify::VerifyOptions verify;
+  trace::TraceOptions trace;
   std::string directory = "out"; // relative to the job file, already joined with its directory
 };
 
@@ -33,4 +33,4 @@ Job read_job(const std::string& file, const std::vector<std::string>& set = {});
 Job parse_job(std::string_view text, const std::string& file,
               const std::vector<std::string>& set = {});
 
-} // namespace frictab
+} // namespace frictab::job

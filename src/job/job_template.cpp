@@ -5,7 +5,7 @@
 
 #include "job/schema.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string job_template() {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::job

@@ -8,7 +8,7 @@
 #include "job/schema.h"
 #include "job/toml_tree.h"
 
-namespace frictab::schema {
+namespace frictab::job::schema {
 
 template <class T> struct Kind;
 
@@ -86,16 +86,16 @@ template <> struct Kind<char> { // delimiter: 0 = not set
   static std::string show(char v) { return v == 0 ? "" : toml_quoted(std::string(1, v)); }
 };
 
-template <> struct Kind<Loss> {
+template <> struct Kind<calibrate::Loss> {
   static constexpr KeyType type = KeyType::text;
-  static Loss from(KeyValue& v);
-  static std::string show(Loss v);
+  static calibrate::Loss from(KeyValue& v);
+  static std::string show(calibrate::Loss v);
 };
 
-template <> struct Kind<Interpolation> {
+template <> struct Kind<table::Interpolation> {
   static constexpr KeyType type = KeyType::text;
-  static Interpolation from(KeyValue& v);
-  static std::string show(Interpolation v);
+  static table::Interpolation from(KeyValue& v);
+  static std::string show(table::Interpolation v);
 };
 
 // A key of a fixed path.
@@ -168,8 +168,8 @@ std::vector<std::string> laws_or_all();
 std::vector<std::string> laws_best_or_all();
 std::vector<std::string> targets_or_all();
 
-DropRule& drop_rule(Job& job, const std::string& name); // added where absent
+data::DropRule& drop_rule(Job& job, const std::string& name); // added where absent
 std::vector<KeyRule> data_keys();
 std::vector<KeyRule> stage_keys();
 
-} // namespace frictab::schema
+} // namespace frictab::job::schema

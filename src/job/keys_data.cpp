@@ -2,16 +2,16 @@
 #include "data/quantity.h"
 #include "job/key_builder.h"
 
-namespace frictab::schema {
+namespace frictab::job::schema {
 
 namespace {
 
-ColumnSource& column(Job& job, const std::string& name) {
+data::ColumnSource& column(Job& job, const std::string& name) {
   return job.data.columns[name];
 }
 
 Problem constant_problem(const std::string& name, const KeyValue& value) {
-  const Quantity& quantity = *find_quantity(name);
+  const data::Quantity& quantity = *data::find_quantity(name);
   const double number = std::get<double>(value);
   if (number >= quantity.lowest) return {};
   return {"must be a number >= " + shortest(quantity.lowest) + ", not " + shortest(number),
@@ -142,8 +142,8 @@ char Kind<char>::from(KeyValue& v) {
   return text[0];
 }
 
-DropRule& drop_rule(Job& job, const std::string& name) {
-  for (DropRule& rule : job.data.drop)
+data::DropRule& drop_rule(Job& job, const std::string& name) {
+  for (data::DropRule& rule : job.data.drop)
     if (rule.column == name) return rule;
   job.data.drop.push_back({name, {}, {}, {}});
   return job.data.drop.back();
@@ -151,7 +151,7 @@ DropRule& drop_rule(Job& job, const std::string& name) {
 
 std::vector<std::string> quantity_names() {
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     names.push_back(quantity.name);
   return names;
 }
@@ -164,14 +164,14 @@ std::vector<std::string> column_names() {
 
 std::vector<std::string> state_names() {
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (quantity.state) names.push_back(quantity.name);
   return names;
 }
 
 std::vector<std::string> constant_names() { // what was measured, and time, cannot be one value
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (quantity.name != "time_s" && quantity.name != "tau_R_MPa" && quantity.name != "F_R_N")
       names.push_back(quantity.name);
   return names;
@@ -184,4 +184,4 @@ std::vector<KeyRule> data_keys() {
   return rules;
 }
 
-} // namespace frictab::schema
+} // namespace frictab::job::schema

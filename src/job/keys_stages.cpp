@@ -8,13 +8,15 @@
 #include "job/key_builder.h"
 #include "models/law.h"
 
-namespace frictab::schema {
+namespace frictab::job::schema {
+
+using calibrate::Loss;
 
 namespace {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -27,8 +29,8 @@ std::vector<std::string> losses() {
 }
 std::vector<std::string> interpolations() {
   std::vector<std::string> names;
-  for (const Interpolation interpolation : grid_interpolations)
-    names.emplace_back(interpolation_name(interpolation));
+  for (const table::Interpolation interpolation : table::grid_interpolations)
+    names.emplace_back(table::interpolation_name(interpolation));
   return names;
 }
 std::vector<std::string> coordinates() {
@@ -82,7 +84,7 @@ Problem input_problem(const std::string&, const KeyValue& value) {
 
 Problem option_problem(const std::string& name, const KeyValue& value) {
   const std::string& text = std::get<std::string>(value);
-  for (const ExportOption& option : all_export_options()) {
+  for (const codegen::ExportOption& option : codegen::all_export_options()) {
     if (option.name != name) continue;
     if (std::find(option.allowed.begin(), option.allowed.end(), text) != option.allowed.end())
       return {};
@@ -146,7 +148,7 @@ std::vector<KeyRule> model_keys() {
   return rules;
 }
 
-AxisOptions& axis(Job& job, const std::string& name) {
+table::AxisOptions& axis(Job& job, const std::string& name) {
   return job.table.axes[name];
 }
 
@@ -167,7 +169,7 @@ std::vector<KeyRule> table_keys() {
           "largest drift of the table from its law, anywhere in the range; the grid is made to "
           "fit it") |
           above(0),
-      key<std::optional<Interpolation>>(
+      key<std::optional<table::Interpolation>>(
           "table.interpolation", [](Job & job) -> auto& { return job.table.interpolation; },
           "between nodes: linear, or cubic (a C2 spline: far fewer nodes where the law is smooth, "
           "more work per query)",
@@ -318,12 +320,12 @@ Loss Kind<Loss>::from(KeyValue& v) {
   return text == "L1" ? Loss::l1 : Loss::huber;
 }
 
-Interpolation Kind<Interpolation>::from(KeyValue& v) {
-  return *find_interpolation(std::get<std::string>(v)); // is one of interpolations()
+table::Interpolation Kind<table::Interpolation>::from(KeyValue& v) {
+  return *table::find_interpolation(std::get<std::string>(v)); // is one of interpolations()
 }
 
-std::string Kind<Interpolation>::show(Interpolation v) {
-  return toml_quoted(interpolation_name(v));
+std::string Kind<table::Interpolation>::show(table::Interpolation v) {
+  return toml_quoted(table::interpolation_name(v));
 }
 
 std::string Kind<Loss>::show(Loss v) {
@@ -344,7 +346,7 @@ std::vector<std::string> laws_best_or_all() {
 
 std::vector<std::string> targets_or_all() {
   std::vector<std::string> names;
-  for (const Exporter& exporter : all_exporters())
+  for (const codegen::Exporter& exporter : codegen::all_exporters())
     names.push_back(exporter.name);
   names.push_back("all");
   return names;
@@ -352,7 +354,7 @@ std::vector<std::string> targets_or_all() {
 
 std::vector<std::string> option_names() {
   std::vector<std::string> names;
-  for (const ExportOption& option : all_export_options())
+  for (const codegen::ExportOption& option : codegen::all_export_options())
     names.push_back(option.name);
   return names;
 }
@@ -365,4 +367,4 @@ std::vector<KeyRule> stage_keys() {
   return rules;
 }
 
-} // namespace frictab::schema
+} // namespace frictab::job::schema

@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "job/reader.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
@@ -68,8 +68,8 @@ bool is_symbol(const std::string& name) {
 bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
-  if (section.others && is_symbol(entry.key) && !is_measured(entry.key)) return true;
-  if (find_quantity(entry.key))
+  if (section.others && is_symbol(entry.key) && !data::is_measured(entry.key)) return true;
+  if (data::find_quantity(entry.key))
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, section.path),
                  "possible: " + join(names, ", "));
   else
@@ -173,7 +173,7 @@ Job parse_job(std::string_view text, const std::string& file, const std::vector<
 }
 
 Job read_job(const std::string& file, const std::vector<std::string>& set) {
-  return parse_job(read_file(file), file, set);
+  return parse_job(io::read_file(file), file, set);
 }
 
-} // namespace frictab
+} // namespace frictab::job

@@ -10,7 +10,7 @@
 #include "job/reader.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
@@ -74,7 +74,7 @@ struct ValueReader {
     };
     const auto found = std::find_if(names.begin(), names.end(), same);
     if (found != names.end()) return *found;
-    if (const ModelName name = read_model_name(node.text);
+    if (const models::ModelName name = models::read_model_name(node.text);
         rule.allowed.traced && name.base && name.traced && !name.quantile)
       return node.text;
     if (rule.allowed.noun.empty()) {
@@ -207,4 +207,4 @@ void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
   rule.store(reader.job, name, std::move(*value));
 }
 
-} // namespace frictab
+} // namespace frictab::job

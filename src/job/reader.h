@@ -8,7 +8,7 @@
 #include "job/schema.h"
 #include "job/toml_tree.h"
 
-namespace frictab {
+namespace frictab::job {
 
 struct JobReader {
   Job job;
@@ -30,4 +30,4 @@ void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
 // What no key can tell alone: contradictions and missing keys.
 void check_job(JobReader& reader);
 
-} // namespace frictab
+} // namespace frictab::job

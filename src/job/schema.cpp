@@ -8,7 +8,7 @@
 
 #include "job/key_builder.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::string default_text(const KeyRule& rule) {
   return rule.show ? rule.show(Job{}) : "";
 }
 
-} // namespace frictab
+} // namespace frictab::job

@@ -11,7 +11,7 @@
 
 #include "job/job.h"
 
-namespace frictab {
+namespace frictab::job {
 
 enum class KeyType {
   text,
@@ -93,4 +93,4 @@ std::string default_text(const KeyRule& rule);
 // A documented job file: every key, those with a default commented out.
 std::string job_template();
 
-} // namespace frictab
+} // namespace frictab::job

@@ -9,7 +9,7 @@
 
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::job {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::string describe(const TomlNode& node) {
   return "";
 }
 
-} // namespace frictab
+} // namespace frictab::job

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::job {
 
 struct TomlNode {
   enum class Type { table, array, text, whole, number, flag, date };
@@ -39,4 +39,4 @@ std::string describe(const TomlNode& node);
 // A text in quotes as TOML reads it back, whatever it holds.
 std::string toml_quoted(std::string_view text);
 
-} // namespace frictab
+} // namespace frictab::job

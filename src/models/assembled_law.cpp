@@ -1,16 +1,18 @@
 // Writes the formulas of a model out.
 #include "models/assembled_law.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 AssembledLaw::AssembledLaw(Model calibrated)
-    : model(std::move(calibrated)), inputs(frictab::inputs(*model.law, model.conventions)),
+    : model(std::move(calibrated)), inputs(models::inputs(*model.law, model.conventions)),
       parameters(parameter_names(*model.law)) {
   const Formula formula = model.law->build(model.conventions);
   piece = shared(formula.value);
   combine = shared(limited(formula.combine, model.conventions, model.gain));
   tau_R = shared(substitute(combine, {{"value", piece}}));
-  piece_inputs = symbols(piece);
+  piece_inputs = expr::symbols(piece);
   for (const std::string& name : parameters)
     piece_inputs.erase(name);
 }
@@ -22,4 +24,4 @@ Expr AssembledLaw::in_numbers(const Expr& expression) const {
   return substitute(expression, numbers);
 }
 
-} // namespace frictab
+} // namespace frictab::models

@@ -7,7 +7,7 @@
 
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::models {
 
 // Made once, where a model meets a table or data (a stage of the pipeline, a command), and handed
 // down: what samples, bounds, compares and prints a law takes its formulas from here and asks the
@@ -21,15 +21,16 @@ struct AssembledLaw {
 
   // Of states and parameters by name, each part stored once, as in a table that was read from its
   // file: sources do not depend on where their table came from.
-  Expr piece;   // the smooth part that a table holds
-  Expr combine; // tau_R from "value", states and parameters, with the model's gain and shear limit
-  Expr tau_R;   // MPa: `combine` of `piece`
+  expr::Expr piece; // the smooth part that a table holds
+  expr::Expr
+      combine; // tau_R from "value", states and parameters, with the model's gain and shear limit
+  expr::Expr tau_R; // MPa: `combine` of `piece`
 
   // The states that the piece depends on: a table of this law has an axis for each.
   std::set<std::string> piece_inputs;
 
   // An expression of this law with the numbers of its parameters in their place.
-  Expr in_numbers(const Expr& expression) const;
+  expr::Expr in_numbers(const expr::Expr& expression) const;
 };
 
-} // namespace frictab
+} // namespace frictab::models

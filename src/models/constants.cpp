@@ -1,7 +1,9 @@
 // The constants that the paper takes from the literature: tau_R = mu sigma_N and tau_R = m k.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -40,4 +42,4 @@ const Registered<Law> shear_012{[] { return constant(3, "shear_0.12", "m", 0.12,
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

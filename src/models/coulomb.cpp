@@ -1,12 +1,12 @@
 // Coulomb: tau_R = mu sigma_N, with mu calibrated or as the mean of mu_meas.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
 
 namespace {
 
 Formula build(const Conventions&) {
-  return {Expr::symbol("mu"), state::value() * state::sigma_n()};
+  return {expr::Expr::symbol("mu"), state::value() * state::sigma_n()};
 }
 
 Law coulomb() {
@@ -37,4 +37,4 @@ const Registered<Law> averaged{coulomb_mean};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

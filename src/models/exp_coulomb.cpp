@@ -1,7 +1,9 @@
 // Extended Coulomb, multiplicative and exponential in temperature.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -37,4 +39,4 @@ const Registered<Law> registered{exp_coulomb};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

@@ -5,7 +5,9 @@
 
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 Expr shear_yield_stress(const Conventions& conventions) {
   return Expr(conventions.k_over_sigma_f) * Expr::symbol("sigma_f_MPa");
@@ -22,11 +24,11 @@ Expr tau_formula(const Law& law, const Conventions& conventions) {
 }
 
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
-  auto used = symbols(tau_formula(law, conventions));
+  auto used = expr::symbols(tau_formula(law, conventions));
   for (const Parameter& parameter : law.parameters)
     used.erase(parameter.name);
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (used.erase(quantity.name)) names.push_back(quantity.name);
   names.insert(names.end(), used.begin(), used.end()); // a traced effect's columns
   return names;
@@ -97,4 +99,4 @@ const Law* find_law(std::string_view name) {
   return Registry<Law>::instance().find(name);
 }
 
-} // namespace frictab
+} // namespace frictab::models

@@ -13,7 +13,7 @@
 #include "core/registry.h"
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::models {
 
 // What k and the shear limit mean in this job.
 struct Conventions {
@@ -40,8 +40,8 @@ using TrainingRows = std::map<std::string, std::span<const double>>;
 // exactly after interpolation. Symbols: canonical state names (sigma_n_MPa, psi, v_rel_mm_s,
 // T_contact_C, s_mm, sigma_f_MPa), parameter names and, in `combine`, "value".
 struct Formula {
-  Expr value;
-  Expr combine;
+  expr::Expr value;
+  expr::Expr combine;
 };
 
 enum class Calibrated {
@@ -75,18 +75,18 @@ struct Law {
 };
 
 // Shear yield stress k as a formula of the flow stress.
-Expr shear_yield_stress(const Conventions& conventions);
+expr::Expr shear_yield_stress(const Conventions& conventions);
 
 // State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa);
 // behind them, by name, symbols of columns and derived quantities that a traced effect brought in.
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
 
 // The shear stress `combine` under the shear limit: minimum(gain maximum(combine, 0), k).
-Expr limited(const Expr& combine, const Conventions& conventions, double gain = 1);
+expr::Expr limited(const expr::Expr& combine, const Conventions& conventions, double gain = 1);
 
 // tau_R in MPa as one formula of state and parameters. For a calibrated law see
 // models/assembled_law.h.
-Expr tau_formula(const Law& law, const Conventions& conventions);
+expr::Expr tau_formula(const Law& law, const Conventions& conventions);
 
 std::vector<std::string> parameter_names(const Law& law);
 
@@ -129,4 +129,4 @@ ModelName read_model_name(std::string_view name);
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);
 
-} // namespace frictab
+} // namespace frictab::models

@@ -1,7 +1,9 @@
 // Levanov: shear friction that saturates with the contact normal stress.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -29,4 +31,4 @@ const Registered<Law> registered{levanov};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

@@ -1,7 +1,9 @@
 // Extended Coulomb, logarithmic: mu falls or rises with the logarithms of the state.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -48,4 +50,4 @@ const Registered<Law> registered{log_coulomb};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

@@ -6,7 +6,9 @@
 
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 double NetworkInput::u(double x) const {
   return log ? std::log(std::max(x, floor) + offset) : x;
@@ -80,4 +82,4 @@ Law neural_network(const Network& network) {
   return law;
 }
 
-} // namespace frictab
+} // namespace frictab::models

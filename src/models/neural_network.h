@@ -7,7 +7,7 @@
 
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::models {
 
 // How a state enters the nets: z = (u - centre)/scale with u = x, or u = ln(max(x, floor) + offset)
 // where the values span decades.
@@ -39,4 +39,4 @@ struct Network {
 // The registered law with its coefficient replaced by the ensemble's; parameter: mu0.
 Law neural_network(const Network& network);
 
-} // namespace frictab
+} // namespace frictab::models

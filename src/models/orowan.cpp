@@ -2,7 +2,9 @@
 #include "models/orowan_optimum.h"
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -55,4 +57,4 @@ const Registered<Law> averaged{orowan_mean};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

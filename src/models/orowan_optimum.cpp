@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace frictab {
+namespace frictab::models {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
   return points;
 }
 
-} // namespace frictab
+} // namespace frictab::models

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace frictab {
+namespace frictab::models {
 
 // Rows of a campaign: contact normal stress, shear yield stress, measured shear stress in MPa.
 struct OrowanRows {
@@ -24,4 +24,4 @@ struct OrowanPoint {
 // points at `breaks` evenly spaced places of the kink m/mu, as starts for other losses.
 std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t breaks);
 
-} // namespace frictab
+} // namespace frictab::models

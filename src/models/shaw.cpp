@@ -1,7 +1,9 @@
 // Shaw: smooth transition from Coulomb to shear friction.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -40,4 +42,4 @@ const Registered<Law> registered{shaw};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

@@ -1,12 +1,12 @@
 // Shear friction (Tresca): tau_R = m k, with m calibrated or as the mean of m_meas.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
 
 namespace {
 
 Formula build(const Conventions& conventions) {
-  return {Expr::symbol("m") * shear_yield_stress(conventions), state::value()};
+  return {expr::Expr::symbol("m") * shear_yield_stress(conventions), state::value()};
 }
 
 Law shear() {
@@ -40,4 +40,4 @@ const Registered<Law> averaged{shear_mean};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

@@ -3,28 +3,28 @@
 
 #include "models/law.h"
 
-namespace frictab::state {
+namespace frictab::models::state {
 
-inline Expr sigma_n() {
-  return Expr::symbol("sigma_n_MPa");
+inline expr::Expr sigma_n() {
+  return expr::Expr::symbol("sigma_n_MPa");
 }
-inline Expr psi() {
-  return Expr::symbol("psi");
+inline expr::Expr psi() {
+  return expr::Expr::symbol("psi");
 }
-inline Expr v_rel() {
-  return Expr::symbol("v_rel_mm_s");
+inline expr::Expr v_rel() {
+  return expr::Expr::symbol("v_rel_mm_s");
 }
-inline Expr temperature() {
-  return Expr::symbol("T_contact_C");
+inline expr::Expr temperature() {
+  return expr::Expr::symbol("T_contact_C");
 }
-inline Expr sliding_distance() {
-  return Expr::symbol("s_mm");
+inline expr::Expr sliding_distance() {
+  return expr::Expr::symbol("s_mm");
 }
-inline Expr sigma_f() {
-  return Expr::symbol("sigma_f_MPa");
+inline expr::Expr sigma_f() {
+  return expr::Expr::symbol("sigma_f_MPa");
 }
-inline Expr value() {
-  return Expr::symbol("value");
+inline expr::Expr value() {
+  return expr::Expr::symbol("value");
 } // the tabulated piece, in `combine`
 
-} // namespace frictab::state
+} // namespace frictab::models::state

@@ -4,7 +4,9 @@
 
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -49,4 +51,4 @@ const Registered<Law> registered{wanheim_bay};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

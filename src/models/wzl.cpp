@@ -1,7 +1,9 @@
 // WZL: product of powers of contact normal stress, sliding speed and temperature.
 #include "models/symbols.h"
 
-namespace frictab {
+namespace frictab::models {
+
+using expr::Expr;
 
 namespace {
 
@@ -44,4 +46,4 @@ const Registered<Law> registered{wzl};
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::models

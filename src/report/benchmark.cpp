@@ -9,19 +9,19 @@
 #include "report/published.h"
 #include "report/report.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
-std::string parameters(const ModelFit& fit) {
-  const std::vector<Parameter>& list = fit.model.law->parameters;
-  if (fit.network) return network_size(*fit.network);
+std::string parameters(const calibrate::ModelFit& fit) {
+  const std::vector<models::Parameter>& list = fit.model.law->parameters;
+  if (fit.network) return calibrate::network_size(*fit.network);
   if (list.size() > 8) return fmt::format("{} parameters", list.size());
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < fit.model.parameters.size(); ++i) {
     const double error = i < fit.std_error.size() ? fit.std_error[i] : std::nan("");
     ValueText v = with_error(fit.model.parameters[i], error);
-    if (fit.model.law->calibrated == Calibrated::fixed)
+    if (fit.model.law->calibrated == models::Calibrated::fixed)
       v = {short_figures(fit.model.parameters[i]), ""};
     text += (text.empty() ? "" : ", ") + list[i].name + " = " + v.value;
     if (!v.std_error.empty()) text += " \u00B1 " + v.std_error;
@@ -30,8 +30,8 @@ std::string parameters(const ModelFit& fit) {
   return text;
 }
 
-std::string row(const ModelFit& fit, std::size_t rank, int decimals) {
-  const Metrics& v = fit.validation;
+std::string row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) {
+  const calibrate::Metrics& v = fit.validation;
   const std::string remarks = join(fit.remarks, "; ");
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", rank,
                      markdown_cell(fit.model.law->name), fixed(v.mae_MPa, decimals),
@@ -40,7 +40,7 @@ std::string row(const ModelFit& fit, std::size_t rank, int decimals) {
                      markdown_cell(parameters(fit)), markdown_cell(remarks));
 }
 
-void add_published(std::string& out, const Calibration& calibration) {
+void add_published(std::string& out, const calibrate::Calibration& calibration) {
   out += fmt::format("\n## Published figures beside these\n\n"
                      "{} (*{}*)\n\n| | published MAE / MPa | here MAE / MPa |\n|---|---|---|\n",
                      published_warning, published_source);
@@ -54,14 +54,14 @@ void add_published(std::string& out, const Calibration& calibration) {
 
 } // namespace
 
-std::string benchmark_md(const Calibration& calibration) {
+std::string benchmark_md(const calibrate::Calibration& calibration) {
   std::string out = "# Friction laws on experiments they were not calibrated on\n\n";
   if (calibration.synthetic) out += "**Synthetic data: nothing here was measured.**\n\n";
   if (calibration.fits.empty()) {
     out += "No law was calibrated.\n";
   } else {
-    const Metrics& v = calibration.fits.front().validation;
-    const Metrics& t = calibration.fits.front().training;
+    const calibrate::Metrics& v = calibration.fits.front().validation;
+    const calibrate::Metrics& t = calibration.fits.front().training;
     out += fmt::format(
         "Errors of tau_R in MPa, residual = measured \u2212 predicted. Calibrated on {} of {}, "
         "validated on {} of {}. Intervals: 95 %, by resampling whole experiments.\n\n"
@@ -75,7 +75,7 @@ std::string benchmark_md(const Calibration& calibration) {
     out += floor_row(calibration, decimals);
   }
   if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
-  for (const LeftOut& left : calibration.left_out)
+  for (const calibrate::LeftOut& left : calibration.left_out)
     out += "- " + markdown_cell(left.text()) + "\n";
   const int decimals = error_decimals(calibration);
   add_comparison(out, calibration, decimals);
@@ -86,4 +86,4 @@ std::string benchmark_md(const Calibration& calibration) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -7,30 +7,30 @@
 #include "calibrate/noise_floor.h"
 #include "report/numbers.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
-std::string with_interval(double value, const Interval& interval, int decimals) {
+std::string with_interval(double value, const calibrate::Interval& interval, int decimals) {
   return fmt::format("{} ({})", fixed(value, decimals), interval_text(interval, decimals));
 }
 
-std::string errors(const Metrics& m, int decimals) {
+std::string errors(const calibrate::Metrics& m, int decimals) {
   return fmt::format("{} | {} | {}", with_interval(m.mae_MPa, m.mae_interval, decimals),
                      with_interval(m.rmse_MPa, m.rmse_interval, decimals),
                      with_interval(m.bias_MPa, m.bias_interval, decimals));
 }
 
-void add_floors(std::string& out, const Calibration& calibration, int decimals) {
-  const std::string advice = noise_floor_advice(calibration);
-  out +=
-      fmt::format("\nWhat is left where a law of the state is exact: {}{}.\n",
-                  noise_floor_sentence(calibration, decimals), advice.empty() ? "" : "; " + advice);
+void add_floors(std::string& out, const calibrate::Calibration& calibration, int decimals) {
+  const std::string advice = calibrate::noise_floor_advice(calibration);
+  out += fmt::format("\nWhat is left where a law of the state is exact: {}{}.\n",
+                     calibrate::noise_floor_sentence(calibration, decimals),
+                     advice.empty() ? "" : "; " + advice);
   if (calibration.noise_floors.empty()) return;
   out += "\n| noise floor | part | MAE (95 %) | RMSE (95 %) | rows | experiments |\n"
          "|---|---|--:|--:|--:|--:|\n";
-  for (const NoiseFloor& f : calibration.noise_floors)
-    out += fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", noise_floor_name(f),
+  for (const calibrate::NoiseFloor& f : calibration.noise_floors)
+    out += fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", calibrate::noise_floor_name(f),
                        f.lower_bound ? " (lower bound)" : "", f.part,
                        with_interval(f.mae_MPa, f.mae_interval, decimals),
                        with_interval(f.rmse_MPa, f.rmse_interval, decimals),
@@ -38,9 +38,9 @@ void add_floors(std::string& out, const Calibration& calibration, int decimals) 
 }
 
 // Differences to all laws that are ranked before law j.
-std::string matrix_row(const Comparisons& c, std::size_t j, int decimals) {
+std::string matrix_row(const calibrate::Comparisons& c, std::size_t j, int decimals) {
   std::string row = fmt::format("| {} {} |", j + 1, markdown_cell(c.laws[j]));
-  for (const Comparison& pair : c.pairs) {
+  for (const calibrate::Comparison& pair : c.pairs) {
     if (pair.other != c.laws[j]) continue;
     const std::string value = fixed(pair.mae.value_MPa, decimals);
     row += pair.mae.distinguishable() ? " **" + value + "** |" : " " + value + " |";
@@ -50,7 +50,7 @@ std::string matrix_row(const Comparisons& c, std::size_t j, int decimals) {
   return row + "\n";
 }
 
-void add_matrix(std::string& out, const Comparisons& c, int decimals) {
+void add_matrix(std::string& out, const calibrate::Comparisons& c, int decimals) {
   out += "\nAll pairs: MAE of the row's law minus MAE of the column's law, MPa; **bold** where the "
          "column's law is better (p < 0.05 for that pair alone).\n\n| |";
   std::string rule = "\n|---|";
@@ -74,40 +74,40 @@ std::string markdown_cell(const std::string& text) {
   return out;
 }
 
-std::string floor_row(const Calibration& calibration, int decimals) {
+std::string floor_row(const calibrate::Calibration& calibration, int decimals) {
   if (calibration.noise_floors.empty()) return "";
-  const NoiseFloor& f = calibration.noise_floors.front();
+  const calibrate::NoiseFloor& f = calibration.noise_floors.front();
   return fmt::format("| | *noise floor* | {}{} | {} | {} | | | | {}{} |\n",
                      f.lower_bound ? "\\> " : "", fixed(f.mae_MPa, decimals),
                      interval_text(f.mae_interval, decimals), fixed(f.rmse_MPa, decimals),
-                     noise_floor_name(f), noise_floor_limits(f));
+                     calibrate::noise_floor_name(f), calibrate::noise_floor_limits(f));
 }
 
-void add_all_errors(std::string& out, const Calibration& calibration, int decimals) {
+void add_all_errors(std::string& out, const calibrate::Calibration& calibration, int decimals) {
   if (calibration.fits.empty()) return;
   out +=
       "\n## All errors\n\nMPa, with 95 % intervals by experiment.\n\n"
       "| law | validation MAE | validation RMSE | validation bias | training MAE | training RMSE "
       "| training bias |\n|---|--:|--:|--:|--:|--:|--:|\n";
-  for (const ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : calibration.fits)
     out += fmt::format("| {} | {} | {} |\n", markdown_cell(fit.model.law->name),
                        errors(fit.validation, decimals), errors(fit.training, decimals));
   add_floors(out, calibration, decimals);
 }
 
-void add_band(std::string& out, const Calibration& calibration) {
+void add_band(std::string& out, const calibrate::Calibration& calibration) {
   if (calibration.fits.empty()) return;
   out += "\n## The band of experiments\n\n" + std::string(band_sentence) +
          "\n\n| law | 5 % below | 95 % below | validation experiments inside |\n"
          "|---|--:|--:|--:|\n";
-  for (const ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : calibration.fits)
     out +=
         fmt::format("| {} | {} | {} | {} |\n", markdown_cell(fit.model.law->name),
                     factor_text(fit.band.low), factor_text(fit.band.high), inside_text(fit.band));
 }
 
-void add_comparison(std::string& out, const Calibration& calibration, int decimals) {
-  const Comparisons& c = calibration.comparisons;
+void add_comparison(std::string& out, const calibrate::Calibration& calibration, int decimals) {
+  const calibrate::Comparisons& c = calibration.comparisons;
   if (c.laws.size() < 2) return;
   out +=
       fmt::format("\n## Is law A better than law B?\n\n{}; {}.\n\n"
@@ -117,7 +117,7 @@ void add_comparison(std::string& out, const Calibration& calibration, int decima
                   "chosen the leader: p of \"no law is better than this one\".\n\n"
                   "| law | MAE behind the best (95 %) | p | RMSE behind it (95 %) | p | verdict | "
                   "may be the best |\n|---|--:|--:|--:|--:|---|---|\n",
-                  pairwise_sentence(c), family_sentence(c), c.resamples,
+                  calibrate::pairwise_sentence(c), calibrate::family_sentence(c), c.resamples,
                   count_of(c.n_experiments, "validation experiment"));
   for (std::size_t j = 0; j < c.laws.size(); ++j) {
     const std::string may = fmt::format("{} (p {})", c.best_p_values[j] < 0.05 ? "no" : "yes",
@@ -126,7 +126,7 @@ void add_comparison(std::string& out, const Calibration& calibration, int decima
       out += fmt::format("| {} | | | | | | {} |\n", markdown_cell(c.laws[j]), may);
       continue;
     }
-    const Comparison& pair = c.pairs[j - 1];
+    const calibrate::Comparison& pair = c.pairs[j - 1];
     out += fmt::format(
         "| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(c.laws[j]),
         with_interval(pair.mae.value_MPa, pair.mae.interval, decimals), p_text(pair.mae.p_value),
@@ -136,8 +136,9 @@ void add_comparison(std::string& out, const Calibration& calibration, int decima
   add_matrix(out, c, decimals);
 }
 
-void add_conditional_use(std::string& out, const Calibration& calibration, int decimals) {
-  const Conditional& c = calibration.conditional;
+void add_conditional_use(std::string& out, const calibrate::Calibration& calibration,
+                         int decimals) {
+  const calibrate::Conditional& c = calibration.conditional;
   if (c.laws.empty()) return;
   out += fmt::format(
       "\n## Conditional use: part of every test predicts its rest\n\n"
@@ -148,7 +149,7 @@ void add_conditional_use(std::string& out, const Calibration& calibration, int d
       "{}\n\n| law | MAE without gain | MAE with gain (95 %) | RMSE with gain (95 %) | bias with "
       "gain | gained (95 %) | share of the deviation used |\n|---|--:|--:|--:|--:|--:|--:|\n",
       short_figures(c.condition_on_mm), short_figures(c.condition_on_mm), conditional_counts(c));
-  for (const ConditionalFit& fit : c.laws)
+  for (const calibrate::ConditionalFit& fit : c.laws)
     out += fmt::format(
         "| {} | {} | {} | {} | {} | {} | {} % |\n", markdown_cell(fit.law),
         fixed(fit.unconditional.mae_MPa, decimals),
@@ -158,4 +159,4 @@ void add_conditional_use(std::string& out, const Calibration& calibration, int d
         with_interval(fit.gain.value_MPa, fit.gain.interval, decimals), fixed(100 * fit.trust, 0));
 }
 
-} // namespace frictab
+} // namespace frictab::report

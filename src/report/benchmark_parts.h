@@ -5,17 +5,17 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // A cell must not end its column or its row, nor be read as markup.
 std::string markdown_cell(const std::string& text);
 
 // The noise floor as a row of the ranking table (9 columns).
-std::string floor_row(const Calibration& calibration, int decimals);
+std::string floor_row(const calibrate::Calibration& calibration, int decimals);
 
-void add_all_errors(std::string& out, const Calibration& calibration, int decimals);
-void add_band(std::string& out, const Calibration& calibration);
-void add_comparison(std::string& out, const Calibration& calibration, int decimals);
-void add_conditional_use(std::string& out, const Calibration& calibration, int decimals);
+void add_all_errors(std::string& out, const calibrate::Calibration& calibration, int decimals);
+void add_band(std::string& out, const calibrate::Calibration& calibration);
+void add_comparison(std::string& out, const calibrate::Calibration& calibration, int decimals);
+void add_conditional_use(std::string& out, const calibrate::Calibration& calibration, int decimals);
 
-} // namespace frictab
+} // namespace frictab::report

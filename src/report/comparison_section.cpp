@@ -8,18 +8,18 @@
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
 // Three classes, told apart by shade and by the cell's own sign.
-const char* class_of(const Difference& d) {
+const char* class_of(const calibrate::Difference& d) {
   if (d.p_value < 0.001) return "clear";
   return d.distinguishable() ? "better" : "open";
 }
 
-std::string cell(const Comparison& pair, int decimals) {
-  const Difference& d = pair.mae;
+std::string cell(const calibrate::Comparison& pair, int decimals) {
+  const calibrate::Difference& d = pair.mae;
   const std::string what =
       fmt::format("{} against {}: {} MPa, 95 % {}, p {}; RMSE: {} MPa, 95 % {}, p {}", pair.law,
                   pair.other, fixed(d.value_MPa, decimals), interval_text(d.interval, decimals),
@@ -30,9 +30,9 @@ std::string cell(const Comparison& pair, int decimals) {
 }
 
 // Cells of law j (by rank) below every law ranked before it.
-std::string cells_of(const Comparisons& c, std::size_t j, int decimals) {
+std::string cells_of(const calibrate::Comparisons& c, std::size_t j, int decimals) {
   std::string text;
-  for (const Comparison& pair : c.pairs)
+  for (const calibrate::Comparison& pair : c.pairs)
     if (pair.other == c.laws[j]) text += cell(pair, decimals);
   for (std::size_t i = j; i + 1 < c.laws.size(); ++i)
     text += "<td></td>";
@@ -41,15 +41,15 @@ std::string cells_of(const Comparisons& c, std::size_t j, int decimals) {
 
 } // namespace
 
-void add_comparisons(TemplateValues& page, const ReportInput& input) {
-  const Comparisons& c = input.calibration.comparisons;
+void add_comparisons(codegen::TemplateValues& page, const ReportInput& input) {
+  const calibrate::Comparisons& c = input.calibration.comparisons;
   const int decimals = error_decimals(input.calibration);
   page.flags["has_comparisons"] = c.laws.size() > 1;
-  page.text["pairwise_sentence"] = svg::escape(pairwise_sentence(c));
-  page.text["family_sentence"] = svg::escape(family_sentence(c));
+  page.text["pairwise_sentence"] = svg::escape(calibrate::pairwise_sentence(c));
+  page.text["family_sentence"] = svg::escape(calibrate::family_sentence(c));
   page.text["compared_on"] = count_of(c.n_experiments, "validation experiment");
-  std::vector<TemplateValues>& columns = page.lists["compared_columns"];
-  std::vector<TemplateValues>& rows = page.lists["compared_rows"];
+  std::vector<codegen::TemplateValues>& columns = page.lists["compared_columns"];
+  std::vector<codegen::TemplateValues>& rows = page.lists["compared_rows"];
   for (std::size_t i = 0; i < c.laws.size(); ++i) {
     if (i + 1 < c.laws.size()) columns.push_back({{{"rank", std::to_string(i + 1)}}, {}, {}});
     const double p = c.best_p_values[i];
@@ -63,4 +63,4 @@ void add_comparisons(TemplateValues& page, const ReportInput& input) {
   }
 }
 
-} // namespace frictab
+} // namespace frictab::report

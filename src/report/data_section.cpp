@@ -11,7 +11,7 @@
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
@@ -23,29 +23,29 @@ std::string lines(const std::vector<std::string>& list) {
   return text.empty() ? "\u2013" : text;
 }
 
-std::vector<std::string> files_of(const Dataset& data) {
+std::vector<std::string> files_of(const data::Dataset& data) {
   std::vector<std::string> files;
   for (const std::string& source : data.sources)
     files.push_back(shown_path(source));
   return files;
 }
 
-std::vector<std::string> dropped_of(const Dataset& data) {
+std::vector<std::string> dropped_of(const data::Dataset& data) {
   std::vector<std::string> list;
-  for (const Dataset::Dropped& dropped : data.dropped)
+  for (const data::Dataset::Dropped& dropped : data.dropped)
     list.push_back(fmt::format("{}: {}", count_of(dropped.rows, "row"), dropped.rule));
   return list;
 }
 
-std::vector<std::string> bystanders_of(const Dataset& data) {
+std::vector<std::string> bystanders_of(const data::Dataset& data) {
   std::vector<std::string> list;
-  for (const Column& column : data.columns)
-    if (!find_quantity(column.name)) list.push_back(column.name);
+  for (const data::Column& column : data.columns)
+    if (!data::find_quantity(column.name)) list.push_back(column.name);
   return list.empty() ? list : std::vector<std::string>{join(list, ", ")};
 }
 
-std::string range_of(const Dataset& data, const std::string& name) {
-  const Column* column = data.find(name);
+std::string range_of(const data::Dataset& data, const std::string& name) {
+  const data::Column* column = data.find(name);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   if (column)
     for (const double value : column->values)
@@ -59,9 +59,9 @@ std::string range_of(const Dataset& data, const std::string& name) {
 
 } // namespace
 
-void add_data(TemplateValues& page, const ReportInput& input) {
-  const Dataset &t = input.training, &v = input.validation;
-  std::vector<TemplateValues>& rows = page.lists["data"];
+void add_data(codegen::TemplateValues& page, const ReportInput& input) {
+  const data::Dataset &t = input.training, &v = input.validation;
+  std::vector<codegen::TemplateValues>& rows = page.lists["data"];
   const auto add = [&](const char* what, const std::string& training,
                        const std::string& validation) {
     rows.push_back({{{"what", what}, {"training", training}, {"validation", validation}}, {}, {}});
@@ -73,8 +73,8 @@ void add_data(TemplateValues& page, const ReportInput& input) {
   add("Derived", lines(t.notes), lines(v.notes));
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
 
-  std::vector<TemplateValues>& ranges = page.lists["ranges"];
-  for (const Quantity& quantity : quantities()) {
+  std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];
+  for (const data::Quantity& quantity : data::quantities()) {
     if (!t.has(quantity.name) && !v.has(quantity.name)) continue;
     ranges.push_back({{{"meaning", svg::escape(quantity.meaning)},
                        {"name", svg::escape(quantity.name)},
@@ -87,4 +87,4 @@ void add_data(TemplateValues& page, const ReportInput& input) {
   page.flags["has_ranges"] = !ranges.empty();
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -9,16 +9,19 @@
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
+
+using codegen::TemplateValues;
 
 namespace {
 
-std::string marked_up(double value, const Interval& interval, int decimals) {
+std::string marked_up(double value, const calibrate::Interval& interval, int decimals) {
   return fmt::format("{} <span class=\"interval\">{}</span>", fixed(value, decimals),
                      interval_text(interval, decimals));
 }
 
-void put_errors(TemplateValues& row, const std::string& part, const Metrics& m, int decimals) {
+void put_errors(TemplateValues& row, const std::string& part, const calibrate::Metrics& m,
+                int decimals) {
   row.text[part + "_mae"] = marked_up(m.mae_MPa, m.mae_interval, decimals);
   row.text[part + "_rmse"] = marked_up(m.rmse_MPa, m.rmse_interval, decimals);
   row.text[part + "_bias"] = marked_up(m.bias_MPa, m.bias_interval, decimals);
@@ -29,7 +32,7 @@ void put_errors(TemplateValues& row, const std::string& part, const Metrics& m, 
 void add_errors(TemplateValues& page, const ReportInput& input) {
   const int decimals = error_decimals(input.calibration);
   std::vector<TemplateValues>& rows = page.lists["errors"];
-  for (const ModelFit& fit : input.calibration.fits) {
+  for (const calibrate::ModelFit& fit : input.calibration.fits) {
     TemplateValues row;
     row.text["law"] = svg::escape(fit.model.law->name);
     put_errors(row, "validation", fit.validation, decimals);
@@ -40,9 +43,9 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
     rows.push_back(std::move(row));
   }
   std::vector<TemplateValues>& floors = page.lists["floors"];
-  for (const NoiseFloor& floor : input.calibration.noise_floors)
+  for (const calibrate::NoiseFloor& floor : input.calibration.noise_floors)
     floors.push_back(
-        {{{"name", noise_floor_name(floor)},
+        {{{"name", calibrate::noise_floor_name(floor)},
           {"part", floor.part},
           {"mae", marked_up(floor.mae_MPa, floor.mae_interval, decimals)},
           {"rmse", marked_up(floor.rmse_MPa, floor.rmse_interval, decimals)},
@@ -53,14 +56,14 @@ void add_errors(TemplateValues& page, const ReportInput& input) {
          {},
          {}});
   page.flags["has_floors"] = !floors.empty();
-  page.text["floor_sentence"] = noise_floor_sentence(input.calibration, decimals);
+  page.text["floor_sentence"] = calibrate::noise_floor_sentence(input.calibration, decimals);
   page.text["band_sentence"] = band_sentence;
-  const std::string advice = noise_floor_advice(input.calibration);
+  const std::string advice = calibrate::noise_floor_advice(input.calibration);
   page.text["floor_advice"] = advice.empty() ? "" : "; " + advice;
 }
 
 void add_conditional(TemplateValues& page, const ReportInput& input) {
-  const Conditional& c = input.calibration.conditional;
+  const calibrate::Conditional& c = input.calibration.conditional;
   const int decimals = error_decimals(input.calibration);
   page.flags["has_conditional"] = !c.laws.empty();
   page.text["conditional_link"] =
@@ -68,7 +71,7 @@ void add_conditional(TemplateValues& page, const ReportInput& input) {
   page.text["condition_on"] = short_figures(c.condition_on_mm);
   page.text["condition_counts"] = conditional_counts(c);
   std::vector<TemplateValues>& rows = page.lists["conditional"];
-  for (const ConditionalFit& fit : c.laws)
+  for (const calibrate::ConditionalFit& fit : c.laws)
     rows.push_back(
         {{{"law", svg::escape(fit.law)},
           {"plain", fixed(fit.unconditional.mae_MPa, decimals)},
@@ -81,4 +84,4 @@ void add_conditional(TemplateValues& page, const ReportInput& input) {
          {}});
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -3,7 +3,7 @@
 
 #include "core/text.h"
 
-namespace frictab::svg {
+namespace frictab::report::svg {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-} // namespace frictab::svg
+} // namespace frictab::report::svg

@@ -11,7 +11,7 @@
 #include "report/numbers.h"
 #include "report/published.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
@@ -180,7 +180,7 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
   right.line(band.x, band.high, {line_colour, 1.6, "5 3", true});
   right.line(band.x, band.median, {line_colour, 2.2, "", true});
 
-  const Metrics& v = input.calibration.fits[law].validation;
+  const calibrate::Metrics& v = input.calibration.fits[law].validation;
   const std::string figures_text =
       fmt::format("{}, mean absolute error {} MPa, bias {} MPa.", count_of(v.n_rows, "row"),
                   figures(v.mae_MPa), figures(v.bias_MPa));
@@ -226,4 +226,4 @@ std::string plot_legend(const PlotFrame& frame) {
   return text + "</svg>";
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -7,7 +7,7 @@
 #include "report/report.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // Axes, cells and colour classes that all laws share, so that their plots can be compared.
 struct PlotFrame {
@@ -48,4 +48,4 @@ std::vector<double> residuals(std::span<const double> measured, std::span<const 
 // Linear between order statistics; `sorted` is ascending and not empty.
 double quantile(std::span<const double> sorted, double share);
 
-} // namespace frictab
+} // namespace frictab::report

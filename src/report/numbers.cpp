@@ -8,7 +8,7 @@
 
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::string figures(double value, int digits) {
   return fixed(value, digits - 1 - exponent);
 }
 
-std::string interval_text(const Interval& interval, int decimals) {
+std::string interval_text(const calibrate::Interval& interval, int decimals) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return dash;
   return fixed(interval.low, decimals) + " to " + fixed(interval.high, decimals);
 }
@@ -50,7 +50,7 @@ std::string factor_text(const std::optional<double>& factor) {
   return factor ? fixed(*factor, 3) : fixed(std::nan(""), 0);
 }
 
-std::string inside_text(const BandCheck& band) {
+std::string inside_text(const calibrate::BandCheck& band) {
   if (!band.low || !band.high) return "too few training experiments: 19 give these ends";
   return fmt::format("{} of {} (90 % expected)", band.inside, band.experiments);
 }
@@ -59,7 +59,7 @@ std::string p_text(double p_value) {
   return p_value < 0.001 ? "< 0.001" : figures(p_value, 2);
 }
 
-std::string conditional_counts(const Conditional& c) {
+std::string conditional_counts(const calibrate::Conditional& c) {
   std::string text = fmt::format("{} of {} judged.", thousands(c.n_experiments - c.n_without_rest),
                                  count_of(c.n_experiments, "validation experiment"));
   if (c.n_without_start > 0)
@@ -71,7 +71,7 @@ std::string conditional_counts(const Conditional& c) {
   return text;
 }
 
-int error_decimals(const Calibration& calibration) {
+int error_decimals(const calibrate::Calibration& calibration) {
   if (calibration.fits.empty()) return 2;
   const double best = calibration.fits.front().validation.mae_MPa;
   if (!std::isfinite(best) || best <= 0) return 2;
@@ -98,4 +98,4 @@ std::string count_of(std::size_t count, const std::string& noun) {
   return thousands(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-} // namespace frictab
+} // namespace frictab::report

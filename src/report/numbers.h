@@ -5,7 +5,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // `digits` significant digits: 12,345 or 0.00123 or 1.2e-15; a dash where not finite.
 std::string figures(double value, int digits = 3);
@@ -17,7 +17,7 @@ std::string short_figures(double value, int digits = 4);
 std::string fixed(double value, int decimals);
 
 // "9.69 to 13.54"; a dash where there is none.
-std::string interval_text(const Interval& interval, int decimals);
+std::string interval_text(const calibrate::Interval& interval, int decimals);
 
 // What the factors of a band mean, and its two columns: "0.848" or a dash, "28 of 30 (90 %
 // expected)".
@@ -28,16 +28,16 @@ inline constexpr const char* band_sentence =
     "network's from nets that had not seen the experiment). table.quantile = [0.05, 0.5, 0.95] "
     "writes tables and sources of both ends.";
 std::string factor_text(const std::optional<double>& factor);
-std::string inside_text(const BandCheck& band);
+std::string inside_text(const calibrate::BandCheck& band);
 
 // "0.023", or "< 0.001".
 std::string p_text(double p_value);
 
 // How many experiments conditional use had to do without their start, or could not judge.
-std::string conditional_counts(const Conditional& conditional);
+std::string conditional_counts(const calibrate::Conditional& conditional);
 
 // Decimals that show three digits of the best law's error, so that a column lines up.
-int error_decimals(const Calibration& calibration);
+int error_decimals(const calibrate::Calibration& calibration);
 
 // Value and standard error with as many digits as the error is known to: "0.1276", "0.0005".
 struct ValueText {
@@ -49,4 +49,4 @@ ValueText with_error(double value, double std_error);
 // "1 row", "16,500 rows".
 std::string count_of(std::size_t count, const std::string& noun);
 
-} // namespace frictab
+} // namespace frictab::report

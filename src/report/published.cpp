@@ -5,7 +5,7 @@
 
 #include "report/numbers.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // The paper's abstract; it does not say which of its constants 51.38 belongs to.
 std::span<const PublishedFigure> published_figures() {
@@ -17,28 +17,29 @@ std::span<const PublishedFigure> published_figures() {
   return figures;
 }
 
-LawKind kind_of(const Law& law) {
-  if (law.calibrated == Calibrated::fixed) return LawKind::literature;
-  if (law.calibrated == Calibrated::mean) return LawKind::constants;
+LawKind kind_of(const models::Law& law) {
+  if (law.calibrated == models::Calibrated::fixed) return LawKind::literature;
+  if (law.calibrated == models::Calibrated::mean) return LawKind::constants;
   return law.name == "neural_network" ? LawKind::network : LawKind::calibrated;
 }
 
-std::optional<Interval> mae_span(const Calibration& calibration, LawKind kind) {
-  std::optional<Interval> span;
-  for (const ModelFit& fit : calibration.fits) {
+std::optional<calibrate::Interval> mae_span(const calibrate::Calibration& calibration,
+                                            LawKind kind) {
+  std::optional<calibrate::Interval> span;
+  for (const calibrate::ModelFit& fit : calibration.fits) {
     if (kind_of(*fit.model.law) != kind) continue;
     const double mae = fit.validation.mae_MPa;
-    if (!span) span = Interval{mae, mae};
+    if (!span) span = calibrate::Interval{mae, mae};
     span->low = std::min(span->low, mae);
     span->high = std::max(span->high, mae);
   }
   return span;
 }
 
-std::string counterpart(const Calibration& calibration, std::size_t index) {
+std::string counterpart(const calibrate::Calibration& calibration, std::size_t index) {
   if (index == 1) {
     std::string text;
-    for (const ModelFit& fit : calibration.fits)
+    for (const calibrate::ModelFit& fit : calibration.fits)
       if (kind_of(*fit.model.law) == LawKind::literature && fit.model.law->quantity == "mu")
         text += (text.empty() ? "" : ", ") + figures(fit.validation.mae_MPa) + " (" +
                 fit.model.law->name + ")";
@@ -52,4 +53,4 @@ std::string counterpart(const Calibration& calibration, std::size_t index) {
   return low == high ? low : low + " to " + high;
 }
 
-} // namespace frictab
+} // namespace frictab::report

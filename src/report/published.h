@@ -7,7 +7,7 @@
 
 #include "calibrate/calibration.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // Mean absolute errors of tau_R, MPa, on the paper's own measured data.
 struct PublishedFigure {
@@ -24,11 +24,12 @@ inline constexpr const char* published_warning =
 
 // What this calibration has to stand beside published_figures()[index]: "24.2 to 94.8", or empty
 // where it has nothing of the kind.
-std::string counterpart(const Calibration& calibration, std::size_t index);
+std::string counterpart(const calibrate::Calibration& calibration, std::size_t index);
 
 // Smallest and largest validation MAE of the laws of one kind.
 enum class LawKind { literature, constants, calibrated, network }; // constants: means of the data
-LawKind kind_of(const Law& law);
-std::optional<Interval> mae_span(const Calibration& calibration, LawKind kind);
+LawKind kind_of(const models::Law& law);
+std::optional<calibrate::Interval> mae_span(const calibrate::Calibration& calibration,
+                                            LawKind kind);
 
-} // namespace frictab
+} // namespace frictab::report

@@ -12,13 +12,16 @@
 #include "report/published.h"
 #include "report/sections.h"
 
-namespace frictab {
+namespace frictab::report {
+
+using codegen::TemplateValues;
+using models::Calibrated;
 
 namespace {
 
 constexpr double bar_width = 220, bar_height = 22;
 
-std::string kind_text(const Law& law) {
+std::string kind_text(const models::Law& law) {
   switch (law.calibrated) {
   case Calibrated::fixed:
     return "literature, fixed";
@@ -32,17 +35,17 @@ std::string kind_text(const Law& law) {
   return "";
 }
 
-std::string bar_colour(const Law& law) {
+std::string bar_colour(const models::Law& law) {
   if (law.calibrated == Calibrated::fixed) return "#9aa4af";
   return law.calibrated == Calibrated::mean ? "#86b0d6" : "#3f83bd";
 }
 
 // Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
-svg::Axis bar_axis(const Calibration& calibration) {
+svg::Axis bar_axis(const calibrate::Calibration& calibration) {
   const double best = calibration.fits.front().validation.mae_MPa;
   double high = best;
-  for (const ModelFit& fit : calibration.fits) {
-    const Metrics& v = fit.validation;
+  for (const calibrate::ModelFit& fit : calibration.fits) {
+    const calibrate::Metrics& v = fit.validation;
     const double end = std::isfinite(v.mae_interval.high) ? v.mae_interval.high : v.mae_MPa;
     if (!(v.mae_MPa > 4 * best)) high = std::max(high, end);
   }
@@ -50,8 +53,8 @@ svg::Axis bar_axis(const Calibration& calibration) {
   return svg::nice_axis(0, high, 5, "MPa");
 }
 
-std::string bar_of(const ModelFit& fit, double best, const svg::Axis& axis) {
-  const Metrics& v = fit.validation;
+std::string bar_of(const calibrate::ModelFit& fit, double best, const svg::Axis& axis) {
+  const calibrate::Metrics& v = fit.validation;
   svg::Bar bar;
   bar.value = v.mae_MPa;
   bar.low = v.mae_interval.low;
@@ -64,7 +67,7 @@ std::string bar_of(const ModelFit& fit, double best, const svg::Axis& axis) {
   return svg::bar(bar, axis, bar_width, bar_height);
 }
 
-std::string parameter_text(const Parameter& parameter, double value, double std_error,
+std::string parameter_text(const models::Parameter& parameter, double value, double std_error,
                            bool fixed_law) {
   ValueText v = with_error(value, std_error);
   if (fixed_law) v = {short_figures(value), ""};
@@ -78,9 +81,9 @@ std::string parameter_text(const Parameter& parameter, double value, double std_
   return text + "</span>";
 }
 
-std::string parameter_list(const ModelFit& fit) {
-  const Law& law = *fit.model.law;
-  if (fit.network) return network_size(*fit.network);
+std::string parameter_list(const calibrate::ModelFit& fit) {
+  const models::Law& law = *fit.model.law;
+  if (fit.network) return calibrate::network_size(*fit.network);
   const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
   if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
   std::string text;
@@ -94,8 +97,8 @@ std::string parameter_list(const ModelFit& fit) {
 }
 
 // The noise floor below the laws, on the same scale.
-TemplateValues floor_row(const Calibration& calibration, const svg::Axis& axis) {
-  const NoiseFloor& floor = calibration.noise_floors.front();
+TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::Axis& axis) {
+  const calibrate::NoiseFloor& floor = calibration.noise_floors.front();
   const int decimals = error_decimals(calibration);
   const svg::Bar bar{floor.mae_MPa,
                      floor.mae_interval.low,
@@ -103,18 +106,19 @@ TemplateValues floor_row(const Calibration& calibration, const svg::Axis& axis) 
                      calibration.fits.front().validation.mae_MPa,
                      "#d6d0b8",
                      "noise floor: " + figures(floor.mae_MPa) + " MPa"};
-  return {{{"name", noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +
-                        (floor.part == "training" ? ", training data" : "")},
-           {"mae", (floor.lower_bound ? "&gt; " : "") + fixed(floor.mae_MPa, decimals)},
-           {"interval", interval_text(floor.mae_interval, decimals)},
-           {"rmse", fixed(floor.rmse_MPa, decimals)},
-           {"bar", svg::bar(bar, axis, bar_width, bar_height)}},
-          {},
-          {}};
+  return {
+      {{"name", calibrate::noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +
+                    (floor.part == "training" ? ", training data" : "")},
+       {"mae", (floor.lower_bound ? "&gt; " : "") + fixed(floor.mae_MPa, decimals)},
+       {"interval", interval_text(floor.mae_interval, decimals)},
+       {"rmse", fixed(floor.rmse_MPa, decimals)},
+       {"bar", svg::bar(bar, axis, bar_width, bar_height)}},
+      {},
+      {}};
 }
 
-TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
-  const Metrics& v = fit.validation;
+TemplateValues law_row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) {
+  const calibrate::Metrics& v = fit.validation;
   TemplateValues row;
   row.text = {{"rank", std::to_string(rank)},
               {"row_class", rank == 1 ? "best" : "other"},
@@ -134,22 +138,22 @@ TemplateValues law_row(const ModelFit& fit, std::size_t rank, int decimals) {
   return row;
 }
 
-const char* loss_text(Loss loss) {
+const char* loss_text(calibrate::Loss loss) {
   switch (loss) {
-  case Loss::l2:
+  case calibrate::Loss::l2:
     return "L2 (least squares)";
-  case Loss::l1:
+  case calibrate::Loss::l1:
     return "L1 (least absolute errors)";
-  case Loss::huber:
+  case calibrate::Loss::huber:
     break;
   }
   return "Huber";
 }
 
 // How the parameters in the ranking were found.
-std::string method_text(const Calibration& calibration) {
+std::string method_text(const calibrate::Calibration& calibration) {
   std::vector<std::string> methods;
-  for (const ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : calibration.fits)
     if (fit.model.law->calibrated != Calibrated::fixed && !fit.std_error_method.empty() &&
         std::find(methods.begin(), methods.end(), fit.std_error_method) == methods.end())
       methods.push_back(fit.std_error_method);
@@ -180,7 +184,7 @@ void add_plots(TemplateValues& page, const ReportInput& input, std::vector<Templ
 } // namespace
 
 void add_ranking(TemplateValues& page, const ReportInput& input) {
-  const Calibration& calibration = input.calibration;
+  const calibrate::Calibration& calibration = input.calibration;
   const bool has_laws = !calibration.fits.empty();
   std::vector<TemplateValues>& laws = page.lists["laws"];
   page.lists["floor_rows"] = {};
@@ -188,7 +192,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   page.text["made_by"] = method_text(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
   if (has_laws) {
-    const Metrics& v = calibration.fits.front().validation;
+    const calibrate::Metrics& v = calibration.fits.front().validation;
     const svg::Axis axis = bar_axis(calibration);
     page.text["validation_size"] =
         count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
@@ -202,7 +206,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   }
   add_plots(page, input, laws);
   std::vector<TemplateValues>& left_out = page.lists["left_out"];
-  for (const LeftOut& left : calibration.left_out)
+  for (const calibrate::LeftOut& left : calibration.left_out)
     left_out.push_back({{{"text", svg::escape(left.text())}}, {}, {}});
   page.flags["has_left_out"] = !left_out.empty();
 }
@@ -222,4 +226,4 @@ void add_published_figures(TemplateValues& page, const ReportInput& input) {
   }
 }
 
-} // namespace frictab
+} // namespace frictab::report

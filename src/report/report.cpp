@@ -7,7 +7,7 @@
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 std::string shown_path(const std::string& path) {
   const std::filesystem::path p(path);
@@ -20,9 +20,9 @@ std::string shown_unit(const std::string& unit) {
 }
 
 std::string report_html(const ReportInput& input) {
-  TemplateValues page;
+  codegen::TemplateValues page;
   page.text["title"] = svg::escape(shown_path(input.title));
-  page.text["style"] = std::string(embedded_template("report/style.css"));
+  page.text["style"] = std::string(codegen::embedded_template("report/style.css"));
   page.flags["synthetic"] = input.calibration.synthetic;
   page.text["verdict"] = verdict(input);
   add_drift_summary(page, input);
@@ -35,11 +35,11 @@ std::string report_html(const ReportInput& input) {
   add_data(page, input);
   add_tables(page, input);
   add_drift(page, input);
-  std::vector<TemplateValues>& files = page.lists["files"];
+  std::vector<codegen::TemplateValues>& files = page.lists["files"];
   for (const std::string& file : input.files)
     files.push_back({{{"path", svg::escape(shown_path(file))}}, {}, {}});
   page.flags["has_files"] = !files.empty();
-  return render_template("report/report.html", page);
+  return codegen::render_template("report/report.html", page);
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -10,19 +10,20 @@
 #include "verify/forms.h"
 #include "verify/verification.h"
 
-namespace frictab {
+namespace frictab::report {
 
 struct ReportInput {
   std::string title; // the job file's name
-  const Calibration& calibration;
-  const Dataset& training;
-  const Dataset& validation;
+  const calibrate::Calibration& calibration;
+  const data::Dataset& training;
+  const data::Dataset& validation;
   std::vector<std::vector<double>> predicted; // per calibration.fits entry: validation rows, MPa
-  const std::vector<Table>& tables;
-  const Verification& verification;
-  std::vector<std::string> files;         // written, relative to the output directory
-  std::vector<FormComparison> forms = {}; // per table, sizes only: times differ from run to run
-  std::vector<Trace> traces = {};         // empty: nothing was traced
+  const std::vector<table::Table>& tables;
+  const verify::Verification& verification;
+  std::vector<std::string> files; // written, relative to the output directory
+  std::vector<verify::FormComparison> forms =
+      {};                                // per table, sizes only: times differ from run to run
+  std::vector<trace::Trace> traces = {}; // empty: nothing was traced
 };
 
 // One self-contained page that opens offline: ranking, measured against predicted and residual
@@ -30,6 +31,6 @@ struct ReportInput {
 std::string report_html(const ReportInput& input);
 
 // The ranking as a Markdown table, the paper's published figures beside it, marked as such.
-std::string benchmark_md(const Calibration& calibration);
+std::string benchmark_md(const calibrate::Calibration& calibration);
 
-} // namespace frictab
+} // namespace frictab::report

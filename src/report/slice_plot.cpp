@@ -7,7 +7,7 @@
 
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
@@ -15,7 +15,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit == "1" ? name : name + ", " + unit;
 }
 
-std::string held_text(const Slice& slice) {
+std::string held_text(const table::Slice& slice) {
   std::string text;
   for (const auto& [name, value] : slice.held)
     text += fmt::format("{}{} = {:g}", text.empty() ? "at " : ", ", name, value);
@@ -23,7 +23,7 @@ std::string held_text(const Slice& slice) {
 }
 
 // Values of the inner state that get a line: all, or seven spread evenly.
-std::vector<std::size_t> lines_of(const Slice& slice) {
+std::vector<std::size_t> lines_of(const table::Slice& slice) {
   if (slice.along.size() == 1) return {0};
   const std::size_t count = slice.values[1].size(), most = std::min<std::size_t>(count, 7);
   std::vector<std::size_t> lines;
@@ -34,7 +34,7 @@ std::vector<std::size_t> lines_of(const Slice& slice) {
 
 } // namespace
 
-std::string slice_svg(const Slice& slice) {
+std::string slice_svg(const table::Slice& slice) {
   const std::vector<double>& x = slice.values[0];
   const auto [low, high] = std::minmax_element(slice.tau_MPa.begin(), slice.tau_MPa.end());
   const svg::Axis x_axis =
@@ -57,4 +57,4 @@ std::string slice_svg(const Slice& slice) {
   return plot.file(what, what + " " + held_text(slice));
 }
 
-} // namespace frictab
+} // namespace frictab::report

@@ -5,9 +5,9 @@
 
 #include "table/slice.h"
 
-namespace frictab {
+namespace frictab::report {
 
 // One line of tau_R; for two states lines along the first one, at up to seven values of the second.
-std::string slice_svg(const Slice& slice);
+std::string slice_svg(const table::Slice& slice);
 
-} // namespace frictab
+} // namespace frictab::report

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace frictab::svg {
+namespace frictab::report::svg {
 
 namespace {
 
@@ -295,4 +295,4 @@ std::string bar_scale(const Axis& axis, double width, double height) {
   return text + fmt::format("<path stroke=\"#444\" d=\"{}\"/></svg>", marks);
 }
 
-} // namespace frictab::svg
+} // namespace frictab::report::svg

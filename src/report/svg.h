@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace frictab::svg {
+namespace frictab::report::svg {
 
 // Characters that XML gives a meaning become entities; what XML and UTF-8 do not allow becomes
 // U+FFFD. Safe in text and in quoted attributes.
@@ -104,4 +104,4 @@ std::string bar(const Bar& bar, const Axis& axis, double width, double height);
 // The scale that belongs to a column of bars.
 std::string bar_scale(const Axis& axis, double width, double height);
 
-} // namespace frictab::svg
+} // namespace frictab::report::svg

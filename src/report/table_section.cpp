@@ -13,34 +13,37 @@
 #include "table/bound.h"
 #include "verify/beyond.h"
 
-namespace frictab {
+namespace frictab::report {
+
+using codegen::TemplateValues;
+using verify::DriftRecord;
 
 namespace {
 
-std::string summary_of(const Table& table) {
+std::string summary_of(const table::Table& table) {
   std::string grid;
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     grid += (grid.empty() ? "" : " \u00D7 ") + std::to_string(axis.nodes.size());
   const std::string what =
       (table.log_value ? "the logarithm of " : "") + svg::escape(table.quantity);
   std::string text = "One constant, " + what + ". ";
   if (!table.axes.empty())
-    text = fmt::format("{}{}, {}; holds {}, interpolated {}. ",
-                       table.axes.size() > 1 ? grid + " = " : "", count_of(table.nodes(), "node"),
-                       human_bytes(static_cast<double>(table.bytes())), what,
-                       table.interpolation == Interpolation::cubic ? "cubically" : "linearly");
+    text = fmt::format(
+        "{}{}, {}; holds {}, interpolated {}. ", table.axes.size() > 1 ? grid + " = " : "",
+        count_of(table.nodes(), "node"), human_bytes(static_cast<double>(table.bytes())), what,
+        table.interpolation == table::Interpolation::cubic ? "cubically" : "linearly");
   text += "Inputs: ";
   const std::vector<std::string> inputs = table.inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i)
     text += (i ? ", " : "") + ("<code>" + svg::escape(inputs[i]) + "</code>");
   if (inputs.empty()) text += "none";
-  const std::string edge = edge_text(table);
+  const std::string edge = codegen::edge_text(table);
   return text + "." + (edge.empty() ? "" : " It " + svg::escape(edge) + ".");
 }
 
 // Table or the law itself: what a source holds of each.
-std::string forms_of(const ReportInput& input, const Table& table) {
-  for (const FormComparison& form : input.forms)
+std::string forms_of(const ReportInput& input, const table::Table& table) {
+  for (const verify::FormComparison& form : input.forms)
     if (form.model == table.model && !table.axes.empty())
       return fmt::format(" A source holds {} of numbers as this table, {} as the law itself "
                          "(<code>export.form = \"direct\"</code>, no drift but rounding); which of "
@@ -50,7 +53,7 @@ std::string forms_of(const ReportInput& input, const Table& table) {
   return "";
 }
 
-TemplateValues axis_row(const Table& table, const TableAxis& axis) {
+TemplateValues axis_row(const table::Table& table, const table::TableAxis& axis) {
   const std::string why = table.record.input(axis.name).range_from.value_or("");
   const bool any = !axis.nodes.empty();
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -71,11 +74,11 @@ std::string state_text(const DriftRecord& record) {
     text += (text.empty() ? "" : " ") +
             fmt::format("<span>{} = {}</span>", svg::escape(name), short_figures(value));
   };
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (const auto at = record.worst_state.find(quantity.name); at != record.worst_state.end())
       add(at->first, at->second);
   for (const auto& [name, value] : record.worst_state)
-    if (!find_quantity(name)) add(name, value);
+    if (!data::find_quantity(name)) add(name, value);
   return text.empty() ? "\u2013" : text;
 }
 
@@ -85,7 +88,7 @@ std::string drift_figures(double value) {
 }
 
 std::string proven_text(const DriftRecord& r) {
-  if (r.proven_MPa) return drift_figures(rounded_up(*r.proven_MPa));
+  if (r.proven_MPa) return drift_figures(table::rounded_up(*r.proven_MPa));
   return r.not_proven.empty() ? "\u2013" : "not available: " + svg::escape(r.not_proven);
 }
 
@@ -95,15 +98,16 @@ std::string outside_text(const DriftRecord& r) {
   if (r.n_outside == 0) return "none";
   std::string text = fmt::format("{} ({} %), up to {} MPa off", thousands(r.n_outside),
                                  figures(percent, 2), figures(r.max_abs_outside_MPa));
-  for (const BeyondEnd& end : r.beyond)
-    text += "<br>" + svg::escape(beyond_text(end));
+  for (const verify::BeyondEnd& end : r.beyond)
+    text += "<br>" + svg::escape(verify::beyond_text(end));
   return text;
 }
 
 // A solver's own table says what it holds, and what that costs; a routine, what it was not asked.
 std::string subject_text(const DriftRecord& r) {
   std::string text = svg::escape(r.subject);
-  for (const std::string& remark : {r.held ? cost_text(r) : std::string(), not_posed_text(r)})
+  for (const std::string& remark :
+       {r.held ? verify::cost_text(r) : std::string(), verify::not_posed_text(r)})
     if (!remark.empty()) text += "<br>" + svg::escape(remark);
   return text;
 }
@@ -137,7 +141,7 @@ TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
 
 void add_tables(TemplateValues& page, const ReportInput& input) {
   std::vector<TemplateValues>& tables = page.lists["tables"];
-  for (const Table& table : input.tables) {
+  for (const table::Table& table : input.tables) {
     TemplateValues item;
     const std::string refinement = table.record.refinement.value_or("");
     item.text = {{"model", svg::escape(table.model)},
@@ -146,7 +150,7 @@ void add_tables(TemplateValues& page, const ReportInput& input) {
     item.flags = {{"has_axes", !table.axes.empty()},
                   {"has_refinement", !refinement.empty() && !table.axes.empty()}};
     item.lists["axes"] = {};
-    for (const TableAxis& axis : table.axes)
+    for (const table::TableAxis& axis : table.axes)
       item.lists["axes"].push_back(axis_row(table, axis));
     tables.push_back(std::move(item));
   }
@@ -164,4 +168,4 @@ void add_drift(TemplateValues& page, const ReportInput& input) {
   page.text["allowed"] = short_figures(input.verification.max_drift_MPa);
 }
 
-} // namespace frictab
+} // namespace frictab::report

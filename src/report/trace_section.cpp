@@ -10,7 +10,10 @@
 #include "report/sections.h"
 #include "trace/trace_text.h"
 
-namespace frictab {
+namespace frictab::report {
+
+using codegen::TemplateValues;
+using trace::Verdict;
 
 namespace {
 
@@ -64,8 +67,8 @@ std::string residual_plot(const Cloud& cloud, const svg::Axis& x_axis, const svg
   return plot.text(title, "density of rows, with running median and 10 and 90 % quantiles");
 }
 
-std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
-  const EffectCurve& c = effect.curve;
+std::string curve_plot(const trace::TracedEffect& effect, const svg::Axis& x_axis) {
+  const trace::EffectCurve& c = effect.curve;
   double low = 1, high = 1;
   for (const auto* values : {&c.low, &c.high})
     for (const double v : *values)
@@ -74,10 +77,10 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
         high = std::max(high, v);
       }
   const double margin = 0.6 * (high - low);
-  const PlacedEffect& placed = effect.placed;
-  const std::string what = placed.acts_on == ActsOn::tau
+  const effects::PlacedEffect& placed = effect.placed;
+  const std::string what = placed.acts_on == effects::ActsOn::tau
                                ? fmt::format("1 + addition / {:.4g} MPa", placed.tau_scale_MPa)
-                               : std::string("factor ") + site_text(placed.acts_on);
+                               : std::string("factor ") + trace::site_text(placed.acts_on);
   const svg::Axis y_axis = svg::nice_axis(low - margin, high + margin, 5, what);
   svg::Plot plot(plot_width, plot_height, x_axis, y_axis);
   if (!c.point_x.empty()) draw_cloud(plot, c.point_x, c.point_factor, x_axis, y_axis);
@@ -88,7 +91,8 @@ std::string curve_plot(const TracedEffect& effect, const svg::Axis& x_axis) {
                                  "training experiments");
 }
 
-const ModelFit* fit_of(const ReportInput& input, const std::string& model, std::size_t& index) {
+const calibrate::ModelFit* fit_of(const ReportInput& input, const std::string& model,
+                                  std::size_t& index) {
   for (index = 0; index < input.calibration.fits.size(); ++index)
     if (input.calibration.fits[index].model.law->name == model)
       return &input.calibration.fits[index];
@@ -96,15 +100,17 @@ const ModelFit* fit_of(const ReportInput& input, const std::string& model, std::
 }
 
 // Before, the effect, after: three plots over the effect's column.
-std::string effect_plots(const ReportInput& input, const Trace& trace, const TracedEffect& effect) {
+std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
+                         const trace::TracedEffect& effect) {
   std::size_t before = 0, after = 0;
-  const ModelFit* extended = fit_of(input, trace.extended_model, after);
+  const calibrate::ModelFit* extended = fit_of(input, trace.extended_model, after);
   if (!extended || !fit_of(input, trace.model, before)) return "";
-  const AssembledLaw law(extended->model);
-  const InputColumns columns = input_columns(law, law.inputs, input.validation);
-  const EffectInput& input_of_effect = effect.placed.inputs[0];
+  const models::AssembledLaw law(extended->model);
+  const calibrate::InputColumns columns =
+      calibrate::input_columns(law, law.inputs, input.validation);
+  const effects::EffectInput& input_of_effect = effect.placed.inputs[0];
   const auto column = static_cast<std::size_t>(
-      std::find(law.inputs.begin(), law.inputs.end(), symbol_of(input_of_effect.column)) -
+      std::find(law.inputs.begin(), law.inputs.end(), effects::symbol_of(input_of_effect.column)) -
       law.inputs.begin());
   const Values x = columns[column], measured = input.validation.values("tau_R_MPa");
   const auto r0 = residuals(measured, input.predicted[before]);
@@ -124,8 +130,8 @@ std::string effect_plots(const ReportInput& input, const Trace& trace, const Tra
          residual_plot({x, r1}, x_axis, y_axis, "residual after, unseen experiments");
 }
 
-TemplateValues error_row(const std::string& what, const TraceErrors& errors, int decimals) {
-  const auto one = [&](const Metrics& m) {
+TemplateValues error_row(const std::string& what, const trace::TraceErrors& errors, int decimals) {
+  const auto one = [&](const calibrate::Metrics& m) {
     return fmt::format("{} <span class=\"interval\">{}</span>", fixed(m.mae_MPa, decimals),
                        interval_text(m.mae_interval, decimals));
   };
@@ -140,9 +146,9 @@ TemplateValues error_row(const std::string& what, const TraceErrors& errors, int
           {}};
 }
 
-std::string parameters_of(const TracedEffect& effect) {
+std::string parameters_of(const trace::TracedEffect& effect) {
   std::string text;
-  for (const TracedParameter& p : effect.parameters) {
+  for (const trace::TracedParameter& p : effect.parameters) {
     const ValueText shown = with_error(p.value, p.std_error);
     text += fmt::format("{}{} = {}{}{}{}", text.empty() ? "" : ", ", svg::escape(p.name),
                         shown.value, shown.std_error.empty() ? "" : " &#177; " + shown.std_error,
@@ -152,9 +158,9 @@ std::string parameters_of(const TracedEffect& effect) {
   return text;
 }
 
-std::string alternatives_of(const TracedEffect& effect) {
+std::string alternatives_of(const trace::TracedEffect& effect) {
   std::string same, others;
-  for (const Alternative& a : effect.alternatives) {
+  for (const trace::Alternative& a : effect.alternatives) {
     std::string& list = a.in_set ? same : others;
     list += (list.empty() ? "" : ", ") + svg::escape(a.name);
   }
@@ -165,7 +171,7 @@ std::string alternatives_of(const TracedEffect& effect) {
 }
 
 // What tests would settle it: a sentence and a table; empty where there are none.
-std::string design_of(const Design& design) {
+std::string design_of(const trace::Design& design) {
   if (design.tests.empty()) return "";
   const auto row = [](const std::vector<std::string>& cells, const char* tag) {
     std::string text = "<tr>";
@@ -173,32 +179,32 @@ std::string design_of(const Design& design) {
       text += fmt::format("<{0}>{1}</{0}>", tag, svg::escape(cell));
     return text + "</tr>";
   };
-  const auto rows = design_rows(design);
-  std::string text = "<p>" + svg::escape(design_sentence(design)) + ":</p><table><thead>" +
+  const auto rows = trace::design_rows(design);
+  std::string text = "<p>" + svg::escape(trace::design_sentence(design)) + ":</p><table><thead>" +
                      row(rows[0], "th") + "</thead><tbody>";
   for (std::size_t i = 1; i < rows.size(); ++i)
     text += row(rows[i], "td");
   return text + "</tbody></table>";
 }
 
-TemplateValues lead_values(const Lead& lead) {
+TemplateValues lead_values(const trace::Lead& lead) {
   TemplateValues values;
   const std::string size =
       lead.share != 0 ? fmt::format(", {:.2g} %", 100 * std::abs(lead.share)) : "";
-  values.text = {{"cause", svg::escape(lead_name(lead))},
+  values.text = {{"cause", svg::escape(trace::lead_name(lead))},
                  {"form", lead.form + size},
                  {"why", svg::escape(lead.why)},
                  {"design", design_of(lead.design)}};
   return values;
 }
 
-TemplateValues effect_values(const ReportInput& input, const Trace& trace,
-                             const TracedEffect& effect, int decimals) {
+TemplateValues effect_values(const ReportInput& input, const trace::Trace& trace,
+                             const trace::TracedEffect& effect, int decimals) {
   TemplateValues values;
-  values.text = {{"cause", svg::escape(cause_text(effect))},
+  values.text = {{"cause", svg::escape(trace::cause_text(effect))},
                  {"form", effect.placed.form->title},
-                 {"place", site_text(effect.placed.acts_on)},
-                 {"formula", svg::escape(formula_text(effect.placed))},
+                 {"place", trace::site_text(effect.placed.acts_on)},
+                 {"formula", svg::escape(effects::formula_text(effect.placed))},
                  {"parameters", parameters_of(effect)},
                  {"p", p_text(effect.p_value)},
                  {"gain", fixed(effect.gain_MPa, decimals)},
@@ -208,7 +214,7 @@ TemplateValues effect_values(const ReportInput& input, const Trace& trace,
   return values;
 }
 
-std::string sentence_of(const Trace& t) {
+std::string sentence_of(const trace::Trace& t) {
   std::string text = svg::escape(t.remaining.note) + ". ";
   for (const std::string& rejected : t.rejected)
     text += "Not added: " + svg::escape(rejected) + ". ";
@@ -218,7 +224,7 @@ std::string sentence_of(const Trace& t) {
                      t.n_columns, thousands(t.n_candidates), t.alpha);
 }
 
-TemplateValues trace_values(const ReportInput& input, const Trace& trace, int decimals) {
+TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace, int decimals) {
   TemplateValues values;
   values.text["model"] = svg::escape(trace.model);
   values.text["badge"] = badge_of(trace.verdict);
@@ -237,14 +243,14 @@ TemplateValues trace_values(const ReportInput& input, const Trace& trace, int de
     errors.push_back(error_row(trace.effects.empty() ? "without what follows the order of tests"
                                                      : "with the effects",
                                trace.after, decimals));
-  for (const TracedEffect& effect : trace.effects)
+  for (const trace::TracedEffect& effect : trace.effects)
     values.lists["effects"].push_back(effect_values(input, trace, effect, decimals));
-  for (const Lead& lead : trace.leads)
+  for (const trace::Lead& lead : trace.leads)
     values.lists["leads"].push_back(lead_values(lead));
   values.flags["has_leads"] = !trace.leads.empty();
   values.lists["leads"];
   auto& detectable = values.lists["detectable"];
-  for (const Detectable& d : trace.detectable)
+  for (const trace::Detectable& d : trace.detectable)
     detectable.push_back({{{"column", svg::escape(d.column)},
                            {"size", d.identifiable ? fixed(d.size_MPa, 2) : "&#8211;"},
                            {"share", d.identifiable ? fixed(100 * d.share, 1)
@@ -263,8 +269,8 @@ void add_trace(TemplateValues& page, const ReportInput& input) {
   page.flags["has_trace"] = !input.traces.empty();
   page.text["trace_link"] = input.traces.empty() ? "" : "<a href=\"#trace\">What it lacks</a> ";
   auto& traces = page.lists["traces"];
-  for (const Trace& trace : input.traces)
+  for (const trace::Trace& trace : input.traces)
     traces.push_back(trace_values(input, trace, decimals));
 }
 
-} // namespace frictab
+} // namespace frictab::report

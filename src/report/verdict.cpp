@@ -12,19 +12,19 @@
 #include "report/sections.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report {
 
 namespace {
 
-const ModelFit* best_of_literature(const Calibration& calibration) {
-  for (const ModelFit& fit : calibration.fits)
+const calibrate::ModelFit* best_of_literature(const calibrate::Calibration& calibration) {
+  for (const calibrate::ModelFit& fit : calibration.fits)
     if (kind_of(*fit.model.law) == LawKind::literature) return &fit;
   return nullptr;
 }
 
-std::string best_sentence(const Calibration& calibration) {
-  const ModelFit& best = calibration.fits.front();
-  const Metrics& v = best.validation;
+std::string best_sentence(const calibrate::Calibration& calibration) {
+  const calibrate::ModelFit& best = calibration.fits.front();
+  const calibrate::Metrics& v = best.validation;
   return fmt::format("On {} that no law was calibrated on, <strong>{}</strong> predicts "
                      "\u03C4<sub>R</sub> best: it is off by <strong>{} MPa</strong> on average "
                      "(mean absolute error; 95 % interval {} to {} MPa).",
@@ -32,23 +32,23 @@ std::string best_sentence(const Calibration& calibration) {
                      figures(v.mae_MPa), figures(v.mae_interval.low), figures(v.mae_interval.high));
 }
 
-std::string comparison_sentences(const Calibration& calibration) {
-  const Comparisons& c = calibration.comparisons;
+std::string comparison_sentences(const calibrate::Calibration& calibration) {
+  const calibrate::Comparisons& c = calibration.comparisons;
   if (c.laws.size() < 2) return "";
-  return fmt::format(" Pair by pair, {}; {}.", svg::escape(pairwise_sentence(c)),
-                     svg::escape(family_sentence(c)));
+  return fmt::format(" Pair by pair, {}; {}.", svg::escape(calibrate::pairwise_sentence(c)),
+                     svg::escape(calibrate::family_sentence(c)));
 }
 
-std::string floor_sentence(const Calibration& calibration) {
-  const std::string advice = noise_floor_advice(calibration);
-  std::string text = noise_floor_sentence(calibration, error_decimals(calibration));
+std::string floor_sentence(const calibrate::Calibration& calibration) {
+  const std::string advice = calibrate::noise_floor_advice(calibration);
+  std::string text = calibrate::noise_floor_sentence(calibration, error_decimals(calibration));
   text.front() = 'N';
   return " " + text + (advice.empty() ? "." : "; " + advice + ".");
 }
 
-std::string literature_sentence(const Calibration& calibration) {
+std::string literature_sentence(const calibrate::Calibration& calibration) {
   const auto span = mae_span(calibration, LawKind::literature);
-  const ModelFit* best = best_of_literature(calibration);
+  const calibrate::ModelFit* best = best_of_literature(calibration);
   if (!span || best == &calibration.fits.front()) return "";
   const std::string low = figures(span->low), high = figures(span->high);
   const double ratio = span->low / calibration.fits.front().validation.mae_MPa;
@@ -69,7 +69,7 @@ struct Group {
   std::size_t failed = 0;
   std::size_t not_run = 0;
   double worst = 0;
-  void add(const DriftRecord& r) {
+  void add(const verify::DriftRecord& r) {
     if (!r.ran) {
       ++not_run;
       return;
@@ -96,15 +96,15 @@ std::string group_sentence(const Group& group, const std::string& noun) {
 } // namespace
 
 std::string verdict(const ReportInput& input) {
-  const Calibration& calibration = input.calibration;
+  const calibrate::Calibration& calibration = input.calibration;
   if (calibration.fits.empty()) return "No law was calibrated.";
   return best_sentence(calibration) + comparison_sentences(calibration) +
          floor_sentence(calibration) + literature_sentence(calibration);
 }
 
-void add_drift_summary(TemplateValues& page, const ReportInput& input) {
+void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) {
   Group tables, sources;
-  for (const DriftRecord& r : input.verification.records)
+  for (const verify::DriftRecord& r : input.verification.records)
     (r.subject == "table" ? tables : sources).add(r);
   const std::size_t ran = tables.ran + sources.ran;
   const std::size_t failed = tables.failed + sources.failed;
@@ -126,4 +126,4 @@ void add_drift_summary(TemplateValues& page, const ReportInput& input) {
   }
 }
 
-} // namespace frictab
+} // namespace frictab::report

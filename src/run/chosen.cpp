@@ -6,7 +6,9 @@
 #include "calibrate/band.h"
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::run {
+
+using calibrate::ModelFit;
 
 namespace {
 
@@ -17,11 +19,11 @@ void add_once(Fits& fits, const ModelFit& fit) {
 }
 
 // Constants of the literature and means are there to be compared with, not to be mended.
-bool is_constant(const Law& law) {
-  return law.calibrated == Calibrated::fixed || law.calibrated == Calibrated::mean;
+bool is_constant(const models::Law& law) {
+  return law.calibrated == models::Calibrated::fixed || law.calibrated == models::Calibrated::mean;
 }
 
-Fits fits_named(const Calibration& calibration, const std::string& law) {
+Fits fits_named(const calibrate::Calibration& calibration, const std::string& law) {
   Fits fits;
   for (const ModelFit& fit : calibration.fits)
     if (fit.model.law->name == law) fits.push_back(&fit);
@@ -29,7 +31,8 @@ Fits fits_named(const Calibration& calibration, const std::string& law) {
 }
 
 // The fits of one entry of table.model.
-Fits fits_of_entry(const Calibration& calibration, const std::string& name, const Place& place) {
+Fits fits_of_entry(const calibrate::Calibration& calibration, const std::string& name,
+                   const Place& place) {
   if (name == "best") return {&calibration.fits.front()};
   if (name == "all") {
     Fits fits;
@@ -40,7 +43,7 @@ Fits fits_of_entry(const Calibration& calibration, const std::string& name, cons
   Fits fits = fits_named(calibration, name);
   if (fits.empty())
     throw InputError(place, "table.model: law '" + name + "' was not calibrated",
-                     read_model_name(name).traced
+                     models::read_model_name(name).traced
                          ? "it is there where trace finds an effect that its law lacks"
                          : "add it to models.use, or map the columns it needs");
   return fits;
@@ -48,8 +51,8 @@ Fits fits_of_entry(const Calibration& calibration, const std::string& name, cons
 
 } // namespace
 
-std::vector<const ModelFit*> fits_to_trace(const Calibration& calibration,
-                                           const TraceOptions& options) {
+std::vector<const ModelFit*> fits_to_trace(const calibrate::Calibration& calibration,
+                                           const trace::TraceOptions& options) {
   Fits chosen;
   for (const std::string& name : options.models) {
     if (name == "best") {
@@ -65,16 +68,17 @@ std::vector<const ModelFit*> fits_to_trace(const Calibration& calibration,
   return chosen;
 }
 
-std::vector<Model> models_to_tabulate(const Calibration& calibration, const TableOptions& options) {
+std::vector<models::Model> models_to_tabulate(const calibrate::Calibration& calibration,
+                                              const table::TableOptions& options) {
   Fits chosen;
   for (const std::string& name : options.model)
     for (const ModelFit* fit : fits_of_entry(calibration, name, options.place))
       add_once(chosen, *fit);
-  std::vector<Model> models;
+  std::vector<models::Model> models;
   for (const ModelFit* fit : chosen)
     for (const double quantile : options.quantile)
-      models.push_back(at_quantile(fit->model, quantile, options.place));
+      models.push_back(calibrate::at_quantile(fit->model, quantile, options.place));
   return models;
 }
 
-} // namespace frictab
+} // namespace frictab::run

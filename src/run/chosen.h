@@ -7,15 +7,16 @@
 #include "table/options.h"
 #include "trace/options.h"
 
-namespace frictab {
+namespace frictab::run {
 
 // The fits of trace.models, each once: "best" is the first of the ranking, "all" every law that was
 // fitted to the data, so none of the constants. Names that were not calibrated are passed over.
-std::vector<const ModelFit*> fits_to_trace(const Calibration& calibration,
-                                           const TraceOptions& options);
+std::vector<const calibrate::ModelFit*> fits_to_trace(const calibrate::Calibration& calibration,
+                                                      const trace::TraceOptions& options);
 
 // The models of table.model at the quantiles of table.quantile. Throws InputError for a law that
 // was not calibrated, or for a quantile that it does not have.
-std::vector<Model> models_to_tabulate(const Calibration& calibration, const TableOptions& options);
+std::vector<models::Model> models_to_tabulate(const calibrate::Calibration& calibration,
+                                              const table::TableOptions& options);
 
-} // namespace frictab
+} // namespace frictab::run

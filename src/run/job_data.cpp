@@ -13,32 +13,32 @@
 #include "data/quantity.h"
 #include "effects/extended_law.h"
 
-namespace frictab {
+namespace frictab::run {
 
 namespace {
 
 // Below so many, the tests that the tool holds out itself are needed for tracing as well.
 constexpr std::size_t few_experiments = 30;
 
-void add_oracle(const DataOptions& options, JobData& data) {
+void add_oracle(const data::DataOptions& options, JobData& data) {
   if (options.oracle.empty()) return;
-  if (!is_synthetic(data.training))
+  if (!calibrate::is_synthetic(data.training))
     throw InputError(options.oracle_place,
                      "data.oracle is for synthetic data: measured data have no known truth",
                      "synthetic data say so in a column `origin`; for measured data, repeated "
                      "tests give the noise floor");
-  read_oracle(options, data.training, data.validation);
+  data::read_oracle(options, data.training, data.validation);
 }
 
 // [export.inputs] may name what only a traced effect brings in: a recorded column, or a history.
-void check_export_inputs(const ExportOptions& exports, const Dataset& data) {
+void check_export_inputs(const codegen::ExportOptions& exports, const data::Dataset& data) {
   std::vector<std::string> known;
-  for (const Quantity& quantity : quantities())
+  for (const data::Quantity& quantity : data::quantities())
     if (quantity.state) known.push_back(quantity.name);
-  for (const DerivedQuantity& derived : derived_quantities())
+  for (const data::DerivedQuantity& derived : data::derived_quantities())
     known.push_back(derived.name);
-  for (const Column& column : data.columns)
-    known.push_back(symbol_of(column.name));
+  for (const data::Column& column : data.columns)
+    known.push_back(effects::symbol_of(column.name));
   FaultList faults;
   for (const auto& [name, place] : exports.input_places)
     if (std::find(known.begin(), known.end(), name) == known.end())
@@ -47,17 +47,18 @@ void check_export_inputs(const ExportOptions& exports, const Dataset& data) {
   faults.throw_if_any();
 }
 
-JobData with_validation_files(const DataOptions& options) {
-  JobData data{
-      load_dataset(options.training, options), load_dataset(options.validation, options), {}};
-  if (std::string leak = leak_note(data.training, data.validation); !leak.empty())
+JobData with_validation_files(const data::DataOptions& options) {
+  JobData data{data::load_dataset(options.training, options),
+               data::load_dataset(options.validation, options),
+               {}};
+  if (std::string leak = calibrate::leak_note(data.training, data.validation); !leak.empty())
     data.validation.notes.push_back(std::move(leak));
   return data;
 }
 
-JobData with_held_out_tests(const DataOptions& options, std::uint64_t seed) {
-  Dataset all = load_dataset(options.training, options);
-  Split split = hold_out(all, options.holdout, seed);
+JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed) {
+  data::Dataset all = data::load_dataset(options.training, options);
+  data::Split split = data::hold_out(all, options.holdout, seed);
   JobData data{std::move(split.training), std::move(split.validation), {}};
   if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
   return data;
@@ -65,7 +66,7 @@ JobData with_held_out_tests(const DataOptions& options, std::uint64_t seed) {
 
 } // namespace
 
-JobData load_job_data(const Job& job) {
+JobData load_job_data(const job::Job& job) {
   JobData data = job.data.validation.empty() ? with_held_out_tests(job.data, job.calibration.seed)
                                              : with_validation_files(job.data);
   add_oracle(job.data, data);
@@ -73,4 +74,4 @@ JobData load_job_data(const Job& job) {
   return data;
 }
 
-} // namespace frictab
+} // namespace frictab::run

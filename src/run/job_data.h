@@ -6,19 +6,19 @@
 #include "data/dataset.h"
 #include "job/job.h"
 
-namespace frictab {
+namespace frictab::run {
 
 struct JobData {
-  Dataset training;
-  Dataset validation;
+  data::Dataset training;
+  data::Dataset validation;
   // Training and validation together, where the tool itself held out a few of few tests: tracing
   // needs them all, and judges by leaving tests out itself.
-  std::optional<Dataset> undivided;
+  std::optional<data::Dataset> undivided;
 };
 
 // Reads the files of [data]. Without validation files some experiments are held out. Throws
 // InputError for files that cannot be used, for data.oracle with measured data, and where
 // [export.inputs] names what is no state, history or column.
-JobData load_job_data(const Job& job);
+JobData load_job_data(const job::Job& job);
 
-} // namespace frictab
+} // namespace frictab::run

@@ -21,11 +21,14 @@
 #include "table/table_file.h"
 #include "trace/trace_file.h"
 
-namespace frictab {
+namespace frictab::run {
+
+using calibrate::ModelFit;
+using table::Table;
 
 namespace fs = std::filesystem;
 
-Pipeline::Pipeline(Job job) : job_(std::move(job)), earlier_(job_), output_(job_.directory) {}
+Pipeline::Pipeline(job::Job job) : job_(std::move(job)), earlier_(job_), output_(job_.directory) {}
 
 void Pipeline::load_data() {
   if (!data_) data_ = load_job_data(job_);
@@ -44,7 +47,7 @@ void Pipeline::load_tables() {
 void Pipeline::calibrate() {
   load_data();
   calibration_ =
-      frictab::calibrate({data_->training, data_->validation, job_.models, job_.calibration});
+      calibrate::calibrate({data_->training, data_->validation, job_.models, job_.calibration});
   new_calibration_ = true;
   laws_.clear();
   for (const std::string& file : earlier_.model_files())
@@ -54,10 +57,11 @@ void Pipeline::calibrate() {
 }
 
 void Pipeline::write_calibration() {
-  output_.write("calibration.json", calibration_json(*calibration_));
-  output_.write("benchmark.md", benchmark_md(*calibration_));
+  output_.write("calibration.json", calibrate::calibration_json(*calibration_));
+  output_.write("benchmark.md", report::benchmark_md(*calibration_));
   for (const ModelFit& fit : calibration_->fits)
-    output_.write("models/" + fit.model.law->name + ".json", model_json(fit, *calibration_));
+    output_.write("models/" + fit.model.law->name + ".json",
+                  calibrate::model_json(fit, *calibration_));
 }
 
 // ---- trace ----
@@ -73,18 +77,18 @@ void Pipeline::trace() {
   if (fits.empty())
     throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
                      "\"best\", or a name from the ranking");
-  const Dataset& searched = data_->undivided ? *data_->undivided : data_->training;
+  const data::Dataset& searched = data_->undivided ? *data_->undivided : data_->training;
   for (const ModelFit* fit : fits)
-    traces_.push_back(frictab::trace({searched, data_->validation, *fit, job_.trace,
-                                      job_.calibration.bootstrap, job_.calibration.seed}));
+    traces_.push_back(trace::trace({searched, data_->validation, *fit, job_.trace,
+                                    job_.calibration.bootstrap, job_.calibration.seed}));
   add_traced_laws();
   laws_.clear();
-  output_.write("trace.json", trace_json(traces_, calibration_->synthetic));
+  output_.write("trace.json", trace::trace_json(traces_, calibration_->synthetic));
 }
 
 void Pipeline::add_traced_laws() {
   std::vector<ModelFit> nested; // judged on other tests than the laws they came from
-  for (const Trace& trace : traces_) {
+  for (const trace::Trace& trace : traces_) {
     if (!trace.extended.model.law) continue;
     (trace.unseen == "validation" ? calibration_->fits : nested).push_back(trace.extended);
   }
@@ -92,8 +96,8 @@ void Pipeline::add_traced_laws() {
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
-  add_comparisons(*calibration_,
-                  {data_->training, data_->validation, job_.models, job_.calibration});
+  calibrate::add_comparisons(*calibration_,
+                             {data_->training, data_->validation, job_.models, job_.calibration});
   for (ModelFit& fit : nested) { // in front of their law, which they are better than
     const auto base = std::find_if(
         calibration_->fits.begin(), calibration_->fits.end(),
@@ -109,7 +113,7 @@ double Pipeline::drift_allowed() const {
   return job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa);
 }
 
-const AssembledLaw& Pipeline::assembled(const Model& model) {
+const models::AssembledLaw& Pipeline::assembled(const models::Model& model) {
   return laws_.try_emplace(model.name(), model).first->second;
 }
 
@@ -117,23 +121,25 @@ void Pipeline::check_sizes() {
   load_data();
   load_calibration();
   if (job_.exports.targets.empty()) return;
-  for (const Model& model : models_to_tabulate(*calibration_, job_.table)) {
-    const AssembledLaw& law = assembled(model);
-    const auto ranges = state_ranges(law, data_->training, job_.table);
-    if (!is_streamed(law, ranges, job_.table)) continue;
+  for (const models::Model& model : models_to_tabulate(*calibration_, job_.table)) {
+    const models::AssembledLaw& law = assembled(model);
+    const auto ranges = table::state_ranges(law, data_->training, job_.table);
+    if (!table::is_streamed(law, ranges, job_.table)) continue;
     Table table;
     table.model = model.name();
-    table.axes = *fixed_axes(law, ranges, job_.table);
-    check_request_size(table, exporters_named(job_.exports.targets), job_.exports.options);
+    table.axes = *table::fixed_axes(law, ranges, job_.table);
+    codegen::check_request_size(table, codegen::exporters_named(job_.exports.targets),
+                                job_.exports.options);
   }
 }
 
-Table Pipeline::sample_table(const AssembledLaw& law) {
-  const auto ranges = state_ranges(law, data_->training, job_.table);
-  if (!is_streamed(law, ranges, job_.table)) return build_table(law, ranges, job_.table);
+Table Pipeline::sample_table(const models::AssembledLaw& law) {
+  const auto ranges = table::state_ranges(law, data_->training, job_.table);
+  if (!table::is_streamed(law, ranges, job_.table))
+    return table::build_table(law, ranges, job_.table);
   const std::string name = law.model.name();
   const fs::path file = fs::path(job_.directory) / "tables" / (name + ".h5");
-  StreamedTable streamed = stream_table(law, ranges, job_.table, file);
+  table::StreamedTable streamed = table::stream_table(law, ranges, job_.table, file);
   if (streamed.kept > 0)
     notes_.push_back(fmt::format("{}: {} of {} chunks kept from an interrupted run", name,
                                  thousands(streamed.kept), thousands(streamed.chunks)));
@@ -141,10 +147,10 @@ Table Pipeline::sample_table(const AssembledLaw& law) {
 }
 
 // The drift a user can rely on, measured before the file is written.
-void Pipeline::measure_drift(const AssembledLaw& law, Table& table) {
-  const VerifyInput input{
+void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
+  const verify::VerifyInput input{
       law, table, "the new table", &data_->validation, drift_allowed(), job_.verify.samples};
-  const DriftRecord& drift = compared_[table.model] = frictab::verify(input, {}).front();
+  const verify::DriftRecord& drift = compared_[table.model] = verify::verify(input, {}).front();
   const bool to_tolerance = !job_.table.nodes && !job_.table.max_bytes;
   if (!drift.passed && to_tolerance)
     missed_.push_back(fmt::format("the table of {} drifts by up to {:.3g} MPa, more than the {:g} "
@@ -161,9 +167,10 @@ void Pipeline::measure_drift(const AssembledLaw& law, Table& table) {
 void Pipeline::write_table_file(Table& table) {
   const std::string name = "tables/" + table.model + ".h5";
   if (table.stored)
-    output_.adopt(name, finish_stream(table, job_.table.hdf5, fs::path(job_.directory) / name));
+    output_.adopt(name,
+                  table::finish_stream(table, job_.table.hdf5, fs::path(job_.directory) / name));
   else
-    write_table(table, output_.stage(name), job_.table.hdf5);
+    table::write_table(table, output_.stage(name), job_.table.hdf5);
 }
 
 void Pipeline::tabulate() {
@@ -172,10 +179,10 @@ void Pipeline::tabulate() {
   for (const std::string& file : earlier_.table_files())
     output_.remove_old(file);
   tables_.clear();
-  const std::vector<Model> models = models_to_tabulate(*calibration_, job_.table);
+  const std::vector<models::Model> models = models_to_tabulate(*calibration_, job_.table);
   Progress progress("tabulating", models.size());
-  for (const Model& model : models) {
-    const AssembledLaw& law = assembled(model);
+  for (const models::Model& model : models) {
+    const models::AssembledLaw& law = assembled(model);
     Table table = sample_table(law);
     table.record.tool_version = FRICTAB_VERSION;
     table.record.data_hash = calibration_->data_hash;
@@ -192,14 +199,14 @@ void Pipeline::tabulate() {
 
 // ---- generate ----
 
-const AssembledLaw& Pipeline::law_of(const Table& table) {
+const models::AssembledLaw& Pipeline::law_of(const Table& table) {
   if (const auto known = laws_.find(table.model); known != laws_.end()) return known->second;
   load_calibration();
   for (const ModelFit& fit : calibration_->fits) {
-    Model model = fit.model;
+    models::Model model = fit.model;
     model.quantile = table.quantile();
     if (model.name() == table.model)
-      return assembled(at_quantile(fit.model, table.quantile(), job_.table.place));
+      return assembled(calibrate::at_quantile(fit.model, table.quantile(), job_.table.place));
   }
   throw InputError({job_.file, 0, 0}, "law '" + table.model + "' is not in calibration.json",
                    "calibrate it, or tabulate again");
@@ -208,12 +215,12 @@ const AssembledLaw& Pipeline::law_of(const Table& table) {
 // Solvers' own tables are made from the law itself: made from a table they would add its drift to
 // their own. They keep its tolerance.
 Table Pipeline::direct_for_sources(const Table& table) {
-  Table direct = direct_form(law_of(table), table);
+  Table direct = table::direct_form(law_of(table), table);
   direct.record.tolerance_MPa = table.record.tolerance_MPa;
   return direct;
 }
 
-ExportRequest Pipeline::request_for(const Table& form) const {
+codegen::ExportRequest Pipeline::request_for(const Table& form) const {
   return {form, job_.exports.units, job_.exports.inputs, job_.exports.options};
 }
 
@@ -222,15 +229,15 @@ std::string Pipeline::export_directory(const std::string& target, const Table& t
 }
 
 void Pipeline::generate() {
-  const auto targets = exporters_named(job_.exports.targets);
+  const auto targets = codegen::exporters_named(job_.exports.targets);
   if (tables_.empty() && !targets.empty())
     for (const Table& table : earlier_.table_descriptions()) // before anything large is read
-      check_request_size(table, targets, job_.exports.options);
+      codegen::check_request_size(table, targets, job_.exports.options);
   load_tables();
   for (const std::string& file : earlier_.source_files())
     output_.remove_old(file);
   for (const Table& table : tables_)
-    for (const Exporter* exporter : targets) {
+    for (const codegen::Exporter* exporter : targets) {
       const std::string directory = export_directory(exporter->name, table);
       const bool direct = job_.exports.form == "direct" || !exporter->whole();
       const Table form = direct ? direct_for_sources(table) : table;
@@ -242,18 +249,19 @@ void Pipeline::generate() {
 
 // ---- verify ----
 
-const SourceBundle& Pipeline::sources_in(const std::string& directory) {
+const codegen::SourceBundle& Pipeline::sources_in(const std::string& directory) {
   if (!sources_.count(directory)) sources_[directory] = earlier_.sources(directory);
   return sources_[directory];
 }
 
 // As the recipes say: of the table, or of the law itself.
-std::vector<GeneratedSource> Pipeline::sources_of(const Table& table, const Table& direct) {
-  std::vector<GeneratedSource> sources;
-  for (const Exporter* exporter : exporters_named(job_.exports.targets)) {
+std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, const Table& direct) {
+  std::vector<verify::GeneratedSource> sources;
+  for (const codegen::Exporter* exporter : codegen::exporters_named(job_.exports.targets)) {
     const std::string directory = export_directory(exporter->name, table);
-    const SourceBundle& bundle = sources_in(directory);
-    const bool of_law = is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
+    const codegen::SourceBundle& bundle = sources_in(directory);
+    const bool of_law =
+        codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
     sources.push_back({exporter, request_for(of_law ? direct : table), bundle});
   }
   return sources;
@@ -264,31 +272,31 @@ void Pipeline::verify() {
   load_calibration();
   load_tables();
   const double allowed = drift_allowed();
-  verification_ = Verification{allowed, {}};
+  verification_ = verify::Verification{allowed, {}};
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {
     const Table direct = direct_for_sources(table);
     const auto known = compared_.find(table.model);
-    const VerifyInput input{law_of(table),
-                            table,
-                            job_.directory + "/tables/" + table.model + ".h5",
-                            &data_->validation,
-                            allowed,
-                            job_.verify.samples,
-                            known == compared_.end() ? nullptr : &known->second};
-    const auto records = frictab::verify(input, sources_of(table, direct));
+    const verify::VerifyInput input{law_of(table),
+                                    table,
+                                    job_.directory + "/tables/" + table.model + ".h5",
+                                    &data_->validation,
+                                    allowed,
+                                    job_.verify.samples,
+                                    known == compared_.end() ? nullptr : &known->second};
+    const auto records = verify::verify(input, sources_of(table, direct));
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     progress.tick();
   }
-  output_.write("verify.json", verification_json(*verification_));
-  output_.write("verify.xml", verification_junit(*verification_));
+  output_.write("verify.json", verify::verification_json(*verification_));
+  output_.write("verify.xml", verify::verification_junit(*verification_));
 }
 
 void Pipeline::compare_forms() {
   load_tables();
   Progress progress("timing", tables_.size());
   for (const Table& table : tables_) {
-    forms_.push_back(frictab::compare_forms(law_of(table), table));
+    forms_.push_back(verify::compare_forms(law_of(table), table));
     progress.tick();
   }
 }
@@ -299,31 +307,31 @@ void Pipeline::report() {
   load_data();
   load_calibration();
   load_tables();
-  if (!verification_) verification_ = earlier_.verification().value_or(Verification{});
+  if (!verification_) verification_ = earlier_.verification().value_or(verify::Verification{});
   if (traces_.empty() && !new_calibration_) traces_ = earlier_.traces();
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
-    predicted.push_back(predict(fit.model, data_->validation));
-  std::vector<FormComparison> sizes;
+    predicted.push_back(calibrate::predict(fit.model, data_->validation));
+  std::vector<verify::FormComparison> sizes;
   for (const Table& table : tables_)
-    sizes.push_back(form_sizes(law_of(table), table));
+    sizes.push_back(verify::form_sizes(law_of(table), table));
   std::vector<std::string> written = output_.paths();
   written.push_back("report.html");
-  const ReportInput input{fs::path(job_.file).filename().string(),
-                          *calibration_,
-                          data_->training,
-                          data_->validation,
-                          std::move(predicted),
-                          tables_,
-                          *verification_,
-                          std::move(written),
-                          std::move(sizes),
-                          traces_};
-  output_.write("report.html", report_html(input));
+  const report::ReportInput input{fs::path(job_.file).filename().string(),
+                                  *calibration_,
+                                  data_->training,
+                                  data_->validation,
+                                  std::move(predicted),
+                                  tables_,
+                                  *verification_,
+                                  std::move(written),
+                                  std::move(sizes),
+                                  traces_};
+  output_.write("report.html", report::report_html(input));
 }
 
 void Pipeline::commit() {
   output_.commit();
 }
 
-} // namespace frictab
+} // namespace frictab::run

@@ -19,11 +19,11 @@
 #include "verify/forms.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::run {
 
 class Pipeline {
 public:
-  explicit Pipeline(Job job);
+  explicit Pipeline(job::Job job);
 
   // Stages; each stages its files in the output directory. Nothing appears there before commit().
   void calibrate();
@@ -41,15 +41,15 @@ public:
   void commit();
 
   // What the stages found, for summaries. Empty where the stage did not run.
-  const Job& job() const { return job_; }
+  const job::Job& job() const { return job_; }
   const std::optional<JobData>& data() const { return data_; }
-  const std::optional<Calibration>& calibration() const { return calibration_; }
-  const std::vector<Trace>& traces() const { return traces_; }
-  const std::vector<Table>& tables() const { return tables_; }
-  const std::optional<Verification>& verification() const { return verification_; }
+  const std::optional<calibrate::Calibration>& calibration() const { return calibration_; }
+  const std::vector<trace::Trace>& traces() const { return traces_; }
+  const std::vector<table::Table>& tables() const { return tables_; }
+  const std::optional<verify::Verification>& verification() const { return verification_; }
   // Tables made in this run that drift further than allowed, in words.
   const std::vector<std::string>& missed() const { return missed_; }
-  const std::vector<FormComparison>& forms() const { return forms_; }
+  const std::vector<verify::FormComparison>& forms() const { return forms_; }
   const std::vector<std::string>& notes() const { return notes_; } // what a user should know
   std::vector<std::string> files() const { return output_.paths(); }
 
@@ -61,35 +61,37 @@ private:
 
   void write_calibration();
   void add_traced_laws();
-  Table sample_table(const AssembledLaw& law);
-  void measure_drift(const AssembledLaw& law, Table& table);
-  void write_table_file(Table& table);
-  const SourceBundle& sources_in(const std::string& directory);
-  std::vector<GeneratedSource> sources_of(const Table& table, const Table& direct);
+  table::Table sample_table(const models::AssembledLaw& law);
+  void measure_drift(const models::AssembledLaw& law, table::Table& table);
+  void write_table_file(table::Table& table);
+  const codegen::SourceBundle& sources_in(const std::string& directory);
+  std::vector<verify::GeneratedSource> sources_of(const table::Table& table,
+                                                  const table::Table& direct);
 
   double drift_allowed() const; // MPa
-  const AssembledLaw& assembled(const Model& model);
-  const AssembledLaw& law_of(const Table& table);
-  Table direct_for_sources(const Table& table);
-  ExportRequest request_for(const Table& form) const;
+  const models::AssembledLaw& assembled(const models::Model& model);
+  const models::AssembledLaw& law_of(const table::Table& table);
+  table::Table direct_for_sources(const table::Table& table);
+  codegen::ExportRequest request_for(const table::Table& form) const;
   // "export/c" where there is one table, "export/c/<model>" where there are several.
-  std::string export_directory(const std::string& target, const Table& table) const;
+  std::string export_directory(const std::string& target, const table::Table& table) const;
 
-  Job job_;
+  job::Job job_;
   ResultDirectory earlier_;
-  OutputFiles output_;
+  io::OutputFiles output_;
   std::optional<JobData> data_;
-  std::optional<Calibration> calibration_;
+  std::optional<calibrate::Calibration> calibration_;
   bool new_calibration_ = false; // traces that lie in the directory belong to another one
-  std::vector<Trace> traces_;
-  std::map<std::string, AssembledLaw> laws_; // those that have met a table, by model name
-  std::vector<Table> tables_;
-  std::map<std::string, DriftRecord> compared_; // each new table with its law, by model name
+  std::vector<trace::Trace> traces_;
+  std::map<std::string, models::AssembledLaw> laws_; // those that have met a table, by model name
+  std::vector<table::Table> tables_;
+  std::map<std::string, verify::DriftRecord>
+      compared_; // each new table with its law, by model name
   std::vector<std::string> missed_;
-  std::map<std::string, SourceBundle> sources_; // by export directory
-  std::optional<Verification> verification_;
-  std::vector<FormComparison> forms_;
+  std::map<std::string, codegen::SourceBundle> sources_; // by export directory
+  std::optional<verify::Verification> verification_;
+  std::vector<verify::FormComparison> forms_;
   std::vector<std::string> notes_;
 };
 
-} // namespace frictab
+} // namespace frictab::run

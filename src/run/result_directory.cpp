@@ -13,7 +13,7 @@
 #include "trace/trace_file.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::run {
 
 namespace fs = std::filesystem;
 
@@ -25,7 +25,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -35,20 +35,20 @@ std::vector<std::string> law_names() {
 void add_model_names(std::vector<std::string>& names, const fs::path& directory) {
   if (!fs::is_directory(directory)) return;
   for (const auto& entry : fs::directory_iterator(directory))
-    if (const std::string name = entry.path().stem().string(); read_model_name(name).base)
+    if (const std::string name = entry.path().stem().string(); models::read_model_name(name).base)
       add_once(names, name);
 }
 
 } // namespace
 
-ResultDirectory::ResultDirectory(const Job& job) : directory_(job.directory), job_(job.file) {}
+ResultDirectory::ResultDirectory(const job::Job& job) : directory_(job.directory), job_(job.file) {}
 
-Calibration ResultDirectory::calibration() const {
+calibrate::Calibration ResultDirectory::calibration() const {
   const fs::path file = directory_ / "calibration.json";
   if (!fs::exists(file))
     throw InputError({file.string(), 0, 0}, "there is no calibration yet",
                      "run `frictab calibrate " + job_ + "` first");
-  return parse_calibration(read_file(file), file.string());
+  return calibrate::parse_calibration(io::read_file(file), file.string());
 }
 
 std::vector<fs::path> ResultDirectory::all_tables() const {
@@ -64,42 +64,43 @@ std::vector<fs::path> ResultDirectory::all_tables() const {
   return files;
 }
 
-std::vector<Table> ResultDirectory::tables(double memory_limit_MiB) const {
-  std::vector<Table> tables;
+std::vector<table::Table> ResultDirectory::tables(double memory_limit_MiB) const {
+  std::vector<table::Table> tables;
   for (const fs::path& file : all_tables())
-    tables.push_back(read_table(file, static_cast<std::size_t>(memory_limit_MiB * (1 << 20))));
+    tables.push_back(
+        table::read_table(file, static_cast<std::size_t>(memory_limit_MiB * (1 << 20))));
   return tables;
 }
 
-std::vector<Table> ResultDirectory::table_descriptions() const {
-  std::vector<Table> tables;
+std::vector<table::Table> ResultDirectory::table_descriptions() const {
+  std::vector<table::Table> tables;
   for (const fs::path& file : all_tables())
-    tables.push_back(read_description(file).table);
+    tables.push_back(table::read_description(file).table);
   return tables;
 }
 
-SourceBundle ResultDirectory::sources(const std::string& name) const {
+codegen::SourceBundle ResultDirectory::sources(const std::string& name) const {
   const fs::path directory = directory_ / name;
   if (!fs::is_directory(directory))
     throw InputError({directory.string(), 0, 0}, "there are no generated sources",
                      "run `frictab export " + job_ + "` first");
   const std::string recipe = (directory / "recipe.json").string();
-  SourceBundle bundle;
-  for (const std::string& file : files_of_recipe(read_file(recipe), recipe))
-    bundle[file] = read_file(directory / file);
+  codegen::SourceBundle bundle;
+  for (const std::string& file : codegen::files_of_recipe(io::read_file(recipe), recipe))
+    bundle[file] = io::read_file(directory / file);
   return bundle;
 }
 
-std::vector<Trace> ResultDirectory::traces() const {
+std::vector<trace::Trace> ResultDirectory::traces() const {
   const fs::path file = directory_ / "trace.json";
   if (!fs::exists(file)) return {};
-  return parse_traces(read_file(file), file.string());
+  return trace::parse_traces(io::read_file(file), file.string());
 }
 
-std::optional<Verification> ResultDirectory::verification() const {
+std::optional<verify::Verification> ResultDirectory::verification() const {
   const fs::path file = directory_ / "verify.json";
   if (!fs::exists(file)) return std::nullopt;
-  return parse_verification(read_file(file), file.string());
+  return verify::parse_verification(io::read_file(file), file.string());
 }
 
 std::vector<std::string> ResultDirectory::model_files() const {
@@ -113,7 +114,7 @@ std::vector<std::string> ResultDirectory::model_files() const {
 std::vector<std::string> ResultDirectory::table_names() const {
   std::vector<std::string> names = law_names();
   add_model_names(names, directory_ / "tables");
-  for (const Exporter& exporter : all_exporters())
+  for (const codegen::Exporter& exporter : codegen::all_exporters())
     add_model_names(names, directory_ / "export" / exporter.name);
   return names;
 }
@@ -122,7 +123,7 @@ std::vector<std::string> ResultDirectory::table_files() const {
   std::vector<std::string> files;
   for (const std::string& name : table_names()) {
     files.push_back("tables/" + name + ".h5");
-    for (const std::string& work : work_files(name + ".h5"))
+    for (const std::string& work : table::work_files(name + ".h5"))
       files.push_back("tables/" + work);
   }
   return files;
@@ -130,7 +131,7 @@ std::vector<std::string> ResultDirectory::table_files() const {
 
 std::vector<std::string> ResultDirectory::source_files() const {
   std::vector<std::string> directories, files;
-  for (const Exporter& exporter : all_exporters()) {
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     directories.push_back("export/" + exporter.name);
     for (const std::string& name : table_names())
       directories.push_back("export/" + exporter.name + "/" + name);
@@ -138,10 +139,10 @@ std::vector<std::string> ResultDirectory::source_files() const {
   for (const std::string& directory : directories) {
     const fs::path recipe = directory_ / directory / "recipe.json";
     if (!fs::exists(recipe)) continue;
-    for (const std::string& file : files_of_recipe(read_file(recipe), recipe.string()))
+    for (const std::string& file : codegen::files_of_recipe(io::read_file(recipe), recipe.string()))
       files.push_back(directory + "/" + file);
   }
   return files;
 }
 
-} // namespace frictab
+} // namespace frictab::run

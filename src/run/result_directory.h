@@ -14,20 +14,21 @@
 #include "trace/trace.h"
 #include "verify/verification.h"
 
-namespace frictab {
+namespace frictab::run {
 
 class ResultDirectory {
 public:
-  explicit ResultDirectory(const Job& job);
+  explicit ResultDirectory(const job::Job& job);
 
   // Results. Those that a stage cannot do without throw InputError where they are missing, with the
   // command that makes them; the others are empty.
-  Calibration calibration() const;
-  std::vector<Table> tables(double memory_limit_MiB) const; // by name; larger ones stay on disk
-  std::vector<Table> table_descriptions() const;            // without values
-  SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
-  std::vector<Trace> traces() const;
-  std::optional<Verification> verification() const;
+  calibrate::Calibration calibration() const;
+  std::vector<table::Table>
+  tables(double memory_limit_MiB) const;                // by name; larger ones stay on disk
+  std::vector<table::Table> table_descriptions() const; // without values
+  codegen::SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
+  std::vector<trace::Trace> traces() const;
+  std::optional<verify::Verification> verification() const;
 
   // Files of the tool itself, relative to the directory, that a stage replaces as a whole. Files
   // that a user put beside them are not among them.
@@ -43,4 +44,4 @@ private:
   std::string job_; // for hints
 };
 
-} // namespace frictab
+} // namespace frictab::run

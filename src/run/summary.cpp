@@ -21,26 +21,26 @@
 #include "verify/beyond.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::run {
 
 namespace {
 
 void add_data(std::string& out, const Pipeline& p) {
   if (!p.data()) return;
-  const Dataset &training = p.data()->training, &validation = p.data()->validation;
-  const auto describe = [](const Dataset& d) {
+  const data::Dataset &training = p.data()->training, &validation = p.data()->validation;
+  const auto describe = [](const data::Dataset& d) {
     return fmt::format("{} rows of {} experiments", thousands(d.rows()), d.experiments.size());
   };
-  const bool synthetic = is_synthetic(training);
+  const bool synthetic = calibrate::is_synthetic(training);
   out += fmt::format("Data: {} to train, {} to validate{}\n", describe(training),
                      describe(validation), synthetic ? " - SYNTHETIC data" : "");
-  for (const Dataset* data : {&training, &validation})
+  for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
 }
 
-std::string parameters(const ModelFit& fit) {
-  if (fit.network) return network_size(*fit.network);
+std::string parameters(const calibrate::ModelFit& fit) {
+  if (fit.network) return calibrate::network_size(*fit.network);
   std::string text;
   for (std::size_t i = 0; i < fit.model.parameters.size(); ++i)
     text += fmt::format("{}{} {:.4g}", i ? ", " : "", fit.model.law->parameters[i].name,
@@ -49,9 +49,9 @@ std::string parameters(const ModelFit& fit) {
 }
 
 // "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
-void add_left_out(std::string& out, const Calibration& calibration) {
+void add_left_out(std::string& out, const calibrate::Calibration& calibration) {
   std::map<std::string, std::string> laws;
-  for (const LeftOut& left : calibration.left_out) {
+  for (const calibrate::LeftOut& left : calibration.left_out) {
     std::string& list = laws[left.needs];
     list += (list.empty() ? "" : ", ") + left.law;
   }
@@ -59,7 +59,7 @@ void add_left_out(std::string& out, const Calibration& calibration) {
     out += fmt::format("  left out, for want of {}: {}\n", reason, list);
 }
 
-std::string range_of(const Interval& interval, int decimals) {
+std::string range_of(const calibrate::Interval& interval, int decimals) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "-";
   return fmt::format("{:.{}f} .. {:.{}f}", interval.low, decimals, interval.high, decimals);
 }
@@ -72,40 +72,41 @@ std::size_t name_width(const std::vector<std::string>& names) {
   return width;
 }
 
-std::size_t name_width(const Calibration& calibration) {
+std::size_t name_width(const calibrate::Calibration& calibration) {
   std::vector<std::string> names;
-  for (const ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : calibration.fits)
     names.push_back(fit.model.law->name);
   return name_width(names);
 }
 
-void add_floor(std::string& out, const Calibration& calibration, int decimals) {
+void add_floor(std::string& out, const calibrate::Calibration& calibration, int decimals) {
   if (!calibration.noise_floors.empty()) {
-    const NoiseFloor& f = calibration.noise_floors.front();
-    out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor",
-                       name_width(calibration),
-                       (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
-                       range_of(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
-                       noise_floor_name(f), f.part == "training" ? ", training data" : "");
+    const calibrate::NoiseFloor& f = calibration.noise_floors.front();
+    out += fmt::format(
+        "  {:<{}}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor", name_width(calibration),
+        (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
+        range_of(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
+        calibrate::noise_floor_name(f), f.part == "training" ? ", training data" : "");
   }
-  const std::string advice = noise_floor_advice(calibration);
+  const std::string advice = calibrate::noise_floor_advice(calibration);
   if (!advice.empty()) out += fmt::format("  the noise floor is not known: {}\n", advice);
 }
 
-void add_comparison(std::string& out, const Comparisons& comparisons) {
+void add_comparison(std::string& out, const calibrate::Comparisons& comparisons) {
   if (comparisons.laws.size() < 2) return;
-  out += fmt::format("  {}\n  {}\n", pairwise_sentence(comparisons), family_sentence(comparisons));
+  out += fmt::format("  {}\n  {}\n", calibrate::pairwise_sentence(comparisons),
+                     calibrate::family_sentence(comparisons));
 }
 
 // The three best; all are in benchmark.md.
-void add_conditional(std::string& out, const Conditional& c, int decimals) {
+void add_conditional(std::string& out, const calibrate::Conditional& c, int decimals) {
   if (c.laws.empty()) return;
   out +=
       fmt::format("\nConditional use, NOT ranked above: a gain per experiment from its own first "
                   "{:g} mm\n(MAE of the rest, MPa):\n  {:<14}{:>8}{:>14}   {}\n",
                   c.condition_on_mm, "law", "MAE", "without gain", "gained, 95 % interval");
   for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i) {
-    const ConditionalFit& fit = c.laws[i];
+    const calibrate::ConditionalFit& fit = c.laws[i];
     out += fmt::format("  {:<14}{:>8.{}f}{:>14.{}f}   {:.{}f}, {}\n", fit.law,
                        fit.conditional.mae_MPa, decimals, fit.unconditional.mae_MPa, decimals,
                        fit.gain.value_MPa, decimals, range_of(fit.gain.interval, decimals));
@@ -115,14 +116,14 @@ void add_conditional(std::string& out, const Conditional& c, int decimals) {
                        c.n_without_start, c.n_experiments, c.condition_on_mm);
 }
 
-void add_ranking(std::string& out, const Calibration& calibration) {
-  const int decimals = error_decimals(calibration);
+void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
+  const int decimals = report::error_decimals(calibration);
   out += "\nLaws by mean absolute error on experiments not trained on (tau_R, MPa):\n";
   const std::size_t width = name_width(calibration);
   out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", width, "MAE",
                      "95 % interval", "RMSE", "bias", "train MAE", "parameters");
-  for (const ModelFit& fit : calibration.fits) {
-    const Metrics& v = fit.validation;
+  for (const calibrate::ModelFit& fit : calibration.fits) {
+    const calibrate::Metrics& v = fit.validation;
     const std::string interval = range_of(v.mae_interval, decimals);
     out +=
         fmt::format("  {:<{}}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
@@ -131,7 +132,7 @@ void add_ranking(std::string& out, const Calibration& calibration) {
   }
   add_floor(out, calibration, decimals);
   add_comparison(out, calibration.comparisons);
-  for (const ModelFit& fit : calibration.fits)
+  for (const calibrate::ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);
   add_left_out(out, calibration);
@@ -142,20 +143,20 @@ constexpr std::size_t many_nodes = 50000;
 
 void add_tables(std::string& out, const Pipeline& p) {
   if (!p.tables().empty()) out += "\nTables:\n";
-  for (const Table& table : p.tables()) {
+  for (const table::Table& table : p.tables()) {
     std::string grid;
-    for (const TableAxis& axis : table.axes)
+    for (const table::TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
     out += fmt::format("  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
                        table.nodes() == 1 ? "" : "s",
                        human_bytes(static_cast<double>(table.bytes())), grid,
-                       table.axes.empty() || table.interpolation == Interpolation::linear
+                       table.axes.empty() || table.interpolation == table::Interpolation::linear
                            ? ""
-                           : ", " + std::string(interpolation_name(table.interpolation)));
-    if (const std::string edge = edge_text(table); !edge.empty())
+                           : ", " + std::string(table::interpolation_name(table.interpolation)));
+    if (const std::string edge = codegen::edge_text(table); !edge.empty())
       out += fmt::format("  {:<14} {}\n", "", edge);
-    if (table.interpolation == Interpolation::linear && table.nodes() > many_nodes)
+    if (table.interpolation == table::Interpolation::linear && table.nodes() > many_nodes)
       out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",
                          "");
@@ -172,7 +173,7 @@ struct DriftLine {
   std::string notes; // what did not run, or is over the tolerance
 };
 
-void add_to(DriftLine& line, const DriftRecord& r) {
+void add_to(DriftLine& line, const verify::DriftRecord& r) {
   if (!r.ran) {
     line.notes += fmt::format("  {} {} not run: {}\n", r.model, r.subject, r.why_not);
     return;
@@ -181,7 +182,7 @@ void add_to(DriftLine& line, const DriftRecord& r) {
   if (!r.passed)
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
                               std::max(r.worst_case_MPa, r.rows.max_abs));
-  if (const std::string left = not_posed_text(r); !left.empty())
+  if (const std::string left = verify::not_posed_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own
   line.on_rows = std::max(line.on_rows, r.rows.max_abs);
@@ -194,7 +195,8 @@ void add_to(DriftLine& line, const DriftRecord& r) {
   }
   line.table = r.worst_case_MPa;
   if (r.proven_MPa)
-    line.proven = *r.proven_MPa < 1e-9 ? "<1e-9" : fmt::format("{:.3g}", rounded_up(*r.proven_MPa));
+    line.proven =
+        *r.proven_MPa < 1e-9 ? "<1e-9" : fmt::format("{:.3g}", table::rounded_up(*r.proven_MPa));
   if (!r.not_proven.empty())
     line.notes += fmt::format("  {} not proven: {}\n", r.model, r.not_proven);
 }
@@ -208,25 +210,26 @@ std::string text_of(const DriftLine& line, const std::string& model) {
 }
 
 // One line per axis and side that rows of the data lie beyond; they are the same for every subject.
-void add_outside(std::string& out, const Verification& verification,
+void add_outside(std::string& out, const verify::Verification& verification,
                  const std::vector<std::string>& models) {
   std::string lines;
   for (const std::string& model : models)
-    for (const DriftRecord& r : verification.records)
+    for (const verify::DriftRecord& r : verification.records)
       if (r.model == model && r.ran) {
-        for (const BeyondEnd& end : r.beyond)
-          lines += fmt::format("  {:<14} {}\n", model, beyond_text(end));
+        for (const verify::BeyondEnd& end : r.beyond)
+          lines += fmt::format("  {:<14} {}\n", model, verify::beyond_text(end));
         break;
       }
   if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
 }
 
 // One line per solver's own table: how far it is where its states are held, and what that costs.
-void add_costs(std::string& out, const Verification& verification) {
+void add_costs(std::string& out, const verify::Verification& verification) {
   std::string lines;
-  for (const DriftRecord& r : verification.records)
+  for (const verify::DriftRecord& r : verification.records)
     if (r.ran && r.held)
-      lines += fmt::format("  {:<14}{:>12.3g}   {}\n", r.model, r.worst_case_MPa, cost_text(r));
+      lines +=
+          fmt::format("  {:<14}{:>12.3g}   {}\n", r.model, r.worst_case_MPa, verify::cost_text(r));
   if (!lines.empty())
     out +=
         "Solvers' own tables have fewer axes than the law. Drift from it at the held states, and "
@@ -234,18 +237,18 @@ void add_costs(std::string& out, const Verification& verification) {
         lines;
 }
 
-void add_drift(std::string& out, const Verification& verification) {
+void add_drift(std::string& out, const verify::Verification& verification) {
   out += fmt::format("\nLargest drift from the law found over the whole range, MPa (allowed {:g}); "
                      "proven: no state drifts the table further:\n"
                      "  {:<14}{:>12}{:>10}{:>16}{:>12}{:>13}\n",
                      verification.max_drift_MPa, "", "table", "proven", "routines", "on rows",
                      "outside");
   std::vector<std::string> models;
-  for (const DriftRecord& r : verification.records)
+  for (const verify::DriftRecord& r : verification.records)
     if (models.empty() || models.back() != r.model) models.push_back(r.model);
   for (const std::string& model : models) {
     DriftLine line;
-    for (const DriftRecord& r : verification.records)
+    for (const verify::DriftRecord& r : verification.records)
       if (r.model == model) add_to(line, r);
     out += text_of(line, model);
   }
@@ -276,20 +279,20 @@ std::string summary_text(const Pipeline& p) {
   add_data(out, p);
   if (p.calibration()) {
     add_ranking(out, *p.calibration());
-    add_conditional(out, p.calibration()->conditional, error_decimals(*p.calibration()));
+    add_conditional(out, p.calibration()->conditional, report::error_decimals(*p.calibration()));
   }
-  for (const Trace& trace : p.traces())
-    out += trace_text(trace);
+  for (const trace::Trace& trace : p.traces())
+    out += trace::trace_text(trace);
   add_tables(out, p);
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
-  if (!p.forms().empty()) out += "\n" + forms_text(p.forms());
+  if (!p.forms().empty()) out += "\n" + verify::forms_text(p.forms());
   const auto files = p.files();
   out += fmt::format("\nWrote {} files to {}: {}\n", files.size(), p.job().directory,
                      file_list(files));
   return out;
 }
 
-std::string drift_text(const Verification& verification) {
+std::string drift_text(const verify::Verification& verification) {
   std::string out;
   add_drift(out, verification);
   return out.substr(1); // without the blank line that separates sections
@@ -297,8 +300,8 @@ std::string drift_text(const Verification& verification) {
 
 namespace {
 
-nlohmann::ordered_json form_json(const FormComparison& c) {
-  const auto figures = [&](const FormFigures& f) {
+nlohmann::ordered_json form_json(const verify::FormComparison& c) {
+  const auto figures = [&](const verify::FormFigures& f) {
     nlohmann::ordered_json j = {{"bytes", f.bytes}, {"drift_MPa", f.drift_MPa}};
     if (c.why_not.empty()) j["ns_per_query"] = f.ns_per_query;
     return j;
@@ -306,29 +309,31 @@ nlohmann::ordered_json form_json(const FormComparison& c) {
   return {{"model", c.model},
           {"table", figures(c.table)},
           {"direct", figures(c.direct)},
-          {"verdict", form_verdict(c)}};
+          {"verdict", verify::form_verdict(c)}};
 }
 
 } // namespace
 
 std::string summary_json(const Pipeline& p) {
   nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
-  if (p.data()) j["synthetic_data"] = is_synthetic(p.data()->training);
+  if (p.data()) j["synthetic_data"] = calibrate::is_synthetic(p.data()->training);
   if (p.calibration())
-    j["calibration"] = parse_json(calibration_json(*p.calibration()), "calibration.json");
+    j["calibration"] =
+        io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
-  for (const Table& table : p.tables())
+  for (const table::Table& table : p.tables())
     tables.push_back({{"model", table.model}, {"nodes", table.nodes()}, {"bytes", table.bytes()}});
   if (!tables.empty()) j["tables"] = tables;
   if (p.verification())
-    j["verification"] = parse_json(verification_json(*p.verification()), "verify.json");
+    j["verification"] = io::parse_json(verify::verification_json(*p.verification()), "verify.json");
   if (!p.traces().empty())
-    j["trace"] = parse_json(trace_json(p.traces(), j.value("synthetic_data", false)), "trace.json");
-  for (const FormComparison& form : p.forms())
+    j["trace"] = io::parse_json(trace::trace_json(p.traces(), j.value("synthetic_data", false)),
+                                "trace.json");
+  for (const verify::FormComparison& form : p.forms())
     j["forms"].push_back(form_json(form));
   j["directory"] = p.job().directory;
   j["files"] = p.files();
-  return json_text(j);
+  return io::json_text(j);
 }
 
-} // namespace frictab
+} // namespace frictab::run

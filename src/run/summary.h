@@ -5,10 +5,10 @@
 
 #include "run/pipeline.h"
 
-namespace frictab {
+namespace frictab::run {
 
 std::string summary_text(const Pipeline& pipeline);
-std::string drift_text(const Verification& verification); // the drift section alone
+std::string drift_text(const verify::Verification& verification); // the drift section alone
 std::string summary_json(const Pipeline& pipeline);
 
-} // namespace frictab
+} // namespace frictab::run

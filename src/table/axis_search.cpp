@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -107,4 +107,4 @@ ft_axis AxisSearch::axis(long stride) const {
           guide.empty() ? nullptr : guide.data()};
 }
 
-} // namespace frictab
+} // namespace frictab::table

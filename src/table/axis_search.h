@@ -5,7 +5,7 @@
 
 #include "table/frictab_kernel.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct AxisSearch {
   std::vector<double> u;             // nodes in the axis' coordinate, ascending
@@ -28,4 +28,4 @@ AxisSearch axis_search(std::vector<double> u, CellSearch search = CellSearch::fa
 // 1/step where coordinates are evenly spaced (1e-9 of a step), else 0.
 double per_step(const std::vector<double>& u);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -16,7 +16,10 @@
 #include "table/drift.h"
 #include "table/grid.h"
 
-namespace frictab {
+namespace frictab::table {
+
+using expr::Bounds;
+using expr::Expr;
 
 namespace {
 
@@ -30,7 +33,7 @@ Expr combine_of(const Table& table) {
 }
 
 // The law's piece as the table holds it, in the coordinates of its axes.
-Expr piece_of(const AssembledLaw& law, const Table& table) {
+Expr piece_of(const models::AssembledLaw& law, const Table& table) {
   std::set<std::string> logarithmic;
   for (const TableAxis& axis : table.axes)
     if (axis.log) logarithmic.insert(axis.name);
@@ -63,7 +66,7 @@ struct Look {
 
 class Cells {
 public:
-  Cells(const AssembledLaw& law, const Table& table, const std::vector<StateRange>& ranges)
+  Cells(const models::AssembledLaw& law, const Table& table, const std::vector<StateRange>& ranges)
       : ranges_(ranges), table_(table), function_(table), law_(law, names_of(ranges)),
         monomials_(table.axes.size(),
                    table.interpolation == Interpolation::cubic ? degree_cubic : degree_linear),
@@ -91,7 +94,7 @@ public:
   // One thread's memory.
   struct Work {
     explicit Work(const Cells& cells) : taylor(cells.piece_) {}
-    TaylorProgram::Work taylor;
+    expr::TaylorProgram::Work taylor;
     std::vector<double> tensor;
   };
 
@@ -155,7 +158,7 @@ private:
     box.parts[axis] = part;
     const Bounds u = coordinate(axis, part);
     box.state[range_of_axis_[axis]] =
-        table_.axes[axis].log ? frictab::apply(Op::exp, u, {}, {}, {}) : u;
+        table_.axes[axis].log ? expr::apply(expr::Op::exp, u, {}, {}, {}) : u;
   }
 
   Box whole(std::size_t cell) const {
@@ -204,12 +207,12 @@ private:
   const Table& table_;
   const TableFunction function_;
   const LawFunction law_;
-  const Monomials monomials_;
-  const TaylorProgram piece_;
+  const expr::Monomials monomials_;
+  const expr::TaylorProgram piece_;
   const CellPolynomials interpolant_;
   const Rewriting rewriting_;
   const Deviation deviation_;
-  const Sensitivity combine_;                    // of tau_R to the tabulated number
+  const expr::Sensitivity combine_;              // of tau_R to the tabulated number
   std::vector<std::vector<double>> coordinates_; // nodes, per axis
   std::vector<std::size_t> range_of_axis_;
 };
@@ -326,9 +329,10 @@ Box Cells::half(const Box& box, const Look& look, bool upper) const {
 }
 
 // Why there is no bound, or nothing.
-std::string obstacle(const AssembledLaw& law, const Table& table, const BoundOptions& options) {
+std::string obstacle(const models::AssembledLaw& law, const Table& table,
+                     const BoundOptions& options) {
   const Expr of_law = law.in_numbers(law.combine);
-  if (to_text(shared(of_law)) != to_text(shared(combine_of(table))))
+  if (expr::to_text(shared(of_law)) != expr::to_text(shared(combine_of(table))))
     return "the table is combined to tau_R by a formula that is not the law's";
   const std::vector<std::string> axes = axis_names(table);
   for (const std::string& name : law.piece_inputs)
@@ -348,7 +352,7 @@ std::string obstacle(const AssembledLaw& law, const Table& table, const BoundOpt
 
 } // namespace
 
-DriftBound bound_drift(const AssembledLaw& law, const Table& table,
+DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options) {
   DriftBound out;
   out.why_not = obstacle(law, table, options);
@@ -384,7 +388,7 @@ double rounded_up(double value) {
   return std::ceil(value / unit * (1 - 1e-12)) * unit;
 }
 
-ProvenDrift prove_drift(const AssembledLaw& law, const Table& table,
+ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found,
                         double allowed_MPa) {
   // As close as 2 % where that settles whether the table is allowed, else to 10 %.
@@ -407,4 +411,4 @@ ProvenDrift prove_drift(const AssembledLaw& law, const Table& table,
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::table

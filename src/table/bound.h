@@ -5,7 +5,7 @@
 
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct DriftBound {
   std::optional<double> MPa; // no state in the ranges drifts further; absent: not available
@@ -27,7 +27,7 @@ struct BoundOptions {
   std::size_t most_boxes = 1'000'000;
   std::size_t most_cells = 2'000'000;
 };
-DriftBound bound_drift(const AssembledLaw& law, const Table& table,
+DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options);
 
 // What the search found and what is proven above it. Each helps the other: the bound stops where it
@@ -36,10 +36,10 @@ struct ProvenDrift {
   WorstCase worst;
   DriftBound bound;
 };
-ProvenDrift prove_drift(const AssembledLaw& law, const Table& table,
+ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa);
 
 // Three significant digits, never below the value: how a bound is shown.
 double rounded_up(double value);
 
-} // namespace frictab
+} // namespace frictab::table

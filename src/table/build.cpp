@@ -16,14 +16,14 @@
 #include "table/grid.h"
 #include "table/sampling.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
 using Counts = std::vector<std::size_t>; // per axis
 
-AxisPlan plan_axis(const Law& law, const StateRange& range, const TableOptions& options) {
-  const Meaning quantity = meaning_of(range.name);
+AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableOptions& options) {
+  const data::Meaning quantity = data::meaning_of(range.name);
   const auto asked = options.axes.find(range.name);
   AxisPlan plan;
   plan.axis.name = range.name;
@@ -93,7 +93,7 @@ std::vector<double> sample(const Pieces& pieces, const std::vector<StateRange>& 
   return values;
 }
 
-Table sampled_table(const AssembledLaw& law, const Pieces& pieces,
+Table sampled_table(const models::AssembledLaw& law, const Pieces& pieces,
                     const std::vector<StateRange>& ranges, std::vector<TableAxis> axes,
                     Interpolation interpolation, bool log_value) {
   std::vector<double> values = sample(pieces, ranges, axes);
@@ -111,11 +111,11 @@ Table sampled_table(const AssembledLaw& law, const Pieces& pieces,
 // axes are measured; then axes give up cells one by one.
 class Builder {
 public:
-  Builder(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+  Builder(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
           const TableOptions& options)
       : law_(law), ranges_(ranges), options_(options), limit_(0.96 * options.tolerance_MPa),
         pieces_(law, ranges), tau_R_(law, pieces_.names) {
-    const Law& description = *law.model.law;
+    const models::Law& description = *law.model.law;
     for (std::size_t r = 0; r < ranges.size(); ++r)
       if (law.piece_inputs.count(ranges[r].name)) {
         plans_.push_back(plan_axis(description, ranges[r], options));
@@ -372,7 +372,7 @@ private:
     return true;
   }
 
-  const AssembledLaw& law_;
+  const models::AssembledLaw& law_;
   const std::vector<StateRange>& ranges_;
   const TableOptions& options_;
   const double limit_; // below the tolerance: what is found is not quite the largest there is
@@ -389,12 +389,12 @@ private:
 
 } // namespace
 
-Table build_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options) {
   return Builder(law, ranges, options).build();
 }
 
-std::optional<std::vector<TableAxis>> fixed_axes(const AssembledLaw& law,
+std::optional<std::vector<TableAxis>> fixed_axes(const models::AssembledLaw& law,
                                                  const std::vector<StateRange>& ranges,
                                                  const TableOptions& options) {
   std::vector<TableAxis> axes;
@@ -407,4 +407,4 @@ std::optional<std::vector<TableAxis>> fixed_axes(const AssembledLaw& law,
   return axes;
 }
 
-} // namespace frictab
+} // namespace frictab::table

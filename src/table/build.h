@@ -8,7 +8,7 @@
 #include "table/options.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // The range of one state over which a table holds and is verified.
 struct StateRange {
@@ -22,23 +22,23 @@ struct StateRange {
 // training data where they cover at least half of it; else the training data's own (a single value
 // is widened by 1 %). Flow stress: half the smallest to twice the largest. Throws InputError for a
 // job range in which the quantity has no meaning.
-std::vector<StateRange> state_ranges(const AssembledLaw& law, const Dataset& training,
+std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
                                      const TableOptions& options);
 
 // The table of one model: axes only where its smooth piece depends on them, nodes per axis so that
 // the drift over the ranges stays below options.tolerance_MPa (or the job's own nodes). Throws
 // InputError where the grid does not fit into memory.
-Table build_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+Table build_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                   const TableOptions& options);
 
 // The axes of the model's table where the job gives every one its number of nodes; else nullopt.
-std::optional<std::vector<TableAxis>> fixed_axes(const AssembledLaw& law,
+std::optional<std::vector<TableAxis>> fixed_axes(const models::AssembledLaw& law,
                                                  const std::vector<StateRange>& ranges,
                                                  const TableOptions& options);
 
 // Ranges that a table carries in its attributes; for a foreign table its axes' own and, for other
 // inputs, those of `data` where it has the column. Throws InputError where there is neither.
-std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
+std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* data,
                                      const std::string& file);
 
-} // namespace frictab
+} // namespace frictab::table

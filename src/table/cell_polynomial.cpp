@@ -7,7 +7,7 @@
 
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -107,7 +107,7 @@ void CellPolynomials::over(std::span<const CellPart> box, std::vector<double>& t
   }
 }
 
-Rewriting::Rewriting(const Monomials& monomials) : size_(monomials.size()) {
+Rewriting::Rewriting(const expr::Monomials& monomials) : size_(monomials.size()) {
   const std::size_t n = monomials.variables();
   chebyshev_.resize(n);
   lower_.resize(n);
@@ -116,7 +116,7 @@ Rewriting::Rewriting(const Monomials& monomials) : size_(monomials.size()) {
     for (std::size_t v = 0; v < n; ++v) {
       const std::size_t k = monomials.exponents(i)[v];
       for (std::size_t m = 0; m <= k; ++m) {
-        Monomials::Exponents to = monomials.exponents(i);
+        expr::Monomials::Exponents to = monomials.exponents(i);
         to[v] = static_cast<std::uint8_t>(m);
         const auto from_index = static_cast<std::uint16_t>(i);
         const auto to_index = static_cast<std::uint16_t>(monomials.find(to));
@@ -144,7 +144,7 @@ void Rewriting::halve(std::size_t variable, bool upper, std::span<double> c) con
   apply(upper ? upper_[variable] : lower_[variable], c);
 }
 
-Deviation::Deviation(const Monomials& monomials, std::size_t support)
+Deviation::Deviation(const expr::Monomials& monomials, std::size_t support)
     : variables_(monomials.variables()), degree_(std::max(monomials.degree(), support - 1)),
       support_(support) {
   std::size_t count = 1;
@@ -175,7 +175,7 @@ namespace {
 // Range of sum_k c[k] T_k(x), k >= 1, |x| <= 1. Between m + 1 points that are even in the angle, a
 // polynomial of degree n exceeds them by a factor of 1/cos(n pi / (2 m)) at most (Ehlich and Zeller
 // 1964).
-Bounds range_of(std::span<const double> c) {
+expr::Bounds range_of(std::span<const double> c) {
   double sum = 0;
   for (const double x : c)
     sum += std::abs(x);
@@ -242,7 +242,7 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
   }
   out.range.high = out.range.low;
   for (std::size_t v = 0; v < variables_; ++v) {
-    const Bounds one = range_of({alone.data() + v * degree_, degree_});
+    const expr::Bounds one = range_of({alone.data() + v * degree_, degree_});
     out.range.low += one.low;
     out.range.high += one.high;
   }
@@ -252,4 +252,4 @@ Deviation::Result Deviation::operator()(std::span<const double> c,
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -7,7 +7,7 @@
 #include "expr/taylor_model.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // Part of one cell along one axis: weights from low to high, within 0 .. 1.
 struct CellPart {
@@ -42,7 +42,7 @@ private:
 // The same polynomial in another basis or over a part of its box; coefficients by monomial.
 class Rewriting {
 public:
-  explicit Rewriting(const Monomials& monomials);
+  explicit Rewriting(const expr::Monomials& monomials);
   void to_chebyshev(std::span<double> c) const;
   // Over the lower or the upper half of a variable.
   void halve(std::size_t variable, bool upper, std::span<double> c) const;
@@ -61,10 +61,10 @@ private:
 // Bounds of a polynomial minus an interpolant over a box.
 class Deviation {
 public:
-  Deviation(const Monomials& monomials, std::size_t support);
+  Deviation(const expr::Monomials& monomials, std::size_t support);
 
   struct Result {
-    Bounds range;
+    expr::Bounds range;
     std::vector<double> mixed; // per variable: what terms of several variables with it add
   };
   // c: Chebyshev coefficients by monomial; tensor: of the interpolant (overwritten).
@@ -75,7 +75,7 @@ private:
   std::vector<std::size_t> tensor_index_; // of a monomial in the tensor, or npos
   std::vector<std::uint32_t> used_;       // per tensor entry: bits of the variables it depends on
   std::vector<std::uint32_t> used_by_;    // the same per monomial
-  std::vector<Monomials::Exponents> exponents_;
+  std::vector<expr::Monomials::Exponents> exponents_;
 };
 
-} // namespace frictab
+} // namespace frictab::table

@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -41,7 +41,7 @@ ChunkList::ChunkList(const std::filesystem::path& file, const std::string& job)
     throw InputError({file.string(), 0, 0}, "another frictab is writing this table",
                      "wait for it, or choose another directory with -o DIR");
   }
-  const std::string text = read_file(file), head = job + "\n";
+  const std::string text = io::read_file(file), head = job + "\n";
   std::size_t good = text.starts_with(head) ? head.size() : 0;
   for (; good > 0 && good + line_length <= text.size(); good += line_length) {
     const std::string_view line = std::string_view(text).substr(good, line_length);
@@ -66,4 +66,4 @@ void ChunkList::add(std::size_t chunk, std::uint64_t hash) const {
                      fmt::format("cannot be written: {}", std::strerror(errno)));
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace frictab {
+namespace frictab::table {
 
 // One line per finished chunk: its number and the hash of its bytes, below one line that says what
 // the chunks belong to.
@@ -28,4 +28,4 @@ private:
   std::map<std::size_t, std::uint64_t> found_;
 };
 
-} // namespace frictab
+} // namespace frictab::table

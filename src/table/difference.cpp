@@ -15,7 +15,7 @@
 #include "io/json.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -208,7 +208,7 @@ std::string difference_json(const TableDifference& d, const std::array<std::stri
     j["at"][d.ranges[i].name] = d.worst[i];
     j["range"][d.ranges[i].name] = {d.ranges[i].low, d.ranges[i].high};
   }
-  return json_text(j);
+  return io::json_text(j);
 }
 
-} // namespace frictab
+} // namespace frictab::table

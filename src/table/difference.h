@@ -6,7 +6,7 @@
 #include "table/build.h"
 #include "table/states.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct TableDifference {
   std::vector<StateRange> ranges; // common to both
@@ -27,4 +27,4 @@ std::string difference_text(const TableDifference& difference,
 std::string difference_json(const TableDifference& difference,
                             const std::array<std::string, 2>& names);
 
-} // namespace frictab
+} // namespace frictab::table

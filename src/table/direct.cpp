@@ -1,20 +1,20 @@
 // Takes a law's own formula into a table.
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::table {
 
-void add_constants(Table& table, const AssembledLaw& law, const Expr& expression) {
-  const auto used = symbols(expression);
+void add_constants(Table& table, const models::AssembledLaw& law, const expr::Expr& expression) {
+  const auto used = expr::symbols(expression);
   for (std::size_t p = 0; p < law.parameters.size(); ++p)
     if (used.count(law.parameters[p])) table.constants[law.parameters[p]] = law.model.parameters[p];
 }
 
-void add_extension(Table& table, const AssembledLaw& law) {
+void add_extension(Table& table, const models::AssembledLaw& law) {
   table.extension = law.piece;
   add_constants(table, law, *table.extension);
 }
 
-Table direct_form(const AssembledLaw& law, const Table& table) {
+Table direct_form(const models::AssembledLaw& law, const Table& table) {
   Table direct = table;
   direct.value.clear();
   direct.log_value = false;
@@ -34,4 +34,4 @@ Table direct_form(const AssembledLaw& law, const Table& table) {
   return direct;
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -10,9 +10,9 @@
 #include "core/parallel.h"
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::table {
 
-LawFunction::LawFunction(const AssembledLaw& law, std::vector<std::string> columns)
+LawFunction::LawFunction(const models::AssembledLaw& law, std::vector<std::string> columns)
     : program_(law.tau_R, std::move(columns), law.parameters), parameters_(law.model.parameters) {}
 
 namespace {
@@ -213,4 +213,4 @@ WorstCase worst_case(const LawFunction& law, const TableFunction& table,
   return worst_case(law, table, ranges, probed);
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -7,19 +7,19 @@
 #include "expr/program.h"
 #include "table/build.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // A law with its parameters, as a function of states in a given order.
 class LawFunction {
 public:
-  LawFunction(const AssembledLaw& law, std::vector<std::string> columns);
+  LawFunction(const models::AssembledLaw& law, std::vector<std::string> columns);
   double operator()(std::span<const double> state) const { return program_(state, parameters_); }
   void evaluate(std::size_t rows, std::span<const double* const> columns, double* tau) const {
     program_.evaluate(rows, columns, parameters_, tau);
   }
 
 private:
-  Program program_;
+  expr::Program program_;
   std::vector<double> parameters_;
 };
 
@@ -65,4 +65,4 @@ WorstCase worst_case(const LawFunction& law, const TableFunction& table,
 WorstCase worst_case(const LawFunction& law, const TableFunction& table,
                      const std::vector<StateRange>& ranges, const States& points);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -46,7 +46,7 @@ std::vector<std::string> names_of(const std::vector<StateRange>& ranges) {
   return row;
 }
 
-Pieces::Pieces(const AssembledLaw& law, const std::vector<StateRange>& ranges)
+Pieces::Pieces(const models::AssembledLaw& law, const std::vector<StateRange>& ranges)
     : names(names_of(ranges)), value(law.piece, names, law.parameters),
       combine(law.combine, with_value(ranges), law.parameters), parameters(law.model.parameters) {}
 
@@ -206,4 +206,4 @@ void AxisErrors::distribute_nodes(AxisPlan& plan, double target) const {
   if (5 * cells_for(graded, target) <= 4 * even) plan = graded;
 }
 
-} // namespace frictab
+} // namespace frictab::table

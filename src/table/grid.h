@@ -8,7 +8,7 @@
 #include "table/build.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // Names of the ranges, and the same behind "value": the columns of the two programs below.
 std::vector<std::string> names_of(const std::vector<StateRange>& ranges);
@@ -16,10 +16,10 @@ std::vector<std::string> with_value(const std::vector<StateRange>& ranges);
 
 // The tabulated piece of a law, and tau_R from it, as functions of all states of its ranges.
 struct Pieces {
-  Pieces(const AssembledLaw& law, const std::vector<StateRange>& ranges);
+  Pieces(const models::AssembledLaw& law, const std::vector<StateRange>& ranges);
   std::vector<std::string> names;
-  Program value;
-  Program combine; // row: value, then names
+  expr::Program value;
+  expr::Program combine; // row: value, then names
   std::vector<double> parameters;
 };
 
@@ -72,4 +72,4 @@ private:
   bool cubic_;
 };
 
-} // namespace frictab
+} // namespace frictab::table

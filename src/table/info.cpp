@@ -13,7 +13,7 @@
 #include "table/outside.h"
 #include "table/states.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -22,7 +22,7 @@ std::string spacing_of(const TableAxis& axis) {
   return axis.per_step() > 0 ? "even" : "graded";
 }
 
-std::string storage_text(const Hdf5Layout& layout) {
+std::string storage_text(const io::Hdf5Layout& layout) {
   if (layout.chunk.empty()) return "in one piece";
   std::vector<std::string> sizes;
   for (const std::size_t size : layout.chunk)
@@ -48,7 +48,7 @@ std::string worst_state(const Table& table) {
 void add_axes(std::string& out, const Table& table) {
   out += table.axes.empty() ? "Axes: none, the value is a constant\n" : "Axes:\n";
   for (const TableAxis& axis : table.axes) {
-    const Quantity* known = find_quantity(axis.name);
+    const data::Quantity* known = data::find_quantity(axis.name);
     out +=
         fmt::format("  {:<14}{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.name, axis.nodes.front(),
                     axis.nodes.back(), axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(),
@@ -96,7 +96,7 @@ std::string info_text(const TableDescription& description, const std::string& fi
                      interpolation_name(table.interpolation),
                      table.quantile() == 0.5 ? std::string()
                                              : fmt::format(", quantile {:g}", table.quantile()));
-  out += "tau_R_MPa = " + to_text(table.combine) + "\n";
+  out += "tau_R_MPa = " + expr::to_text(table.combine) + "\n";
   for (const auto& [name, value] : table.constants)
     out += fmt::format("  {} = {}\n", name, shortest(value));
   add_drift(out, table);
@@ -131,7 +131,7 @@ std::string info_json(const TableDescription& description, const std::string& fi
                               {"quantity", table.quantity},
                               {"transform", table.log_value ? "log" : "linear"},
                               {"interpolation", interpolation_name(table.interpolation)},
-                              {"combine", to_text(table.combine)},
+                              {"combine", expr::to_text(table.combine)},
                               {"constants", table.constants},
                               {"nodes", table.nodes()},
                               {"value_bytes", 8 * table.nodes()},
@@ -142,7 +142,7 @@ std::string info_json(const TableDescription& description, const std::string& fi
                               {"attributes", attributes.texts}};
   for (const auto& [name, value] : attributes.numbers)
     j["attributes"][name] = value;
-  return json_text(j);
+  return io::json_text(j);
 }
 
-} // namespace frictab
+} // namespace frictab::table

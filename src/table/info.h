@@ -5,9 +5,9 @@
 
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::table {
 
 std::string info_text(const TableDescription& description, const std::string& file);
 std::string info_json(const TableDescription& description, const std::string& file);
 
-} // namespace frictab
+} // namespace frictab::table

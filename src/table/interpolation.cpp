@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -23,4 +23,4 @@ std::optional<Interpolation> find_interpolation(std::string_view name) {
   return static_cast<Interpolation>(at - interpolation_names.begin());
 }
 
-} // namespace frictab
+} // namespace frictab::table

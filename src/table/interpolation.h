@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frictab {
+namespace frictab::table {
 
 enum class Interpolation {
   linear, // in the axes' coordinates (table/frictab_kernel.h)
@@ -18,4 +18,4 @@ inline constexpr Interpolation grid_interpolations[] = {Interpolation::linear,
 const char* interpolation_name(Interpolation interpolation); // "linear", "cubic", "none"
 std::optional<Interpolation> find_interpolation(std::string_view name);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -5,7 +5,7 @@
 // Stands behind it.
 #include "table/frictab_cubic_gradient.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -51,4 +51,4 @@ double interpolate(int axes, const ft_spline_axis* axis, const double* values, c
   FT_BY_AXES(ft_cubic_gradient, u, by_u, outside)
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -6,7 +6,7 @@
 // Stands behind it.
 #include "table/frictab_cubic.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // The value at u, one coordinate per axis. values: as ft_values, of a spline as for ft_cubic_N. Bit
 // d of *outside is set where axis d was clamped (outside may be null). Zero axes: the first value.
@@ -21,4 +21,4 @@ double interpolate(int axes, const ft_axis* axis, const double* values, const do
 double interpolate(int axes, const ft_spline_axis* axis, const double* values, const double* u,
                    double* by_u, unsigned* outside);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -11,7 +11,7 @@
 #include "io/hdf5.h"
 #include "table/interpolation.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct AxisOptions {
   std::optional<std::pair<double, double>> range;
@@ -31,8 +31,8 @@ struct TableOptions {
   std::optional<std::size_t> max_bytes;       // ... or so large, instead of one to a tolerance
   std::map<std::string, AxisOptions> axes;    // by canonical name
   double memory_limit_MiB = 256;              // of values; a larger table stays on disk
-  Hdf5Storage hdf5;
+  io::Hdf5Storage hdf5;
   Place place;
 };
 
-} // namespace frictab
+} // namespace frictab::table

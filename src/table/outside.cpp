@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
-namespace frictab {
+namespace frictab::table {
+
+using expr::Expr;
 
 namespace {
 
@@ -68,7 +70,8 @@ OutsideRule::OutsideRule(const Table& table) : direct_(table.is_direct()), ends_
     constants_.push_back(value);
   }
   const Expr value = substitute(*table.extension, held);
-  law_ = std::make_unique<Program>(substitute(table.combine, {{"value", value}}), row, scalars);
+  law_ =
+      std::make_unique<expr::Program>(substitute(table.combine, {{"value", value}}), row, scalars);
 }
 
 OutsideRule::Answer OutsideRule::prepare(std::span<const double> state, double* row,
@@ -116,4 +119,4 @@ std::optional<double> OutsideRule::gradient(std::span<const double> state,
   return tau;
 }
 
-} // namespace frictab
+} // namespace frictab::table

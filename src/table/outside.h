@@ -10,7 +10,7 @@
 #include "expr/program.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // The range of one axis with what holds on either side of it.
 struct AxisEnds {
@@ -58,8 +58,8 @@ private:
 
   bool direct_;
   std::vector<AxisEnds> ends_;
-  std::unique_ptr<Program> law_; // row: inputs, then the axes as held
+  std::unique_ptr<expr::Program> law_; // row: inputs, then the axes as held
   std::vector<double> constants_;
 };
 
-} // namespace frictab
+} // namespace frictab::table

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::table {
 
 const PlainFormat& plain_format(const std::string& name) {
   const PlainFormat* format = Registry<PlainFormat>::instance().find(name);
@@ -83,7 +83,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
 void write_txt(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
   out << "# " << table.model << ": " << table.quantity << " on a grid, "
-      << interpolation_name(table.interpolation) << "; tau_R_MPa = " << to_text(table.combine)
+      << interpolation_name(table.interpolation) << "; tau_R_MPa = " << expr::to_text(table.combine)
       << '\n';
   for (const auto& [name, value] : table.constants)
     out << "# constant " << name << ' ' << shortest(value) << '\n';
@@ -113,4 +113,4 @@ const Registered<PlainFormat> txt{[] {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::table

@@ -8,7 +8,7 @@
 #include "core/registry.h"
 #include "table/states.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct PlainRequest {
   const Table& table;
@@ -27,4 +27,4 @@ struct PlainFormat {
 // Throws InputError that names the nearest one where there is none of this name.
 const PlainFormat& plain_format(const std::string& name);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -10,7 +10,7 @@
 #include "data/quantity.h"
 #include "table/build.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -33,7 +33,7 @@ double coverage(const StateRange& range, double a, double b, bool log) {
   return (std::min(u(range.high), u(b)) - std::max(u(range.low), u(a))) / (u(b) - u(a));
 }
 
-StateRange default_range(const Quantity& quantity, std::span<const double> values) {
+StateRange default_range(const data::Quantity& quantity, std::span<const double> values) {
   StateRange range = data_range(quantity.name, values);
   if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
     range.low *= 0.5;
@@ -54,15 +54,16 @@ StateRange default_range(const Quantity& quantity, std::span<const double> value
 }
 
 // What an effect brought in: where it was learned, and no further.
-StateRange further_range(const Law& law, const std::string& name, std::span<const double> values) {
+StateRange further_range(const models::Law& law, const std::string& name,
+                         std::span<const double> values) {
   if (const auto levels = law.levels.find(name); levels != law.levels.end())
     return {name, 0, static_cast<double>(levels->second.size() - 1), "levels of the training data"};
   StateRange range = data_range(name, values);
-  widen_one_value(range, meaning_of(name).lowest);
+  widen_one_value(range, data::meaning_of(name).lowest);
   return range;
 }
 
-StateRange asked_range(const Quantity& quantity, const AxisOptions& axis) {
+StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis) {
   const auto [low, high] = *axis.range;
   if (low < quantity.lowest)
     throw InputError(
@@ -74,13 +75,13 @@ StateRange asked_range(const Quantity& quantity, const AxisOptions& axis) {
 
 } // namespace
 
-std::vector<StateRange> state_ranges(const AssembledLaw& law, const Dataset& training,
+std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
                                      const TableOptions& options) {
   std::vector<StateRange> ranges;
-  const InputColumns columns = input_columns(law, law.inputs, training);
+  const calibrate::InputColumns columns = calibrate::input_columns(law, law.inputs, training);
   for (std::size_t i = 0; i < columns.names().size(); ++i) {
     const std::string& name = columns.names()[i];
-    const Quantity* quantity = find_quantity(name);
+    const data::Quantity* quantity = data::find_quantity(name);
     const auto found = options.axes.find(name);
     if (quantity && found != options.axes.end() && found->second.range)
       ranges.push_back(asked_range(*quantity, found->second));
@@ -92,7 +93,7 @@ std::vector<StateRange> state_ranges(const AssembledLaw& law, const Dataset& tra
   return ranges;
 }
 
-std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
+std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* data,
                                      const std::string& file) {
   std::vector<StateRange> ranges;
   for (const std::string& name : table.inputs()) {
@@ -116,4 +117,4 @@ std::vector<StateRange> table_ranges(const Table& table, const Dataset* data,
   return ranges;
 }
 
-} // namespace frictab
+} // namespace frictab::table

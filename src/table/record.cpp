@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -86,4 +86,4 @@ void take_attribute(TableRecord& record, const std::string& name, double number)
   take(record, name, number, number_names);
 }
 
-} // namespace frictab
+} // namespace frictab::table

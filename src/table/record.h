@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace frictab {
+namespace frictab::table {
 
 // Root attributes of a table file by name, each one text or one number.
 struct TableAttributes {
@@ -60,4 +60,4 @@ TableAttributes attributes_of(const TableRecord& record);
 void take_attribute(TableRecord& record, const std::string& name, const std::string& text);
 void take_attribute(TableRecord& record, const std::string& name, double number);
 
-} // namespace frictab
+} // namespace frictab::table

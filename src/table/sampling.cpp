@@ -9,7 +9,7 @@
 #include "data/meaning.h"
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::table {
 
 std::size_t count_nodes(const std::vector<TableAxis>& axes) {
   std::size_t nodes = 1;
@@ -64,8 +64,8 @@ std::string numbered(const std::vector<std::string>& levels) {
 }
 
 // An input that is no canonical state says what it is.
-void describe_further_input(InputRecord& input, const Law& law, const std::string& name) {
-  const Meaning meaning = meaning_of(name);
+void describe_further_input(InputRecord& input, const models::Law& law, const std::string& name) {
+  const data::Meaning meaning = data::meaning_of(name);
   if (meaning.state) return;
   input.unit = meaning.unit;
   input.long_name = meaning.text;
@@ -75,9 +75,9 @@ void describe_further_input(InputRecord& input, const Law& law, const std::strin
 
 } // namespace
 
-Table describe_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+Table describe_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, Interpolation interpolation, bool log_value) {
-  const Model& model = law.model;
+  const models::Model& model = law.model;
   Table table;
   table.model = model.name();
   table.quantity = model.law->quantity;
@@ -104,4 +104,4 @@ Table describe_table(const AssembledLaw& law, const std::vector<StateRange>& ran
   return table;
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -6,7 +6,7 @@
 
 #include "table/grid.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // Nodes of a grid; SIZE_MAX / 16 where they are more.
 std::size_t count_nodes(const std::vector<TableAxis>& axes);
@@ -20,7 +20,7 @@ void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
                   const std::vector<TableAxis>& axes, std::size_t first, std::span<double> values);
 
 // A table without its values.
-Table describe_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+Table describe_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, Interpolation interpolation, bool log_value);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -10,13 +10,13 @@
 #include "core/text.h"
 #include "data/meaning.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
 std::string unit_of(const Table& table, const std::string& name) {
   if (const TableAxis* axis = find_axis(table, name)) return axis->unit;
-  return meaning_of(name).unit;
+  return data::meaning_of(name).unit;
 }
 
 void check_along(const Table& table, const HeldStates& held,
@@ -69,4 +69,4 @@ std::string slice_csv(const Slice& slice) {
   return text;
 }
 
-} // namespace frictab
+} // namespace frictab::table

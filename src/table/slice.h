@@ -3,7 +3,7 @@
 
 #include "table/states.h"
 
-namespace frictab {
+namespace frictab::table {
 
 struct Slice {
   std::string model;
@@ -24,4 +24,4 @@ Slice slice(const Table& table, const HeldStates& held, const std::vector<std::s
 // Inputs in the table's order, then tau_R_MPa; numbers read back to the same bits.
 std::string slice_csv(const Slice& slice);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::vector<double> spline_coefficients(const std::vector<SplineAxis>& axes,
   return c;
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -8,7 +8,7 @@
 
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // How a table file names it: interpolating B-spline in the axes' coordinates, degree 3 (n - 1 on an
 // axis of n < 4 nodes), without a knot at the second and the last node but one (de Boor, A
@@ -37,4 +37,4 @@ void solve_along(const SplineAxis& axis, std::size_t outer, std::size_t inner,
 std::vector<double> spline_coefficients(const std::vector<SplineAxis>& axes,
                                         std::span<const double> values);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "io/number.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -34,7 +34,7 @@ HeldStates held_states(const std::vector<std::string>& texts,
     double value = std::nan("");
     const char* end = text.data() + text.size();
     const bool number =
-        equals != text.npos && scan_number(text.data() + equals + 1, end, '.', value) == end;
+        equals != text.npos && io::scan_number(text.data() + equals + 1, end, '.', value) == end;
     if (!number || !std::isfinite(value))
       throw InputError({}, fmt::format("'{}' is no state", text), "name=number, for example psi=2");
     if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) no_input(name, inputs);
@@ -104,4 +104,4 @@ std::vector<double> evenly_spaced(const Table& table, const std::string& name, s
   return values;
 }
 
-} // namespace frictab
+} // namespace frictab::table

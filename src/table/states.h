@@ -7,7 +7,7 @@
 
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 using HeldStates = std::map<std::string, double>; // by canonical name
 
@@ -34,4 +34,4 @@ const TableAxis* find_axis(const Table& table, const std::string& name);
 // `count` values from end to end of an input's range, evenly in the coordinate of its axis.
 std::vector<double> evenly_spaced(const Table& table, const std::string& name, std::size_t count);
 
-} // namespace frictab
+} // namespace frictab::table

@@ -19,7 +19,7 @@
 #include "table/sampling.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace fs = std::filesystem;
 
@@ -40,8 +40,8 @@ std::uint64_t hash_of(std::span<const double> values) {
 }
 
 // Everything the bytes of the values depend on.
-std::string job_line(const AssembledLaw& law, const Table& table) {
-  std::string text = FRICTAB_VERSION + to_text(law.piece);
+std::string job_line(const models::AssembledLaw& law, const Table& table) {
+  std::string text = FRICTAB_VERSION + expr::to_text(law.piece);
   for (const double parameter : law.model.parameters)
     text += " " + shortest(parameter);
   for (const TableAxis& axis : table.axes) {
@@ -82,7 +82,7 @@ std::string state_at(const Table& table, std::size_t node) {
 
 class Sampler {
 public:
-  Sampler(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+  Sampler(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
           const TableOptions& options)
       : ranges_(ranges), pieces_(law, ranges), place_(options.place) {
     auto axes = fixed_axes(law, ranges, options).value();
@@ -126,7 +126,7 @@ private:
 
 // Chunks whose bytes in the file still have the hash that was listed for them.
 std::vector<char> kept_chunks(const Sampler& sampler, const ChunkList& list,
-                              const StoredValues& stored) {
+                              const io::StoredValues& stored) {
   std::vector<char> kept(sampler.chunks(), 0);
   const std::vector<std::pair<std::size_t, std::uint64_t>> found(list.found().begin(),
                                                                  list.found().end());
@@ -155,19 +155,19 @@ std::string grid_text(const Table& table) {
   return fmt::format("{} nodes: {}", thousands(table.nodes()), join(counts, ", "));
 }
 
-void check_room(const Table& table, const Hdf5Storage& storage, const fs::path& file) {
+void check_room(const Table& table, const io::Hdf5Storage& storage, const fs::path& file) {
   const std::uint64_t values = sizeof(double) * std::uint64_t{table.nodes()};
   const std::uint64_t packed = storage.chunked() ? values : 0; // beside the work file
   const std::uint64_t wanted = values_at + values + packed;
   const std::uint64_t there = bytes_on_disk(beside(file, ".partial"));
-  check_disk_space(file.parent_path(), wanted - std::min(there, wanted),
-                   fmt::format("the table of {} ({})", table.model, grid_text(table)),
-                   "fewer nodes in [table.axes], or another disk with -o DIR");
+  io::check_disk_space(file.parent_path(), wanted - std::min(there, wanted),
+                       fmt::format("the table of {} ({})", table.model, grid_text(table)),
+                       "fewer nodes in [table.axes], or another disk with -o DIR");
 }
 
 } // namespace
 
-bool is_streamed(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+bool is_streamed(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                  const TableOptions& options) {
   const auto axes = fixed_axes(law, ranges, options);
   if (!axes || axes->empty()) return false;
@@ -185,7 +185,7 @@ bool is_streamed(const AssembledLaw& law, const std::vector<StateRange>& ranges,
   return true;
 }
 
-StreamedTable stream_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+StreamedTable stream_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                            const TableOptions& options, const fs::path& file) {
   Sampler sampler(law, ranges, options);
   check_room(sampler.table, options.hdf5, file);
@@ -193,9 +193,9 @@ StreamedTable stream_table(const AssembledLaw& law, const std::vector<StateRange
   const fs::path work = beside(file, ".partial");
   const ChunkList list(beside(file, ".chunks"), job_line(law, sampler.table));
   if (list.found().empty()) fs::remove(work); // of another job
-  const ValuesFile out(work, values_at, sampler.table.nodes());
-  const auto stored =
-      std::make_shared<const StoredValues>(work, work.string(), values_at, sampler.table.nodes());
+  const io::ValuesFile out(work, values_at, sampler.table.nodes());
+  const auto stored = std::make_shared<const io::StoredValues>(work, work.string(), values_at,
+                                                               sampler.table.nodes());
   const std::vector<char> kept = kept_chunks(sampler, list, *stored);
   std::vector<std::size_t> open;
   for (std::size_t chunk = 0; chunk < kept.size(); ++chunk)
@@ -218,16 +218,16 @@ namespace {
 void write_head(const Table& table, const fs::path& file) {
   const fs::path head = beside(file, ".head"), work = beside(file, ".partial");
   {
-    Hdf5Writer out(head, values_at);
+    io::Hdf5Writer out(head, values_at);
     out.reserve("value", table.shape());
     write_description(out, table);
     out.close();
   }
-  if (Hdf5Reader(head, head.string()).raw_offset("value") != values_at)
+  if (io::Hdf5Reader(head, head.string()).raw_offset("value") != values_at)
     throw std::runtime_error("HDF5 puts the values of " + head.string() + " elsewhere");
   const std::uint64_t behind = values_at + sizeof(double) * std::uint64_t{table.nodes()};
   const std::uint64_t end = fs::file_size(head);
-  const ValuesFile out(work, values_at, table.nodes());
+  const io::ValuesFile out(work, values_at, table.nodes());
   std::ifstream in(head, std::ios::binary);
   const auto copy = [&](std::uint64_t from, std::uint64_t to) {
     std::vector<char> bytes(to - from);
@@ -244,13 +244,13 @@ void write_head(const Table& table, const fs::path& file) {
 
 } // namespace
 
-fs::path finish_stream(const Table& table, const Hdf5Storage& storage, const fs::path& file) {
+fs::path finish_stream(const Table& table, const io::Hdf5Storage& storage, const fs::path& file) {
   if (!storage.chunked()) {
     write_head(table, file);
     return beside(file, ".partial");
   }
   const fs::path packed = beside(file, ".packed");
-  Hdf5Writer out(packed);
+  io::Hdf5Writer out(packed);
   Progress progress("packing " + table.model, table.nodes());
   out.dataset(
       "value", table.shape(),
@@ -271,4 +271,4 @@ std::vector<std::string> work_files(const std::string& file_name) {
   return names;
 }
 
-} // namespace frictab
+} // namespace frictab::table

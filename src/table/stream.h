@@ -10,12 +10,12 @@
 #include "table/build.h"
 #include "table/options.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // A linear table whose nodes the job fixes on every axis and whose values take more than
 // options.memory_limit_MiB is streamed. Throws InputError where it is cubic: the coefficients of a
 // spline follow from all values at once.
-bool is_streamed(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+bool is_streamed(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                  const TableOptions& options);
 
 struct StreamedTable {
@@ -29,15 +29,15 @@ struct StreamedTable {
 // kept. The values have the same bytes on any number of threads and however often interrupted.
 // Throws InputError where the disk has no room (before anything is written), where another process
 // writes the same table, or where the law is not finite at a node.
-StreamedTable stream_table(const AssembledLaw& law, const std::vector<StateRange>& ranges,
+StreamedTable stream_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                            const TableOptions& options, const std::filesystem::path& file);
 
 // Makes a complete table file of the work file and the attributes that `table` has by now, and
 // gives its path, to be renamed to `file`.
-std::filesystem::path finish_stream(const Table& table, const Hdf5Storage& storage,
+std::filesystem::path finish_stream(const Table& table, const io::Hdf5Storage& storage,
                                     const std::filesystem::path& file);
 
 // The names, without directory, of all work files of a table file of this name.
 std::vector<std::string> work_files(const std::string& file_name);
 
-} // namespace frictab
+} // namespace frictab::table

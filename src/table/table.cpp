@@ -12,7 +12,10 @@
 #include "table/outside.h"
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::table {
+
+using expr::Expr;
+using expr::Program;
 
 std::vector<double> TableAxis::coordinates() const {
   std::vector<double> u(nodes);
@@ -23,18 +26,19 @@ std::vector<double> TableAxis::coordinates() const {
 }
 
 double TableAxis::per_step() const {
-  return frictab::per_step(coordinates());
+  return table::per_step(coordinates());
 }
 
 std::vector<std::string> Table::inputs() const {
-  std::set<std::string> used = symbols(combine);
+  std::set<std::string> used = expr::symbols(combine);
   for (const TableAxis& axis : axes)
     used.insert(axis.name);
   std::vector<std::string> names;
-  for (const Quantity& known : quantities())
+  for (const data::Quantity& known : data::quantities())
     if (used.count(known.name)) names.push_back(known.name);
   for (const std::string& name : used) // axes that are not canonical (a traced effect's column)
-    if (!find_quantity(name) && name != "value" && !constants.count(name)) names.push_back(name);
+    if (!data::find_quantity(name) && name != "value" && !constants.count(name))
+      names.push_back(name);
   return names;
 }
 
@@ -81,8 +85,8 @@ struct TableFunction::Data {
   std::vector<SplineAxis> splines;
   std::vector<ft_spline_axis> cubic;
   bool is_cubic = false;
-  std::vector<double> value;                  // at the nodes, or coefficients
-  std::shared_ptr<const StoredValues> stored; // instead of `value`
+  std::vector<double> value;                      // at the nodes, or coefficients
+  std::shared_ptr<const io::StoredValues> stored; // instead of `value`
   bool log_value = false;
   std::unique_ptr<OutsideRule> rule;  // where clamping is not all there is to it
   std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
@@ -109,7 +113,7 @@ struct StoredCell {
   ft_axis axis[FT_MAX_AXES];
   double value[1 << FT_MAX_AXES];
 
-  StoredCell(const StoredValues& stored, const std::vector<ft_axis>& grid, const double* u) {
+  StoredCell(const io::StoredValues& stored, const std::vector<ft_axis>& grid, const double* u) {
     std::size_t stride[FT_MAX_AXES], first = 0, size = 1;
     const std::size_t axes = grid.size();
     for (std::size_t d = axes; d-- > 0;) {
@@ -268,4 +272,4 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
   });
 }
 
-} // namespace frictab
+} // namespace frictab::table

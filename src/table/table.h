@@ -16,7 +16,7 @@
 #include "table/interpolation.h"
 #include "table/record.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // What a query beyond one end of an axis gets (table/outside.h).
 enum class Outside {
@@ -56,12 +56,12 @@ struct Table {
   std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value. Empty:
                                // the direct form, whose axes say only over which range it holds
   // Set: the values of a linear table that is too large for memory, and `value` is empty.
-  std::shared_ptr<const StoredValues> stored;
+  std::shared_ptr<const io::StoredValues> stored;
   std::string quantity = "mu"; // mu | tau_R
   bool log_value = false;
   Interpolation interpolation = Interpolation::linear;
-  Expr combine; // tau_R_MPa of "value", state names and constants
-  std::optional<Expr>
+  expr::Expr combine; // tau_R_MPa of "value", state names and constants
+  std::optional<expr::Expr>
       extension; // the law's own "value" (never its logarithm) of axes and constants
   std::map<std::string, double> constants; // of combine and extension
   TableRecord record;
@@ -106,4 +106,4 @@ private:
   std::unique_ptr<Data> data_;
 };
 
-} // namespace frictab
+} // namespace frictab::table

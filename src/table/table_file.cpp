@@ -18,7 +18,7 @@
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::table {
 
 namespace {
 
@@ -37,13 +37,13 @@ std::string part_name(std::size_t part) {
   return part == 0 ? "extension" : fmt::format("extension_{}", part + 1);
 }
 
-void write_extension(Hdf5Writer& out, const std::string& formula) {
+void write_extension(io::Hdf5Writer& out, const std::string& formula) {
   for (std::size_t part = 0; part * attribute_characters < formula.size(); ++part)
     out.attribute("value", part_name(part),
                   formula.substr(part * attribute_characters, attribute_characters));
 }
 
-void write_outside(Hdf5Writer& out, const TableAxis& axis) { // absent: clamp
+void write_outside(io::Hdf5Writer& out, const TableAxis& axis) { // absent: clamp
   if (axis.below != Outside::clamp)
     out.attribute(axis.name, "outside_low", std::string(outside_name(axis.below)));
   if (axis.above != Outside::clamp)
@@ -54,7 +54,7 @@ void write_outside(Hdf5Writer& out, const TableAxis& axis) { // absent: clamp
 
 namespace {
 
-void write_axes(Hdf5Writer& out, const Table& table) {
+void write_axes(io::Hdf5Writer& out, const Table& table) {
   for (const TableAxis& axis : table.axes) {
     const std::size_t size = axis.nodes.size();
     out.dataset(axis.name, {&size, 1}, axis.nodes);
@@ -67,7 +67,7 @@ void write_axes(Hdf5Writer& out, const Table& table) {
   }
 }
 
-void write_attributes(Hdf5Writer& out, const Table& table) {
+void write_attributes(io::Hdf5Writer& out, const Table& table) {
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     out.dimension_scale("value", a, table.axes[a].name);
   out.attribute("value", "quantity", table.quantity);
@@ -76,8 +76,8 @@ void write_attributes(Hdf5Writer& out, const Table& table) {
   out.attribute("value", "interpolation", std::string(interpolation_name(table.interpolation)));
   if (table.interpolation == Interpolation::cubic)
     out.attribute("value", "spline", std::string(spline_name));
-  out.attribute("value", "combine", to_text(table.combine));
-  if (table.extension) write_extension(out, to_text(*table.extension));
+  out.attribute("value", "combine", expr::to_text(table.combine));
+  if (table.extension) write_extension(out, expr::to_text(*table.extension));
   std::vector<std::string> names;
   for (const auto& [name, value] : table.constants) {
     out.attribute("value", name, value);
@@ -100,14 +100,14 @@ TableAttributes root_attributes(const Table& table) {
   return attributes;
 }
 
-void write_description(Hdf5Writer& out, const Table& table) {
+void write_description(io::Hdf5Writer& out, const Table& table) {
   write_axes(out, table);
   write_attributes(out, table);
 }
 
 void write_table(const Table& table, const std::filesystem::path& file,
-                 const Hdf5Storage& storage) {
-  Hdf5Writer out(file);
+                 const io::Hdf5Storage& storage) {
+  io::Hdf5Writer out(file);
   write_axes(out, table);
   if (table.stored)
     out.dataset(
@@ -134,7 +134,7 @@ public:
     return table;
   }
 
-  Hdf5Layout layout() const { return in_.layout("value"); }
+  io::Hdf5Layout layout() const { return in_.layout("value"); }
 
   Table describe() {
     if (!in_.has("value")) {
@@ -228,24 +228,25 @@ private:
   }
 
   // Where they lie, or a copy in a file without a name, gone with its last reader.
-  std::shared_ptr<const StoredValues> stored(std::size_t nodes) {
+  std::shared_ptr<const io::StoredValues> stored(std::size_t nodes) {
     if (const auto offset = in_.raw_offset("value"))
-      return std::make_shared<const StoredValues>(file_, named_, *offset, nodes);
+      return std::make_shared<const io::StoredValues>(file_, named_, *offset, nodes);
     const auto directory = std::filesystem::absolute(file_).parent_path();
-    check_disk_space(directory, nodes * sizeof(double), "unpacking " + named_,
-                     "its values are in chunks, and states are looked up in a copy that is not");
+    io::check_disk_space(
+        directory, nodes * sizeof(double), "unpacking " + named_,
+        "its values are in chunks, and states are looked up in a copy that is not");
     std::string name = (directory / ".frictab-unpacked-XXXXXX").string();
     const int file = ::mkstemp(name.data());
     if (file < 0)
       throw InputError({named_, 0, 0}, "there is no place to unpack it: " + directory.string(),
                        "copy it to a directory that can be written");
     ::close(file);
-    std::shared_ptr<const StoredValues> copy;
+    std::shared_ptr<const io::StoredValues> copy;
     try {
-      const ValuesFile out(name, 0, nodes);
+      const io::ValuesFile out(name, 0, nodes);
       in_.blocks("value", std::size_t{1} << 22,
                  [&](std::size_t first, std::span<const double> part) { out.write(first, part); });
-      copy = std::make_shared<const StoredValues>(name, named_, 0, nodes);
+      copy = std::make_shared<const io::StoredValues>(name, named_, 0, nodes);
     } catch (...) {
       ::unlink(name.c_str());
       throw;
@@ -291,7 +292,7 @@ private:
     if (axis.log && !axis.nodes.empty() && axis.nodes.front() <= 0)
       fault(
           fmt::format("axis '{}' is logarithmic and starts at {}", axis.name, axis.nodes.front()));
-    const Quantity* quantity = find_quantity(axis.name);
+    const data::Quantity* quantity = data::find_quantity(axis.name);
     if (quantity && axis.unit != quantity->unit)
       fault(fmt::format("axis '{}' is in '{}'", axis.name, axis.unit),
             "its unit is " + quantity->unit);
@@ -303,7 +304,7 @@ private:
     std::istringstream words(in_.text_attribute(axis.name, "kinks").value_or(""));
     for (std::string word; words >> word;) {
       double kink = std::nan("");
-      scan_number(word.data(), word.data() + word.size(), '.', kink);
+      io::scan_number(word.data(), word.data() + word.size(), '.', kink);
       if (std::find(axis.nodes.begin(), axis.nodes.end(), kink) == axis.nodes.end())
         fault(fmt::format("axis '{}' has a kink at '{}', where it has no node", axis.name, word),
               "a kink is a node, written so that it reads back to the same bits");
@@ -324,8 +325,8 @@ private:
 
   // A canonical state, or one that an effect brought in: the table says over which range.
   bool is_input(const std::string& name) const {
-    return meaning_of(name).state || (in_.number_attribute("/", "range_low_" + name) &&
-                                      in_.number_attribute("/", "range_high_" + name));
+    return data::meaning_of(name).state || (in_.number_attribute("/", "range_low_" + name) &&
+                                            in_.number_attribute("/", "range_high_" + name));
   }
 
   void read_extension() {
@@ -342,8 +343,8 @@ private:
               "add the law's own formula of 'value', or outside_low and outside_high = clamp");
       return;
     }
-    table_.extension = parse_expr(formula, named_);
-    for (const std::string& name : symbols(*table_.extension)) {
+    table_.extension = expr::parse_expr(formula, named_);
+    for (const std::string& name : expr::symbols(*table_.extension)) {
       if (is_axis(name)) continue;
       if (const auto number = in_.number_attribute("value", name))
         table_.constants[name] = *number;
@@ -357,8 +358,8 @@ private:
   void read_combine() {
     const std::string formula = text("value", "combine", {});
     faults_.throw_if_any();
-    table_.combine = parse_expr(formula, named_);
-    for (const std::string& name : symbols(table_.combine)) {
+    table_.combine = expr::parse_expr(formula, named_);
+    for (const std::string& name : expr::symbols(table_.combine)) {
       if (name == "value" || is_axis(name) || is_input(name)) continue;
       if (const auto number = in_.number_attribute("value", name))
         table_.constants[name] = *number;
@@ -373,7 +374,7 @@ private:
 
   std::filesystem::path file_;
   std::string named_;
-  Hdf5Reader in_;
+  io::Hdf5Reader in_;
   FaultList faults_;
   Table table_;
   std::vector<std::size_t> shape_;
@@ -394,4 +395,4 @@ TableDescription read_description(const std::filesystem::path& file) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::table

@@ -6,7 +6,7 @@
 #include "io/hdf5.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::table {
 
 // The model of a table whose file names none, as in file names and comments.
 inline constexpr const char* foreign_model = "foreign";
@@ -17,10 +17,10 @@ TableAttributes root_attributes(const Table& table);
 // One dimension scale per axis, one dataset `value`; xarray and h5py open it. Values that are
 // stored elsewhere are copied piece by piece.
 void write_table(const Table& table, const std::filesystem::path& file,
-                 const Hdf5Storage& storage = {});
+                 const io::Hdf5Storage& storage = {});
 
 // Everything but the values, into a file that has `value` as its first dataset.
-void write_description(Hdf5Writer& out, const Table& table);
+void write_description(io::Hdf5Writer& out, const Table& table);
 
 // Bytes of values from which on a linear table stays in its file.
 inline constexpr std::size_t most_bytes_in_memory = std::size_t{256} << 20;
@@ -35,9 +35,9 @@ Table read_table(const std::filesystem::path& file, std::size_t in_memory = most
 // The same without values, and how they lie in the file.
 struct TableDescription {
   Table table; // no values
-  Hdf5Layout layout;
+  io::Hdf5Layout layout;
   std::uint64_t file_bytes = 0;
 };
 TableDescription read_description(const std::filesystem::path& file);
 
-} // namespace frictab
+} // namespace frictab::table

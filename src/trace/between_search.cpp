@@ -12,7 +12,7 @@
 #include "trace/noise.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -418,4 +418,4 @@ BetweenResult search_between(const BetweenInput& input) {
   return Between(input).run();
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -23,7 +23,7 @@
 #include "trace/path_search.h"
 #include "trace/test_shapes.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // How far the friction of each test lies from the law: mean of ln(measured / law) over its rows,
 // and the variance of that mean, from means of at most ten parts of the test.
@@ -72,4 +72,4 @@ double p_beside(const TestGains& gains, const Eigen::MatrixXd& known, const Test
 double scatter_between(const Eigen::VectorXd& gain, const Eigen::VectorXd& variance,
                        const Eigen::MatrixXd& known);
 
-} // namespace frictab
+} // namespace frictab::trace

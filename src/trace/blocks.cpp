@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -57,7 +57,7 @@ Eigen::MatrixXd Blocks::experiment_means(const Eigen::MatrixXd& per_block) const
   return means;
 }
 
-Blocks make_blocks(const Dataset& data) {
+Blocks make_blocks(const data::Dataset& data) {
   Blocks blocks;
   blocks.first.push_back(0);
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -73,4 +73,4 @@ Blocks make_blocks(const Dataset& data) {
   return blocks;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -9,7 +9,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 struct Blocks {
   std::vector<std::size_t> first;     // per experiment its first block, then the number of blocks
@@ -29,6 +29,6 @@ struct Blocks {
 
 // At most 40 blocks per experiment, all of about the same number of rows within it; an experiment
 // with fewer rows has a block for each.
-Blocks make_blocks(const Dataset& data);
+Blocks make_blocks(const data::Dataset& data);
 
-} // namespace frictab
+} // namespace frictab::trace

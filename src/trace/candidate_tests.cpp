@@ -9,7 +9,10 @@
 
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using data::Column;
+using data::Dataset;
 
 namespace {
 
@@ -18,7 +21,7 @@ constexpr std::size_t most_rows = 200;   // of a candidate: what is left out cha
 constexpr double varied = 0.02;          // least range of a setting, of its mean
 
 bool is_state(const std::string& name) {
-  return find_quantity(name) != nullptr;
+  return data::find_quantity(name) != nullptr;
 }
 
 bool is_temperature(const std::string& name) {
@@ -223,4 +226,4 @@ CandidateTests candidate_tests(const Dataset& data, std::vector<Setting> setting
   return CandidateTestBuilder(data, std::move(settings)).run();
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -6,7 +6,7 @@
 
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // What a test can be set to: a column that every test holds constant, or the mean of a state (then
 // the state is scaled as a whole, a temperature shifted; twice the speed is half the time).
@@ -22,10 +22,11 @@ inline constexpr double range_widened = 0.1;
 
 // Of those columns, what can be set and was varied: surface expansion, sliding distance and time
 // follow from pressure and speed, the contact's temperature from the tool's.
-std::vector<Setting> settings_of(const Dataset& data, const std::vector<std::string>& columns);
+std::vector<Setting> settings_of(const data::Dataset& data,
+                                 const std::vector<std::string>& columns);
 
 struct CandidateTests {
-  Dataset data;                             // one experiment per candidate
+  data::Dataset data;                       // one experiment per candidate
   std::vector<Setting> settings;            // what they vary
   std::vector<std::vector<std::size_t>> at; // per candidate, which value of each setting
   std::string like;                         // the test that all else is taken from
@@ -34,6 +35,6 @@ struct CandidateTests {
 // All combinations of the settings' values, except those that would take a state beyond the range
 // of the campaign's rows (widened as above). The other settings are those of the test that lies
 // nearest to the middle of the campaign.
-CandidateTests candidate_tests(const Dataset& data, std::vector<Setting> settings);
+CandidateTests candidate_tests(const data::Dataset& data, std::vector<Setting> settings);
 
-} // namespace frictab
+} // namespace frictab::trace

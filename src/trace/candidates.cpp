@@ -12,7 +12,10 @@
 #include "data/derived.h"
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using data::Column;
+using data::Dataset;
 
 namespace {
 
@@ -115,7 +118,7 @@ public:
     find_order();
     for (const Column& column : training_.columns)
       if (allowed(column)) add_recorded(column);
-    for (const DerivedQuantity& quantity : derived_quantities())
+    for (const data::DerivedQuantity& quantity : data::derived_quantities())
       if (possible(quantity)) add_derived(quantity);
     return std::move(found_);
   }
@@ -125,7 +128,7 @@ private:
     std::vector<std::string> known;
     for (const Column& column : training_.columns)
       known.push_back(column.name);
-    for (const DerivedQuantity& quantity : derived_quantities())
+    for (const data::DerivedQuantity& quantity : data::derived_quantities())
       known.push_back(quantity.name);
     FaultList faults;
     const auto check = [&](const std::string& name, const Place& place) {
@@ -161,13 +164,14 @@ private:
   }
 
   bool allowed(const Column& column) {
-    if (is_measured(column.name) || column.name == "origin" || ignored(column.name)) return false;
+    if (data::is_measured(column.name) || column.name == "origin" || ignored(column.name))
+      return false;
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())
         add_column(column.name, {column.name}, false, column.values);
       return false;
     }
-    if (find_derived(symbol_of(column.name))) {
+    if (data::find_derived(effects::symbol_of(column.name))) {
       found_.notes.push_back(column.name + " has the name of a history that frictab computes "
                                            "itself: the column is left out; another name lets it "
                                            "be tried");
@@ -198,15 +202,16 @@ private:
     column.recorded = std::move(recorded);
     column.derived = derived;
     column.values = blocks_.mean(values);
-    column.spread = spread_of(values);
+    column.spread = effects::spread_of(values);
     column.within = varies_within(values, training_);
     column.tested = quantiles_of(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
     const bool orders = name == "test_order" || name == found_.order_column;
     column.between = orders ? declared_wear(name) : !derived && name != "time_s" && name != "s_mm";
-    column.in_law = std::find(inputs_.begin(), inputs_.end(), symbol_of(name)) != inputs_.end();
-    found_.by_symbol[symbol_of(name)] = column.values;
+    column.in_law =
+        std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
+    found_.by_symbol[effects::symbol_of(name)] = column.values;
     if (const auto twin = std::find_if(
             found_.columns.begin(), found_.columns.end(),
             [&](const CandidateColumn& c) { return likeness(c.values, column.values) > the_same; });
@@ -234,19 +239,19 @@ private:
       text.values(static_cast<Index>(b)) = column.values[blocks_.first_row[b]];
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
-    found_.by_symbol[symbol_of(column.name)] = text.values;
+    found_.by_symbol[effects::symbol_of(column.name)] = text.values;
     found_.columns.push_back(std::move(text));
   }
 
-  bool possible(const DerivedQuantity& quantity) const {
+  bool possible(const data::DerivedQuantity& quantity) const {
     if (ignored(quantity.name)) return false;
     return std::all_of(quantity.needs.begin(), quantity.needs.end(), [&](const std::string& need) {
       return need == "tau" || (training_.has(need) && validation_.has(need) && !ignored(need));
     });
   }
 
-  void add_derived(const DerivedQuantity& quantity) {
-    const std::vector<double> values = derive(quantity, training_, predicted_);
+  void add_derived(const data::DerivedQuantity& quantity) {
+    const std::vector<double> values = data::derive(quantity, training_, predicted_);
     if (is_constant(values)) return;
     std::vector<std::string> recorded;
     for (const std::string& need : quantity.needs)
@@ -266,7 +271,7 @@ private:
 // Whether a column may act together with others. Of histories only four may: the others nearly
 // follow these, and each further column multiplies the pairs.
 bool may_act_with_others(const CandidateColumn& column) {
-  const Spread& s = column.spread;
+  const effects::Spread& s = column.spread;
   const bool numbers = s.high - s.low > 0.2 * std::max(std::abs(s.median), 1e-300);
   return (!column.levels.empty() || numbers) &&
          (!column.derived || column.name == "sliding_distance" || column.name == "friction_work" ||
@@ -359,7 +364,7 @@ int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);
   for (const std::size_t c : cause.columns) {
     const CandidateColumn& column = candidates.columns[c];
-    if (column.derived) steps += find_derived(column.name)->continuation.always ? 1 : 2;
+    if (column.derived) steps += data::find_derived(column.name)->continuation.always ? 1 : 2;
   }
   return steps;
 }
@@ -369,4 +374,4 @@ bool constant_in_experiments(const Cause& cause, const Candidates& candidates) {
                       [&](std::size_t c) { return candidates.columns[c].within; });
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -10,7 +10,7 @@
 #include "trace/law_on_blocks.h"
 #include "trace/options.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 struct CandidateColumn {
   std::string name;                  // recorded column or derived quantity
@@ -18,7 +18,7 @@ struct CandidateColumn {
   bool derived = false;
   std::vector<std::string> levels; // of a text column
   Eigen::VectorXd values;          // per block
-  Spread spread;                   // over rows
+  effects::Spread spread;          // over rows
   bool within = false;             // varies within experiments
   std::vector<double> tested;      // where its rows are: quantiles, ascending
   double gap = 0;                  // between the two of them that are furthest apart
@@ -39,8 +39,8 @@ struct Candidates {
 
 // `predicted`: the law's tau_R per row, from which work is integrated (never from measured tau_R).
 // Throws InputError where the options `ignore`, `order` or `tool_distance` name no column.
-Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
-                           std::span<const double> predicted,
+Candidates find_candidates(const data::Dataset& training, const data::Dataset& validation,
+                           const Blocks& blocks, std::span<const double> predicted,
                            const std::vector<std::string>& inputs, const TraceOptions& options);
 
 // What an effect may follow: one column, or two or three of them that act together.
@@ -62,4 +62,4 @@ std::string cause_name(const Cause& cause, const Candidates& candidates);
 int complexity(const Cause& cause, const Candidates& candidates);
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -11,7 +11,9 @@
 #include "trace/projection.h"
 #include "trace/smooth.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using effects::PlacedEffect;
 
 namespace {
 
@@ -167,8 +169,8 @@ Rival rival_of(const Search& search, const Option& option, const NoiseModel& noi
   if (effect.form->penalty) {
     effect.stiffness = option.fit.stiffness;
     std::vector<double> start(option.fit.coefficients.begin(), option.fit.coefficients.end());
-    set_fitted(effect, start);
-  } else if (amplitudes_of(effect) == 1 && !effect.form->categorical)
+    effects::set_fitted(effect, start);
+  } else if (effects::amplitudes_of(effect) == 1 && !effect.form->categorical)
     effect.parameters[0] = std::clamp(option.fit.coefficients(0), -0.5, 0.5);
   effects.push_back(std::move(effect));
   causes.push_back(option.cause);
@@ -201,14 +203,15 @@ const char* smooth_form(const Cause& cause, bool text) {
 PlacedEffect plain_effect(const Search& search, const Cause& cause) {
   const char* form = plain_form(cause, starts_with_text(cause, search.candidates));
   const bool both = search.sensitivities()[on_both].size() > 0;
-  return start_effect(*find_effect(form), cause, search.candidates, sites[both ? on_both : on_mu],
-                      search.tau_scale_MPa);
+  return start_effect(*effects::find_effect(form), cause, search.candidates,
+                      sites[both ? on_both : on_mu], search.tau_scale_MPa);
 }
 
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, ActsOn acts_on) {
+PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
   const Candidates& candidates = search.candidates;
   const char* form = smooth_form(cause, starts_with_text(cause, candidates));
-  return start_effect(*find_effect(form), cause, candidates, acts_on, search.tau_scale_MPa);
+  return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
+                      search.tau_scale_MPa);
 }
 
 std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screened,
@@ -284,7 +287,7 @@ public:
 private:
   void add_closed(const std::vector<GridShape>& shapes, std::size_t site,
                   std::vector<Start>& starts) const {
-    std::map<const EffectForm*, Start> best;
+    std::map<const effects::EffectForm*, Start> best;
     MatrixXd basis(target_.size(), static_cast<Index>(shapes.size()));
     for (std::size_t i = 0; i < shapes.size(); ++i)
       basis.col(static_cast<Index>(i)) =
@@ -315,7 +318,8 @@ private:
     const SmoothFit fit = fit_smooth(target_, option.basis, option.penalty, known_);
     Start start{std::move(option.effect), fit.without - fit.criterion};
     start.effect.stiffness = fit.stiffness;
-    set_fitted(start.effect, std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
+    effects::set_fitted(start.effect,
+                        std::vector<double>(fit.coefficients.begin(), fit.coefficients.end()));
     starts.push_back(std::move(start));
   }
 
@@ -330,7 +334,7 @@ private:
 
 std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
   std::vector<Start> starts = FormStarts(search, winner, index).run();
-  std::map<ActsOn, std::size_t> tried;
+  std::map<effects::ActsOn, std::size_t> tried;
   std::erase_if(starts,
                 [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
   std::vector<Rival> rivals(starts.size());
@@ -349,4 +353,4 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   return rivals;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -3,7 +3,7 @@
 
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Rivals with one more effect than `search.last()`, one per cause, best first, all under one noise
 // model, which was fitted with the leading direction in. Causes are compared by penalised smooths
@@ -20,9 +20,10 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
 inline constexpr double smooth_margin = 3;
 
 // One parameter, or one per level: what is between tests is fitted with at first.
-PlacedEffect plain_effect(const Search& search, const Cause& cause);
+effects::PlacedEffect plain_effect(const Search& search, const Cause& cause);
 
 // The effect with which a cause is compared: a spline, a surface, one factor per level, ...
-PlacedEffect smooth_effect(const Search& search, const Cause& cause, ActsOn acts_on);
+effects::PlacedEffect smooth_effect(const Search& search, const Cause& cause,
+                                    effects::ActsOn acts_on);
 
-} // namespace frictab
+} // namespace frictab::trace

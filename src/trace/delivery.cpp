@@ -13,7 +13,9 @@
 #include "calibrate/metrics.h"
 #include "trace/design.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using calibrate::Difference;
 
 namespace {
 
@@ -69,23 +71,25 @@ private:
     d_.rival = effects == 0 ? d_.baseline : weighted(s_.with_first(effects));
   }
 
-  Metrics errors(const Dataset& data, const Rival& rival) const {
-    return metrics(data.values("tau_R_MPa"), predict(s_.model_of(rival), data), data.first_row,
-                   in_.bootstrap, in_.seed);
+  calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
+    return calibrate::metrics(data.values("tau_R_MPa"),
+                              calibrate::predict(s_.model_of(rival), data), data.first_row,
+                              in_.bootstrap, in_.seed);
   }
 
   bool by_validation() const { return in_.validation.experiments.size() >= enough_validation; }
 
-  std::vector<ErrorSums> on_validation(const Rival& rival) const {
-    return error_sums(in_.validation.values("tau_R_MPa"),
-                      predict(s_.model_of(rival), in_.validation), in_.validation.first_row);
+  std::vector<calibrate::ErrorSums> on_validation(const Rival& rival) const {
+    return calibrate::error_sums(in_.validation.values("tau_R_MPa"),
+                                 calibrate::predict(s_.model_of(rival), in_.validation),
+                                 in_.validation.first_row);
   }
 
   // What `with` gains against `without` on the same tests.
-  Difference gained(const std::vector<ErrorSums>& with,
-                    const std::vector<ErrorSums>& without) const {
-    const LawErrors laws[] = {{"after", with}, {"before", without}};
-    const Comparisons compared = compare(laws, in_.bootstrap, in_.seed);
+  Difference gained(const std::vector<calibrate::ErrorSums>& with,
+                    const std::vector<calibrate::ErrorSums>& without) const {
+    const calibrate::LawErrors laws[] = {{"after", with}, {"before", without}};
+    const calibrate::Comparisons compared = calibrate::compare(laws, in_.bootstrap, in_.seed);
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
   }
 
@@ -113,7 +117,7 @@ private:
   }
 
   double nested_mae(std::size_t effects) const {
-    return metrics(d_.nested.sums[weights_][effects], 0, in_.seed).mae_MPa;
+    return calibrate::metrics(d_.nested.sums[weights_][effects], 0, in_.seed).mae_MPa;
   }
 
   // On the validation tests, or on left-out ones.
@@ -123,13 +127,14 @@ private:
     const auto unseen = [&](const Rival& rival, std::size_t effects) {
       return nested ? d_.nested.sums[weights_][effects] : on_validation(rival);
     };
-    const std::vector<ErrorSums> with = unseen(d_.rival, d_.findings.size()),
-                                 without = unseen(d_.baseline, 0);
-    t_.before = {errors(in_.training, d_.baseline), metrics(without, in_.bootstrap, in_.seed)};
+    const std::vector<calibrate::ErrorSums> with = unseen(d_.rival, d_.findings.size()),
+                                            without = unseen(d_.baseline, 0);
+    t_.before = {errors(in_.training, d_.baseline),
+                 calibrate::metrics(without, in_.bootstrap, in_.seed)};
     t_.after = t_.before;
     t_.improvement = {};
     if (d_.findings.empty()) return;
-    t_.after = {errors(in_.training, d_.rival), metrics(with, in_.bootstrap, in_.seed)};
+    t_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};
     t_.improvement = gained(with, without);
   }
 
@@ -152,8 +157,9 @@ private:
   // weights of the trace may have made worse.
   Difference against_calibrated() const {
     return gained(on_validation(d_.rival),
-                  error_sums(in_.validation.values("tau_R_MPa"),
-                             predict(in_.fit.model, in_.validation), in_.validation.first_row));
+                  calibrate::error_sums(in_.validation.values("tau_R_MPa"),
+                                        calibrate::predict(in_.fit.model, in_.validation),
+                                        in_.validation.first_row));
   }
 
   // The same effects with all rows alike.
@@ -240,11 +246,11 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   const std::size_t tests = in.validation.experiments.size();
   ValidationShift apart;
   if (tests < 3) return apart;
-  const Model model = search.model_of(rival);
+  const models::Model model = search.model_of(rival);
   const auto tau = in.validation.values("tau_R_MPa");
-  const std::vector<double> predicted = predict(model, in.validation);
-  const TestGains seen = test_gains(in.training.values("tau_R_MPa"), predict(model, in.training),
-                                    in.training.first_row);
+  const std::vector<double> predicted = calibrate::predict(model, in.validation);
+  const TestGains seen = test_gains(in.training.values("tau_R_MPa"),
+                                    calibrate::predict(model, in.training), in.training.first_row);
   const TestGains unseen = test_gains(tau, predicted, in.validation.first_row);
   const double free = std::max(1.0, static_cast<double>(seen.gain.size()) - rival.freedom);
   const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
@@ -268,4 +274,4 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   return apart;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -4,7 +4,7 @@
 
 #include "trace/nested_errors.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // The law that is handed on, and the one it is compared with, under the same kind of weights.
 struct Delivery {
@@ -29,4 +29,4 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival);
 
 Lead lead_of(const Search& search, const Cause& cause);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -12,7 +12,7 @@
 #include "trace/candidate_tests.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -37,11 +37,11 @@ public:
   std::size_t shared() const { return rivals_[0]->parameters.size() - last_count(*rivals_[0]); }
 
   // Information of each test about all of them, in that order.
-  std::vector<MatrixXd> information(const Dataset& data) const {
+  std::vector<MatrixXd> information(const data::Dataset& data) const {
     const Blocks blocks = make_blocks(data);
     const Rival& first = *rivals_[0];
-    const Model model = search_.model_of(first);
-    const std::vector<double> tau = predict(model, data);
+    const models::Model model = search_.model_of(first);
+    const std::vector<double> tau = calibrate::predict(model, data);
     MatrixXd columns(static_cast<Index>(blocks.count()), 0);
     for (std::size_t p = 0; p < first.parameters.size(); ++p)
       if (!is_of_last(first, p)) append_columns(columns, slope(model, p, data, tau, blocks));
@@ -61,13 +61,13 @@ public:
 
 private:
   static std::size_t last_count(const Rival& rival) {
-    return fitted_parameters(rival.effects.back()).size();
+    return effects::fitted_parameters(rival.effects.back()).size();
   }
 
   std::size_t last_begin(const Rival& rival) const {
     std::size_t begin = search_.input.fit.model.law->parameters.size();
     for (std::size_t i = 0; i + 1 < rival.effects.size(); ++i)
-      begin += fitted_parameters(rival.effects[i]).size();
+      begin += effects::fitted_parameters(rival.effects[i]).size();
     return begin;
   }
 
@@ -76,23 +76,23 @@ private:
     return p >= begin && p < begin + last_count(rival);
   }
 
-  static VectorXd slope(Model model, std::size_t p, const Dataset& data,
+  static VectorXd slope(models::Model model, std::size_t p, const data::Dataset& data,
                         const std::vector<double>& tau, const Blocks& blocks) {
     const double step = 1e-5 * std::max(std::abs(model.parameters[p]), 1e-3);
     model.parameters[p] += step;
-    std::vector<double> moved = predict(model, data);
+    std::vector<double> moved = calibrate::predict(model, data);
     for (std::size_t i = 0; i < moved.size(); ++i)
       moved[i] = (moved[i] - tau[i]) / step;
     return blocks.mean(moved);
   }
 
-  std::vector<double> of_last_effect(const Rival& rival, const Dataset& data) const {
-    Model model = search_.model_of(rival);
-    std::vector<double> with = predict(model, data);
+  std::vector<double> of_last_effect(const Rival& rival, const data::Dataset& data) const {
+    models::Model model = search_.model_of(rival);
+    std::vector<double> with = calibrate::predict(model, data);
     const std::size_t begin = last_begin(rival);
-    for (std::size_t i = 0; i < amplitudes_of(rival.effects.back()); ++i)
+    for (std::size_t i = 0; i < effects::amplitudes_of(rival.effects.back()); ++i)
       model.parameters[begin + i] = 0;
-    const std::vector<double> without = predict(model, data);
+    const std::vector<double> without = calibrate::predict(model, data);
     for (std::size_t i = 0; i < with.size(); ++i)
       with[i] -= without[i];
     return with;
@@ -321,10 +321,10 @@ Design design_for(const Search& search, const Finding& finding) {
   return rivals.size() > 1 ? design_tests(search, rivals, two_sided) : Design{};
 }
 
-Design design_for_lead(const Search& search, const PlacedEffect& effect, const Cause& cause,
-                       double threshold) {
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold) {
   const Rival& last = search.last();
-  std::vector<PlacedEffect> effects = last.effects;
+  std::vector<effects::PlacedEffect> effects = last.effects;
   std::vector<Cause> causes = last.causes;
   effects.push_back(effect);
   causes.push_back(cause);
@@ -394,4 +394,4 @@ Design design_in_turn(const Search& search, const Cause& cause, double scatter) 
   return design;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

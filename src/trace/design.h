@@ -5,7 +5,7 @@
 
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Three to six tests by D-optimality (Atkinson, Donev, Tobias 2007): of all tests that the rig can
 // run (candidate_tests.h) those, one of them repeated where that is best, for which
@@ -27,12 +27,12 @@ Design design_for(const Search& search, const Finding& finding);
 
 // To show that an effect is there that could not be added: by `threshold` standard errors, and in
 // enough tests for a p-value.
-Design design_for_lead(const Search& search, const PlacedEffect& effect, const Cause& cause,
-                       double threshold);
+Design design_for_lead(const Search& search, const effects::PlacedEffect& effect,
+                       const Cause& cause, double threshold);
 
 // Of a cause that the order of tests explains as well: two values of its column in turn, since
 // whatever drifts over the order has little of that; so many that means over tests with that
 // scatter (relative) tell the two apart. No tests where it is not one column, or cannot be set.
 Design design_in_turn(const Search& search, const Cause& cause, double scatter);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -48,8 +48,12 @@ void add_between(Trace& trace, const Search& search) {
     if (!constant_in_experiments(shape.cause, search.candidates)) continue;
     const VectorXd x = shape.columns.col(0).array() - shape.columns.col(0).mean();
     const double left = (x - q * (q.transpose() * x)).squaredNorm() / x.squaredNorm();
-    Detectable entry{
-        search.candidates.columns[shape.cause.columns[0]].name, "", ActsOn::mu, 0, 0, false};
+    Detectable entry{search.candidates.columns[shape.cause.columns[0]].name,
+                     "",
+                     effects::ActsOn::mu,
+                     0,
+                     0,
+                     false};
     if (left > least_column_left && std::isfinite(trace.smallest_seen)) {
       entry.identifiable = true;
       entry.share = 0.5 * std::log1p(trace.smallest_seen) / std::sqrt(left);
@@ -67,12 +71,14 @@ void add_detectable(Trace& trace, const Search& search, std::uint64_t seed) {
   for (std::size_t s = 0; s < search.causes.size(); ++s) {
     if (search.causes[s].is_joint() || search.shapes[s].empty()) continue;
     const CandidateColumn& column = search.candidates.columns[search.causes[s].columns[0]];
-    Detectable entry{column.name, column.derived ? column.name : "", ActsOn::mu, 0, 0, false};
+    Detectable entry{column.name, column.derived ? column.name : "", effects::ActsOn::mu, 0, 0,
+                     false};
     for (std::size_t d = 0; d < screened.directions.size(); ++d) {
       const Direction& direction = screened.directions[d];
       if (direction.cause != s || direction.site != 0) continue;
       const GridShape& shape = search.shapes[s][direction.shape];
-      if (fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical) continue;
+      if (effects::fitted_parameters(shape.effect).size() > 1 && !shape.effect.form->categorical)
+        continue;
       const double sum = sum_to_detect(screened.scores.col(static_cast<Index>(d)), threshold, seed);
       VectorXd change = shape.direction.cast<double>();
       change.array() -= change.mean();
@@ -89,4 +95,4 @@ void add_detectable(Trace& trace, const Search& search, std::uint64_t seed) {
   add_between(trace, search);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

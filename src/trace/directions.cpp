@@ -6,7 +6,7 @@
 
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -75,21 +75,22 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
   const std::size_t own = campaign.law.parameters.size();
   BlockColumns columns = campaign.candidates.by_symbol;
   columns["everywhere"] = VectorXd::Ones(campaign.measured.size());
-  const auto change = [&](ActsOn acts_on) {
-    PlacedEffect everywhere;
-    everywhere.form = find_effect("linear");
+  const auto change = [&](effects::ActsOn acts_on) {
+    effects::PlacedEffect everywhere;
+    everywhere.form = effects::find_effect("linear");
     everywhere.inputs = {{"everywhere", {}, 0, 1}};
     everywhere.acts_on = acts_on;
     everywhere.parameters = {0, 0, 1}; // 1 + a x, x = 1
-    std::vector<PlacedEffect> effects = rival.effects;
+    std::vector<effects::PlacedEffect> effects = rival.effects;
     effects.push_back(everywhere);
-    const Law law = extended_law(campaign.law, campaign.conventions,
-                                 std::span(rival.parameters).first(own), effects, "sensitivity");
+    const models::Law law =
+        effects::extended_law(campaign.law, campaign.conventions,
+                              std::span(rival.parameters).first(own), effects, "sensitivity");
     const LawOnBlocks on(law, campaign.conventions, columns);
     std::vector<double> at = start_of(law, rival.parameters, own, effects);
     const auto amplitude = static_cast<std::size_t>(
         std::find_if(law.parameters.begin(), law.parameters.end(),
-                     [&](const Parameter& p) {
+                     [&](const models::Parameter& p) {
                        return p.name == "e" + std::to_string(effects.size()) + "_a";
                      }) -
         law.parameters.begin());
@@ -99,14 +100,15 @@ Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, dou
     return VectorXd((up - on.predict(at)) / (2 * step));
   };
   Sensitivities all;
-  all[on_mu] = change(ActsOn::mu);
-  if (has_limit(campaign.law, campaign.conventions)) {
-    all[1] = change(ActsOn::m);
+  all[on_mu] = change(effects::ActsOn::mu);
+  if (effects::has_limit(campaign.law, campaign.conventions)) {
+    all[1] = change(effects::ActsOn::m);
     if (all[1].squaredNorm() < 1e-6 * all[0].squaredNorm()) all[1].resize(0);
   }
-  if (has_own_limit(campaign.law, campaign.conventions)) all[on_both] = change(ActsOn::mu_m);
+  if (effects::has_own_limit(campaign.law, campaign.conventions))
+    all[on_both] = change(effects::ActsOn::mu_m);
   all[2] = VectorXd::Constant(campaign.measured.size(), tau_scale_MPa);
   return all;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

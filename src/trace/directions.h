@@ -4,7 +4,7 @@
 
 #include "trace/rivals.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Directions of what is fitted already: all parameters, and for each effect in the law any form of
 // its quantity (straight lines between seven values). Otherwise the misfit of a chosen form would
@@ -16,4 +16,4 @@ Eigen::MatrixXd fitted_directions(const Campaign& campaign, const Rival& rival,
 // Central differences over +-6 %, so that rows near the limit feel mu as well as the limit.
 Sensitivities sensitivities_of(const Campaign& campaign, const Rival& rival, double tau_scale_MPa);
 
-} // namespace frictab
+} // namespace frictab::trace

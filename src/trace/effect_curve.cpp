@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -16,22 +16,22 @@ constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
 
 // A row of inputs with the first at x; of the others, towards their upper ends.
-std::vector<double> row_at(const PlacedEffect& effect, double x) {
+std::vector<double> row_at(const effects::PlacedEffect& effect, double x) {
   std::vector<double> row{x};
   for (std::size_t i = 1; i < effect.inputs.size(); ++i)
     row.push_back(0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
   return row;
 }
 
-double factor_at(const Program& program, const PlacedEffect& effect, double x) {
-  return program(row_at(effect, x), fitted_values(effect));
+double factor_at(const expr::Program& program, const effects::PlacedEffect& effect, double x) {
+  return program(row_at(effect, x), effects::fitted_values(effect));
 }
 
 // Of the factor at x, from the covariance of its parameters.
-double deviation(const Program& program, const PlacedEffect& effect, double x,
+double deviation(const expr::Program& program, const effects::PlacedEffect& effect, double x,
                  const MatrixXd& covariance) {
   const std::vector<double> row = row_at(effect, x);
-  std::vector<double> at = fitted_values(effect);
+  std::vector<double> at = effects::fitted_values(effect);
   VectorXd slope(static_cast<Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) {
     const double step = 1e-5 * std::max(std::abs(at[p]), 1e-3), kept = at[p];
@@ -50,9 +50,9 @@ double deviation(const Program& program, const PlacedEffect& effect, double x,
 }
 
 // x of a plot: along the first column.
-std::vector<double> plot_positions(const PlacedEffect& effect) {
+std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   std::vector<double> x;
-  const EffectInput& input = effect.inputs[0];
+  const effects::EffectInput& input = effect.inputs[0];
   if (effect.form->categorical) {
     for (std::size_t level = 0; level < input.levels.size(); ++level)
       x.push_back(static_cast<double>(level));
@@ -68,9 +68,9 @@ std::vector<double> plot_positions(const PlacedEffect& effect) {
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t index,
                          std::size_t parameter, const MatrixXd& covariance) {
-  const PlacedEffect& effect = rival.effects[index];
-  const Program program = factor_program(effect);
-  const auto count = static_cast<Index>(fitted_parameters(effect).size());
+  const effects::PlacedEffect& effect = rival.effects[index];
+  const expr::Program program = effects::factor_program(effect);
+  const auto count = static_cast<Index>(effects::fitted_parameters(effect).size());
   const MatrixXd own =
       covariance.block(static_cast<Index>(parameter), static_cast<Index>(parameter), count, count);
   EffectCurve curve;
@@ -84,7 +84,7 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   }
   const VectorXd& sensitivity = sensitivities[site_of(effect)];
   if (effect.form->columns > 1 || sensitivity.size() == 0) return curve;
-  const VectorXd& x = campaign.candidates.by_symbol.at(symbol_of(effect.inputs[0].column));
+  const VectorXd& x = campaign.candidates.by_symbol.at(effects::symbol_of(effect.inputs[0].column));
   const VectorXd residual = campaign.measured - rival.predicted;
   const auto& first = campaign.blocks.first;
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
@@ -105,4 +105,4 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
   return curve;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

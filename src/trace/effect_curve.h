@@ -4,11 +4,11 @@
 #include "trace/rivals.h"
 #include "trace/trace.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // `parameter`: index of the effect's first one among the rival's parameters.
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t effect,
                          std::size_t parameter, const Eigen::MatrixXd& covariance);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -9,7 +9,9 @@
 
 #include <Eigen/Cholesky>
 
-namespace frictab {
+namespace frictab::trace {
+
+using expr::Expr;
 
 namespace {
 
@@ -29,7 +31,7 @@ public:
     std::vector<Expr> operands;
     for (const Expr& operand : e.operands())
       operands.push_back((*this)(operand));
-    const bool smooth = e.op() == Op::minimum && depends(e);
+    const bool smooth = e.op() == expr::Op::minimum && depends(e);
     const Expr result = smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
     done_.emplace(e.id(), result);
     return result;
@@ -37,7 +39,7 @@ public:
 
 private:
   bool depends(const Expr& e) const {
-    const auto used = symbols(e);
+    const auto used = expr::symbols(e);
     return std::any_of(used.begin(), used.end(),
                        [&](const std::string& s) { return parameters_.count(s) > 0; });
   }
@@ -52,24 +54,24 @@ private:
 
 } // namespace
 
-LawOnBlocks::LawOnBlocks(const Law& law, const Conventions& conventions,
+LawOnBlocks::LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
                          const BlockColumns& columns, double smooth_MPa)
     : parameters_(law.parameters) {
-  const auto names = inputs(law, conventions);
-  const auto scalars = parameter_names(law);
-  Expr formula = tau_formula(law, conventions);
+  const auto names = models::inputs(law, conventions);
+  const auto scalars = models::parameter_names(law);
+  Expr formula = models::tau_formula(law, conventions);
   if (smooth_MPa > 0) formula = Smoother(smooth_MPa, scalars)(formula);
-  program_ = std::make_unique<Program>(formula, names, scalars);
+  program_ = std::make_unique<expr::Program>(formula, names, scalars);
   std::vector<const double*> bound;
   for (const std::string& name : names)
     bound.push_back(columns.at(name).data());
   count_ = columns.begin()->second.size();
-  bound_ = std::make_unique<BoundProgram>(*program_, static_cast<std::size_t>(count_), bound);
+  bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(count_), bound);
 }
 
 VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
   VectorXd tau(count_);
-  bound_->sweep(parameters, false, [&](const BoundProgram::Block& block) {
+  bound_->sweep(parameters, false, [&](const expr::BoundProgram::Block& block) {
     std::copy_n(block.value, block.count, tau.data() + block.first);
   });
   return tau;
@@ -78,7 +80,7 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters) const {
 VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jacobian) const {
   VectorXd tau(count_);
   jacobian.setZero(count_, static_cast<Index>(parameters.size()));
-  bound_->sweep(parameters, true, [&](const BoundProgram::Block& block) {
+  bound_->sweep(parameters, true, [&](const expr::BoundProgram::Block& block) {
     std::copy_n(block.value, block.count, tau.data() + block.first);
     for (std::size_t p = 0; p < block.derivative.size(); ++p)
       std::copy_n(block.derivative[p], block.count,
@@ -192,4 +194,4 @@ BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whit
   return BlockSolver(law, measured, whitener, penalty, weight, enough).run(std::move(start));
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -18,7 +18,7 @@
 #include "models/law.h"
 #include "trace/noise.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Block means by symbol: the law's inputs and every candidate column.
 using BlockColumns = std::map<std::string, Eigen::VectorXd>;
@@ -28,17 +28,17 @@ public:
   // smooth_MPa: min(a, b) in the law becomes (a + b - sqrt((a - b)^2 + smooth_MPa^2))/2 where it
   // depends on parameters (0: it stays). With the kink the derivative by a limit is 0 in every row
   // below that limit, and a fit would never move it. `columns` must outlive the object.
-  LawOnBlocks(const Law& law, const Conventions& conventions, const BlockColumns& columns,
-              double smooth_MPa = 0);
+  LawOnBlocks(const models::Law& law, const models::Conventions& conventions,
+              const BlockColumns& columns, double smooth_MPa = 0);
 
-  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const std::vector<models::Parameter>& parameters() const { return parameters_; }
   Eigen::VectorXd predict(std::span<const double> parameters) const;
   Eigen::VectorXd predict(std::span<const double> parameters, Eigen::MatrixXd& jacobian) const;
 
 private:
-  std::vector<Parameter> parameters_;
-  std::unique_ptr<Program> program_;
-  std::unique_ptr<BoundProgram> bound_;
+  std::vector<models::Parameter> parameters_;
+  std::unique_ptr<expr::Program> program_;
+  std::unique_ptr<expr::BoundProgram> bound_;
   Eigen::Index count_;
 };
 
@@ -61,4 +61,4 @@ BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},
                     double enough = 1e-11);
 
-} // namespace frictab
+} // namespace frictab::trace

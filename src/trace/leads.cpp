@@ -14,7 +14,7 @@
 #include "trace/delivery.h"
 #include "trace/design.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -226,4 +226,4 @@ void add_leads(Trace& trace, const Search& search) {
   if (!search.negligible()) add_within_leads(trace, search);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -3,7 +3,7 @@
 
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Causes that the order of tests explains as well, each with the tests that would decide; then,
 // behind the leads that are there already (findings that did not pay): what is left, strongest
@@ -11,4 +11,4 @@ namespace frictab {
 // structures of single quantities, a recorded one before what is computed from it.
 void add_leads(Trace& trace, const Search& search);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::size_t all_alone = 40, many_folds = 20;
 constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
 constexpr double score_freedom = 5; // of Student's t
 
-VectorXd relative_errors(const Dataset& data, const std::vector<double>& predicted) {
+VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& predicted) {
   const auto measured = data.values("tau_R_MPa");
   VectorXd errors(static_cast<Index>(data.experiments.size()));
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -36,8 +36,8 @@ VectorXd relative_errors(const Dataset& data, const std::vector<double>& predict
 
 // Log density per test, but for a constant: Student's t over the test as a whole, so that one test
 // for which a fold's noise model is too sure of itself does not outweigh all others.
-VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const NoiseModel& noise,
-                double usual_rows) {
+VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
+                const NoiseModel& noise, double usual_rows) {
   Blocks blocks = make_blocks(data);
   blocks.usual_rows = usual_rows; // what the noise model's white part belongs to
   const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
@@ -58,11 +58,12 @@ VectorXd scores(const Dataset& data, const std::vector<double>& predicted, const
 
 // Of one fold, for each weighting and number of effects: predictions of the left-out rows.
 struct FoldErrors {
-  std::vector<std::vector<ErrorSums>> sums[2];
+  std::vector<std::vector<calibrate::ErrorSums>> sums[2];
   std::vector<VectorXd> relative[2], score[2];
 };
 
-FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset& left_out) {
+FoldErrors fold_errors(const Search& all, const data::Dataset& training,
+                       const data::Dataset& left_out) {
   const TraceInput& input = all.input;
   const std::size_t most = all.findings.size();
   TraceOptions options = input.options;
@@ -72,9 +73,9 @@ FoldErrors fold_errors(const Search& all, const Dataset& training, const Dataset
   const auto search = search_effects(part, {199, 299, &all.base.noise});
   FoldErrors errors;
   const auto evaluate = [&](const Rival& rival, std::size_t weights) {
-    const std::vector<double> predicted = predict(search->model_of(rival), left_out);
+    const std::vector<double> predicted = calibrate::predict(search->model_of(rival), left_out);
     errors.sums[weights].push_back(
-        error_sums(left_out.values("tau_R_MPa"), predicted, left_out.first_row));
+        calibrate::error_sums(left_out.values("tau_R_MPa"), predicted, left_out.first_row));
     errors.relative[weights].push_back(relative_errors(left_out, predicted));
     errors.score[weights].push_back(
         scores(left_out, predicted, rival.noise, search->blocks.usual_rows));
@@ -136,7 +137,7 @@ NestedErrors nested_errors(const Search& search) {
   const std::size_t most = search.findings.size();
   const std::size_t tests = input.training.experiments.size();
   const std::size_t folds = tests <= all_alone ? tests : many_folds;
-  const auto fold = experiment_folds(tests, folds, input.seed, 0);
+  const auto fold = calibrate::experiment_folds(tests, folds, input.seed, 0);
   std::vector<FoldErrors> parts(folds);
   std::vector<std::vector<std::size_t>> out(folds);
   Progress progress("tracing without some tests", folds);
@@ -150,7 +151,7 @@ NestedErrors nested_errors(const Search& search) {
   NestedErrors all;
   all.folds = folds;
   for (const std::size_t w : {0, 1}) {
-    all.sums[w].assign(most + 1, std::vector<ErrorSums>(tests));
+    all.sums[w].assign(most + 1, std::vector<calibrate::ErrorSums>(tests));
     all.relative[w].assign(most + 1, VectorXd(static_cast<Index>(tests)));
     all.score[w] = all.relative[w];
     for (std::size_t f = 0; f < folds; ++f)
@@ -165,4 +166,4 @@ NestedErrors nested_errors(const Search& search) {
   return all;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -19,13 +19,13 @@
 #include "calibrate/resampling.h"
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Errors on left-out tests, for the law with its first 0, 1, 2, ... effects, each as the search of
 // that fold found them (its last law, where it found fewer).
 struct NestedErrors {
   // [weights: 0 the noise model's, 1 all rows alike][number of effects][test]
-  std::vector<std::vector<ErrorSums>> sums[2];
+  std::vector<std::vector<calibrate::ErrorSums>> sums[2];
   std::vector<Eigen::VectorXd> relative[2]; // mean of |ln(measured / predicted)| over a test's rows
   // Log density of the test's block means under the fold's law and noise model: a shape that is
   // right within tests shows in it, although tests lie high or low as a whole.
@@ -64,4 +64,4 @@ struct NestedErrors {
 // many effects to look at and where to start the noise.
 NestedErrors nested_errors(const Search& all);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -8,7 +8,7 @@
 
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -154,4 +154,4 @@ void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
   apply<float>(columns, directions_f_);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -10,7 +10,7 @@
 
 #include "trace/blocks.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Covariance V of the block means of one experiment, t = predicted shear stress there, x = position
 // in the experiment (-1/2 .. 1/2):
@@ -79,4 +79,4 @@ private:
   Directions<float> directions_f_;
 };
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -10,7 +10,7 @@
 
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -262,4 +262,4 @@ NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier) {
   return NoiseFitter(data, earlier.growth).at_same_length(earlier);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -16,7 +16,7 @@
 
 #include "trace/noise.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // What the noise is fitted to: the residual per block, and what it is the residual of.
 struct NoiseData {
@@ -52,4 +52,4 @@ NoiseFit refine_noise(const NoiseData& data, const NoiseModel& earlier);
 // takes for weights.
 NoiseFit refit_noise_coarsely(const NoiseData& data, const NoiseModel& earlier);
 
-} // namespace frictab
+} // namespace frictab::trace

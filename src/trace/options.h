@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 struct TraceOptions {
   std::vector<std::string> models{"best"}; // best | names | all that were calibrated
@@ -19,4 +19,4 @@ struct TraceOptions {
   Place ignore_place, order_place, tool_distance_place;
 };
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -11,7 +11,7 @@
 
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -243,4 +243,4 @@ void reconsider_order(Search& search) {
   search.move_to(std::move(with_order));
 }
 
-} // namespace frictab
+} // namespace frictab::trace

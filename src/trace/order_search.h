@@ -5,7 +5,7 @@
 #include "trace/order_test.h"
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // The column that the user has declared as the tool's wear: it may follow the order.
 bool is_declared(const Search& search, const Cause& cause);
@@ -40,4 +40,4 @@ bool find_order(Search& search);
 // is taken out for it.
 void reconsider_order(Search& search);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -150,4 +150,4 @@ MatrixXd functions_on_blocks(const MatrixXd& functions, const VectorXd& sensitiv
   return columns;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

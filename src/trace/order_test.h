@@ -10,7 +10,7 @@
 
 #include "trace/noise.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // One score per experiment: how far its friction as a whole lies from the law, in units of its
 // standard deviation under the noise model.
@@ -39,4 +39,4 @@ Eigen::MatrixXd functions_on_blocks(const Eigen::MatrixXd& functions,
                                     const Eigen::VectorXd& sensitivity,
                                     std::span<const std::size_t> first);
 
-} // namespace frictab
+} // namespace frictab::trace

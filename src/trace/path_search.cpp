@@ -14,7 +14,7 @@
 #include "trace/noise.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -290,4 +290,4 @@ PathResult search_path(const PathInput& input) {
   return result;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

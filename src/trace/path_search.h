@@ -16,7 +16,7 @@
 
 #include <Eigen/Core>
 
-namespace frictab {
+namespace frictab::trace {
 
 // One shape of a column, as tests x degrees of freedom (a text column has one less than levels).
 struct PathShape {
@@ -47,4 +47,4 @@ PathResult search_path(const PathInput& input);
 // Log of the upper tail of F(q, free - q) at the partial R^2 of q columns.
 double log_p_of(double r_squared, double q, double free);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -22,15 +22,15 @@ struct FactorRange {
 };
 
 // The first input of numbers: the one that is run through.
-std::size_t running_input(const PlacedEffect& effect) {
+std::size_t running_input(const effects::PlacedEffect& effect) {
   return effect.inputs[0].levels.empty() ? 0 : 1;
 }
 
 // Rows of inputs in which all others are at one of their ends, or levels.
-std::vector<std::vector<double>> corners_of(const PlacedEffect& effect) {
+std::vector<std::vector<double>> corners_of(const effects::PlacedEffect& effect) {
   std::vector<std::vector<double>> rows{{}};
   for (std::size_t i = 0; i < effect.inputs.size(); ++i) {
-    const EffectInput& input = effect.inputs[i];
+    const effects::EffectInput& input = effect.inputs[i];
     std::vector<double> positions = {input.low, input.high};
     if (i == running_input(effect)) positions.pop_back();
     if (!input.levels.empty()) {
@@ -48,18 +48,18 @@ std::vector<std::vector<double>> corners_of(const PlacedEffect& effect) {
   return rows;
 }
 
-FactorRange factor_range(const PlacedEffect& effect, const CandidateColumn& column) {
+FactorRange factor_range(const effects::PlacedEffect& effect, const CandidateColumn& column) {
   FactorRange range;
   if (effect.form->categorical && effect.form->columns == 1) {
-    for (const double a : fitted_values(effect))
+    for (const double a : effects::fitted_values(effect))
       range.largest = std::max(range.largest, std::abs(a));
     return range;
   }
-  const Program program = factor_program(effect);
-  const std::vector<double> at = fitted_values(effect);
+  const expr::Program program = effects::factor_program(effect);
+  const std::vector<double> at = effects::fitted_values(effect);
   const auto corners = corners_of(effect);
   const std::size_t running = running_input(effect);
-  const EffectInput& x = effect.inputs[running];
+  const effects::EffectInput& x = effect.inputs[running];
   constexpr int steps = 32;
   std::vector<double> positions;
   for (int i = 0; i <= steps; ++i)
@@ -87,7 +87,7 @@ FactorRange factor_range(const PlacedEffect& effect, const CandidateColumn& colu
 
 // Two things can fit at the tested values as well as the truth does: large changes that cancel
 // there, and humps between those values. Both cost.
-double implausibility(const PlacedEffect& effect, const CandidateColumn& column) {
+double implausibility(const effects::PlacedEffect& effect, const CandidateColumn& column) {
   const FactorRange range = factor_range(effect, column);
   if (!std::isfinite(range.largest)) return 1e6;
   const double tested = range.tested_high - range.tested_low;
@@ -95,4 +95,4 @@ double implausibility(const PlacedEffect& effect, const CandidateColumn& column)
   return 2 * range.largest * range.largest + 8 * std::clamp(beyond - 0.3, 0.0, 10.0);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

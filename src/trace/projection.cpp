@@ -3,7 +3,7 @@
 
 #include <Eigen/QR>
 
-namespace frictab {
+namespace frictab::trace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -24,4 +24,4 @@ void append_columns(MatrixXd& to, const MatrixXd& more) {
   to.rightCols(more.cols()) = more;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

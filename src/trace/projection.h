@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace frictab {
+namespace frictab::trace {
 
 // An orthonormal basis Q of what the columns span (QR with column pivoting): x - Q (Q' x) is what
 // they leave of x. Columns that are combinations of others, to 1e-7 of their length, are left out.
@@ -13,4 +13,4 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 // Puts the columns of `more` behind those of `to`.
 void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -13,7 +13,9 @@
 #include "trace/plausibility.h"
 #include "trace/shapes.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using effects::PlacedEffect;
 
 namespace {
 
@@ -27,8 +29,8 @@ constexpr double cost_per_complexity = 1.5; // and a step away from a recorded c
 void take_parameters(Rival& rival, std::size_t own) {
   std::size_t next = own;
   for (PlacedEffect& effect : rival.effects) {
-    const std::size_t count = fitted_parameters(effect).size();
-    set_fitted(effect, std::span(rival.parameters).subspan(next, count));
+    const std::size_t count = effects::fitted_parameters(effect).size();
+    effects::set_fitted(effect, std::span(rival.parameters).subspan(next, count));
     next += count;
   }
 }
@@ -46,7 +48,7 @@ VectorXd by_experiment(const VectorXd& whitened, const Whitener& whitener,
 
 bool on_limit(const std::vector<PlacedEffect>& effects) {
   return std::any_of(effects.begin(), effects.end(),
-                     [](const PlacedEffect& e) { return e.acts_on == ActsOn::m; });
+                     [](const PlacedEffect& e) { return e.acts_on == effects::ActsOn::m; });
 }
 
 // Where an effect's parameters stand among those of the law.
@@ -55,7 +57,7 @@ std::vector<Index> first_parameters(const Rival& rival, std::size_t own) {
   auto next = static_cast<Index>(own);
   for (const PlacedEffect& effect : rival.effects) {
     first.push_back(next);
-    next += static_cast<Index>(fitted_parameters(effect).size());
+    next += static_cast<Index>(effects::fitted_parameters(effect).size());
   }
   return first;
 }
@@ -96,7 +98,7 @@ double freedom_of(const Rival& rival, const Whitener& whitener) {
 bool is_possible(const Rival& rival, const Campaign& campaign) {
   return std::isfinite(rival.total) && std::isfinite(rival.freedom) &&
          std::all_of(rival.effects.begin(), rival.effects.end(), [&](const PlacedEffect& effect) {
-           return effect.acts_on == ActsOn::tau ||
+           return effect.acts_on == effects::ActsOn::tau ||
                   factor_on(effect, campaign.candidates.by_symbol).minCoeff() > 0;
          });
 }
@@ -120,21 +122,22 @@ void evaluate(Rival& rival, const Campaign& campaign) {
 
 } // namespace
 
-std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
-                             std::span<const PlacedEffect> effects) {
+std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
+                             std::size_t count, std::span<const PlacedEffect> effects) {
   std::vector<double> start(own.begin(), own.begin() + static_cast<long>(count));
   for (const PlacedEffect& effect : effects)
-    for (const double value : fitted_values(effect))
+    for (const double value : effects::fitted_values(effect))
       start.push_back(value);
   while (start.size() < extended.parameters.size()) // m_limit
     start.push_back(own.size() > count ? own.back() : extended.parameters[start.size()].start);
   return start;
 }
 
-Law bounded_law(const Campaign& campaign, const Rival& rival) {
+models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
   const std::size_t own = campaign.law.parameters.size();
-  Law law = extended_law(campaign.law, campaign.conventions, std::span(rival.parameters).first(own),
-                         rival.effects, campaign.law.name);
+  models::Law law = effects::extended_law(campaign.law, campaign.conventions,
+                                          std::span(rival.parameters).first(own), rival.effects,
+                                          campaign.law.name);
   bound_shapes(law, own, rival.effects, campaign.candidates);
   return law;
 }
@@ -160,7 +163,7 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
   rival.effects = std::move(effects);
   rival.causes = std::move(causes);
   rival.noise = noise;
-  const Law extended = bounded_law(campaign, rival);
+  const models::Law extended = bounded_law(campaign, rival);
   rival.parameters = start_of(extended, parameters, own, rival.effects);
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
@@ -257,7 +260,7 @@ std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t
   MatrixXd times(static_cast<Index>(resamples), experiments);
   std::vector<double> counts(static_cast<std::size_t>(experiments));
   for (Index b = 0; b < times.rows(); ++b) {
-    resample(seed, static_cast<std::size_t>(b), counts);
+    calibrate::resample(seed, static_cast<std::size_t>(b), counts);
     times.row(b) = Eigen::Map<const VectorXd>(counts.data(), experiments);
   }
   std::vector<bool> same;
@@ -271,4 +274,4 @@ std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t
   return same;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -9,12 +9,12 @@
 #include "trace/noise_fit.h"
 #include "trace/screen.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // The campaign as every fit sees it.
 struct Campaign {
-  const Law& law; // the one that is traced
-  Conventions conventions;
+  const models::Law& law; // the one that is traced
+  models::Conventions conventions;
   const Blocks& blocks;
   const Candidates& candidates;
   Eigen::VectorXd measured; // per block; minus what averaging over a block does to the law
@@ -24,10 +24,10 @@ struct Campaign {
 
 // The law with some effects, fitted together with the noise.
 struct Rival {
-  std::vector<PlacedEffect> effects; // parameters fitted
-  std::vector<Cause> causes;         // one per effect
-  std::vector<double> parameters;    // of the extended law
-  std::size_t own = 0;               // of them the law's own, in front
+  std::vector<effects::PlacedEffect> effects; // parameters fitted
+  std::vector<Cause> causes;                  // one per effect
+  std::vector<double> parameters;             // of the extended law
+  std::size_t own = 0;                        // of them the law's own, in front
   NoiseModel noise;
   NoiseModel weights; // of the fit: the noise model, or alike for all rows
   Eigen::VectorXd predicted;
@@ -46,13 +46,14 @@ enum class NoiseSearch { kept, again };
 
 // All parameters by generalised least squares. `parameters`: start of the law's own (and m_limit,
 // if any, behind them).
-Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
+Rival fit_rival(const Campaign& campaign, std::vector<effects::PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, NoiseSearch search);
 
 // `rival` with more effects, or with one changed: its own parameters as the start.
-Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
-                std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search);
+Rival fit_rival(const Campaign& campaign, const Rival& from,
+                std::vector<effects::PlacedEffect> effects, std::vector<Cause> causes,
+                const NoiseModel& noise, NoiseSearch search);
 
 // Noise of a residual that has changed, from an earlier fit.
 NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
@@ -72,18 +73,18 @@ Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weig
 NoiseModel rows_alike(const NoiseModel& noise);
 
 // Index in `sites` (screen.h) of where the effect acts.
-std::size_t site_of(const PlacedEffect& effect);
+std::size_t site_of(const effects::PlacedEffect& effect);
 
 // Values to start from of the law with effects: the law's `count` own, each effect's, and behind
 // them m_limit, which is the last of `own` where that has more than `count`.
-std::vector<double> start_of(const Law& extended, std::span<const double> own, std::size_t count,
-                             std::span<const PlacedEffect> effects);
+std::vector<double> start_of(const models::Law& extended, std::span<const double> own,
+                             std::size_t count, std::span<const effects::PlacedEffect> effects);
 
 // Bound to its columns; shapes bounded by what the data can tell.
-Law bounded_law(const Campaign& campaign, const Rival& rival);
+models::Law bounded_law(const Campaign& campaign, const Rival& rival);
 
 // Which rivals these experiments cannot tell from the first (Vuong 1989, by resampling whole
 // experiments): not worse with 95 %, or within 2 of its log likelihood.
 std::vector<bool> not_told_apart(const std::vector<Rival>& rivals, std::uint64_t seed);
 
-} // namespace frictab
+} // namespace frictab::trace

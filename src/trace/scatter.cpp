@@ -11,7 +11,7 @@
 #include "trace/noise_fit.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 // Mean square of the measured rows about a straight line through each block: the noise that block
 // means have averaged away.
-double within_blocks(const Dataset& training, const Blocks& blocks) {
+double within_blocks(const data::Dataset& training, const Blocks& blocks) {
   const auto tau = training.values("tau_R_MPa");
   double sum = 0;
   for (std::size_t b = 0; b < blocks.count(); ++b) {
@@ -63,8 +63,8 @@ double modelled_variance(const Search& search, const Rival& last) {
 }
 
 void add_floor(Trace& trace, const Search& search, const Rival& last) {
-  const Dataset& training = search.input.training;
-  const Metrics& after = trace.after.training;
+  const data::Dataset& training = search.input.training;
+  const calibrate::Metrics& after = trace.after.training;
   // (Of few experiments the likelihood may take any scatter for possible; what is left, with the
   // fitted parameters' share, is more than the noise.)
   const double experiments = static_cast<double>(training.experiments.size());
@@ -85,10 +85,10 @@ void add_floor(Trace& trace, const Search& search, const Rival& last) {
 struct Repeats {
   double scatter = 0, degrees = 0;
 };
-Repeats scatter_of_repeats(const Dataset& data, const VectorXd& gain) {
+Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
   Repeats repeats;
   double sum = 0;
-  for (const auto& group : replicate_groups(data)) {
+  for (const auto& group : calibrate::replicate_groups(data)) {
     double mean = 0;
     for (const std::size_t e : group)
       mean += gain(static_cast<Index>(e)) / static_cast<double>(group.size());
@@ -104,9 +104,10 @@ Repeats scatter_of_repeats(const Dataset& data, const VectorXd& gain) {
 
 void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   add_floor(trace, search, last);
-  const Dataset& training = search.input.training;
-  const TestGains gains = test_gains(training.values("tau_R_MPa"),
-                                     predict(search.model_of(last), training), training.first_row);
+  const data::Dataset& training = search.input.training;
+  const TestGains gains =
+      test_gains(training.values("tau_R_MPa"), calibrate::predict(search.model_of(last), training),
+                 training.first_row);
   MatrixXd directions = last.jacobian;
   append_columns(directions, search.campaign().nuisance);
   const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa);
@@ -136,4 +137,4 @@ void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   trace.scatter_at_least = share / std::sqrt(gsl_cdf_fdist_Pinv(0.95, degrees, repeats.degrees));
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -3,7 +3,7 @@
 
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Fills noise_floor, scatter_between, its interval and lower bound, and repeatability where tests
 // were repeated. The floor is the RMSE that the noise model expects of an exact law, and the MAE
@@ -11,4 +11,4 @@ namespace frictab {
 // missing.
 void add_scatter(Trace& trace, const Search& search, const Rival& last);
 
-} // namespace frictab
+} // namespace frictab::trace

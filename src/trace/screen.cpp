@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -262,4 +262,4 @@ ScreenResult screen(const ScreenInput& input) {
   return result;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

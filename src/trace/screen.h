@@ -21,12 +21,13 @@
 #include "trace/noise.h"
 #include "trace/shapes.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // The sites of a law: the parts of it that an effect may change (PlacedEffect::acts_on), and whose
 // index in this list stands for them below. mu and the limit together are a site only where a law
 // has a limit of its own: what lubricates worse does so before and behind saturation.
-inline constexpr std::array<ActsOn, 4> sites = {ActsOn::mu, ActsOn::m, ActsOn::tau, ActsOn::mu_m};
+inline constexpr std::array<effects::ActsOn, 4> sites = {
+    effects::ActsOn::mu, effects::ActsOn::m, effects::ActsOn::tau, effects::ActsOn::mu_m};
 inline constexpr std::size_t on_mu = 0, on_both = 3;
 
 // What tau_R changes, per block, where an effect's factor changes by 1, at each site.
@@ -74,4 +75,4 @@ struct ScreenInput {
 
 ScreenResult screen(const ScreenInput& input);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -13,7 +13,10 @@
 #include "trace/noise_fit.h"
 #include "trace/projection.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using expr::Expr;
+using models::Model;
 
 namespace {
 
@@ -23,8 +26,8 @@ using Eigen::VectorXd;
 
 constexpr double negligible_share = 1e-4; // of tau_R: the residual of a law that is exact
 
-bool is_trained(const Law& law) {
-  return law.calibrated == Calibrated::train;
+bool is_trained(const models::Law& law) {
+  return law.calibrated == models::Calibrated::train;
 }
 
 // A trained law (a network) could have absorbed much that its one parameter cannot show: quadratic
@@ -53,26 +56,26 @@ MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockC
 
 // A trained law is a large formula of which only the scale is fitted here: its piece becomes a
 // column, so that a fit costs what it costs for any other law.
-Law with_piece_as_column(const Model& model, const Blocks& blocks, const Dataset& data,
-                         BlockColumns& columns) {
-  const Law& law = *model.law;
-  const Formula formula = law.build(model.conventions);
-  const std::vector<std::string> names = inputs(law, model.conventions);
-  const Program piece(formula.value, names, parameter_names(law));
+models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
+                                 const data::Dataset& data, BlockColumns& columns) {
+  const models::Law& law = *model.law;
+  const models::Formula formula = law.build(model.conventions);
+  const std::vector<std::string> names = models::inputs(law, model.conventions);
+  const expr::Program piece(formula.value, names, models::parameter_names(law));
   std::vector<const double*> rows;
   for (const std::string& name : names)
     rows.push_back(data.values(name).data());
   std::vector<double> value(data.rows());
   piece.evaluate(data.rows(), rows, std::vector<double>(law.parameters.size(), 1.0), value.data());
   columns["trained_piece"] = blocks.mean(value);
-  Law surrogate = law;
-  const Formula with{Expr::symbol(law.parameters.front().name) * Expr::symbol("trained_piece"),
-                     formula.combine};
-  surrogate.build = [with](const Conventions&) { return with; };
+  models::Law surrogate = law;
+  const models::Formula with{
+      Expr::symbol(law.parameters.front().name) * Expr::symbol("trained_piece"), formula.combine};
+  surrogate.build = [with](const models::Conventions&) { return with; };
   return surrogate;
 }
 
-std::size_t in_rows(const Dataset& data, std::size_t experiment) {
+std::size_t in_rows(const data::Dataset& data, std::size_t experiment) {
   return data.first_row[experiment + 1] - data.first_row[experiment];
 }
 
@@ -91,9 +94,9 @@ Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort
 
 void Search::make_candidates() {
   const Model& model = input.fit.model;
-  candidates =
-      find_candidates(input.training, input.validation, blocks, predict(model, input.training),
-                      inputs(*model.law, model.conventions), input.options);
+  candidates = find_candidates(input.training, input.validation, blocks,
+                               calibrate::predict(model, input.training),
+                               models::inputs(*model.law, model.conventions), input.options);
   order.column = candidates.order_column;
   causes = all_causes(candidates);
   shapes.resize(causes.size());
@@ -101,7 +104,7 @@ void Search::make_candidates() {
     if (causes[c].is_joint() || !constant_in_experiments(causes[c], candidates))
       shapes[c] = shapes_of(causes[c], candidates);
   });
-  test_shapes = frictab::test_shapes(candidates, blocks);
+  test_shapes = trace::test_shapes(candidates, blocks);
 }
 
 void Search::make_campaign() {
@@ -120,7 +123,7 @@ void Search::make_campaign() {
   // that difference is taken off the measured means, once, as the calibrated law has it.
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
   campaign_->measured -=
-      blocks.mean(predict(model, input.training)) - law.predict(model.parameters);
+      blocks.mean(calibrate::predict(model, input.training)) - law.predict(model.parameters);
   tau_scale_MPa = campaign_->measured.cwiseAbs().mean();
 }
 
@@ -130,8 +133,8 @@ void Search::fit_base() {
   MatrixXd jacobian;
   const VectorXd predicted = law.predict(model.parameters, jacobian);
   if (is_trained(*model.law))
-    trained_ =
-        trained_directions(inputs(*model.law, model.conventions), candidates.by_symbol, predicted);
+    trained_ = trained_directions(models::inputs(*model.law, model.conventions),
+                                  candidates.by_symbol, predicted);
   const VectorXd residual = campaign_->measured - predicted;
   const NoiseData data{residual, predicted, blocks, jacobian, trained_};
   const NoiseModel noise = effort.earlier ? *effort.earlier : fit_noise(data).noise;
@@ -163,7 +166,7 @@ void Search::make_gains() {
                      fit.parameters, {}, weight);
   Model plain = model;
   plain.parameters = fit.parameters;
-  gains = test_gains(input.training.values("tau_R_MPa"), predict(plain, input.training),
+  gains = test_gains(input.training.values("tau_R_MPa"), calibrate::predict(plain, input.training),
                      input.training.first_row);
   MatrixXd directions = fit.jacobian;
   append_columns(directions, trained_);
@@ -173,7 +176,7 @@ void Search::make_gains() {
 
 MatrixXd Search::known_between() const {
   MatrixXd known = law_between_;
-  for (const PlacedEffect& effect : last_.effects) {
+  for (const effects::PlacedEffect& effect : last_.effects) {
     const VectorXd factor = factor_on(effect, candidates.by_symbol);
     append_columns(known, blocks.experiment_means(factor.array().max(1e-3).log().matrix()));
   }
@@ -186,10 +189,10 @@ MatrixXd Search::known_between() const {
 Model Search::model_of(const Rival& rival) const {
   Model model;
   model.conventions = input.fit.model.conventions;
-  const Law& law = *input.fit.model.law;
-  model.law = unregistered_law(
-      extended_law(law, model.conventions, std::span(rival.parameters).first(law.parameters.size()),
-                   rival.effects, traced_name(law.name)));
+  const models::Law& law = *input.fit.model.law;
+  model.law = models::unregistered_law(effects::extended_law(
+      law, model.conventions, std::span(rival.parameters).first(law.parameters.size()),
+      rival.effects, models::traced_name(law.name)));
   model.parameters = rival.parameters;
   return model;
 }
@@ -274,4 +277,4 @@ BetweenResult search_between_tests(const Search& search) {
                          search.family_alpha(), search.effort.permutations, search.input.seed});
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -13,7 +13,7 @@
 #include "trace/rivals.h"
 #include "trace/trace.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // One effect that the search added, with what it had to compete with.
 struct Finding {
@@ -63,7 +63,7 @@ public:
   // Directions that a trained law (a network) could have absorbed; no columns for other laws.
   const Eigen::MatrixXd& trained() const { return trained_; }
   // A rival as a model like any other: what tables, routines and predict() take.
-  Model model_of(const Rival& rival) const;
+  models::Model model_of(const Rival& rival) const;
 
   // Per test, what the parameters of the law, the effects in it and the order of tests explain of
   // the logarithm of its gain.
@@ -103,7 +103,7 @@ private:
   void fit_base();
   void make_gains();
 
-  Law surrogate_;           // of a trained law: what the training found, as a column
+  models::Law surrogate_;   // of a trained law: what the training found, as a column
   Eigen::MatrixXd trained_; // what a trained law could have absorbed
   std::unique_ptr<Campaign> campaign_;
   Rival last_; // with all effects so far
@@ -128,4 +128,4 @@ BetweenResult search_between_tests(const Search& search);
 // The whole search: `last` is the law with everything that was found.
 std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});
 
-} // namespace frictab
+} // namespace frictab::trace

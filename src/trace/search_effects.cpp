@@ -7,7 +7,7 @@
 #include "trace/choose_effect.h"
 #include "trace/order_search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -57,7 +57,7 @@ private:
   }
 
   void add_between(const BetweenResult& result) {
-    std::vector<PlacedEffect> effects = s_.last().effects;
+    std::vector<effects::PlacedEffect> effects = s_.last().effects;
     std::vector<Cause> causes = s_.last().causes;
     const std::size_t before = effects.size();
     for (const BetweenFinding& finding : result.found) {
@@ -86,7 +86,7 @@ private:
     for (const Cause& cause : found.as_good) {
       if (finding.others.size() >= most_alternatives) break;
       Rival other = finding.rival;
-      std::vector<PlacedEffect> effects = other.effects;
+      std::vector<effects::PlacedEffect> effects = other.effects;
       effects.back() = plain_effect(s_, cause);
       std::vector<Cause> causes = other.causes;
       causes.back() = cause;
@@ -179,4 +179,4 @@ std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& ef
   return search;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -6,7 +6,9 @@
 
 #include "data/quantity.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using effects::PlacedEffect;
 
 namespace {
 
@@ -16,18 +18,18 @@ using Eigen::VectorXd;
 
 // A form with a position and a width (a hump, a step) has structure of that width there.
 bool is_local(const PlacedEffect& effect) {
-  const auto fitted = fitted_parameters(effect);
-  const std::size_t amplitudes = amplitudes_of(effect);
+  const auto fitted = effects::fitted_parameters(effect);
+  const std::size_t amplitudes = effects::amplitudes_of(effect);
   const auto has = [&](bool width) {
     return std::any_of(fitted.begin() + static_cast<long>(amplitudes), fitted.end(),
-                       [&](const Parameter& p) { return (p.lower > 0) == width; });
+                       [&](const models::Parameter& p) { return (p.lower > 0) == width; });
   };
   return fitted.size() > amplitudes + 1 && has(true) && has(false);
 }
 
 // In the order in which the form takes them: text before numbers; the sliding of a recovery is what
 // grows within a test, its pause stands beside the test.
-std::vector<const CandidateColumn*> columns_of(const EffectForm& form, const Cause& cause,
+std::vector<const CandidateColumn*> columns_of(const effects::EffectForm& form, const Cause& cause,
                                                const Candidates& candidates) {
   std::vector<const CandidateColumn*> columns;
   for (const std::size_t c : cause.columns)
@@ -45,14 +47,15 @@ double gap_of(const std::string& column, const Candidates& candidates) {
 
 } // namespace
 
-PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Candidates& candidates,
-                          ActsOn acts_on, double tau_scale_MPa) {
+PlacedEffect start_effect(const effects::EffectForm& form, const Cause& cause,
+                          const Candidates& candidates, effects::ActsOn acts_on,
+                          double tau_scale_MPa) {
   PlacedEffect effect;
   effect.form = &form;
   effect.acts_on = acts_on;
   effect.tau_scale_MPa = tau_scale_MPa;
   effect.pressure_MPa = candidates.lowest_pressure_MPa;
-  std::vector<Spread> spreads;
+  std::vector<effects::Spread> spreads;
   std::vector<std::span<const double>> tested;
   for (const CandidateColumn* column : columns_of(form, cause, candidates)) {
     effect.inputs.push_back(
@@ -60,11 +63,11 @@ PlacedEffect start_effect(const EffectForm& form, const Cause& cause, const Cand
     spreads.push_back(column->spread);
     tested.emplace_back(column->tested);
   }
-  set_knots(effect, tested);
+  effects::set_knots(effect, tested);
   if (form.parameters_of)
-    effect.parameters.assign(parameters_of(effect).size(), 0.0);
+    effect.parameters.assign(effects::parameters_of(effect).size(), 0.0);
   else
-    effect.parameters = start_values(form, spreads);
+    effect.parameters = effects::start_values(form, spreads);
   return effect;
 }
 
@@ -77,7 +80,7 @@ bool is_along(const std::string& name) {
 }
 
 // A form that needs positive values, or degrees, is tried where it has a meaning.
-bool has_meaning(const EffectForm& form, const CandidateColumn& x) {
+bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
   if (form.name == "arrhenius")
     return x.name.find("_C") != std::string::npos || x.name.find("T_") != std::string::npos;
   if (form.name == "power" || form.name == "logarithmic")
@@ -94,15 +97,15 @@ bool is_recovery(const CandidateColumn& slid, const CandidateColumn& pause) {
   const bool slides = slid.name == "s_mm" || slid.name == "sliding_distance";
   const auto is_time = [&](const char* word) { return pause.name.find(word) != std::string::npos; };
   return slides && !pause.within && !pause.derived && pause.spread.minimum >= 0 &&
-         ((pause.name.ends_with("_s") && !find_quantity(pause.name)) || is_time("pause") ||
+         ((pause.name.ends_with("_s") && !data::find_quantity(pause.name)) || is_time("pause") ||
           is_time("dwell") || is_time("wait"));
 }
 
 // Structure between values that were never tested.
 bool too_narrow(const PlacedEffect& effect, double gap) {
   if (!is_local(effect)) return false;
-  const auto all = parameters_of(effect);
-  for (std::size_t p = amplitudes_of(effect); p < all.size(); ++p)
+  const auto all = effects::parameters_of(effect);
+  for (std::size_t p = effects::amplitudes_of(effect); p < all.size(); ++p)
     if (all[p].lower > 0 && effect.parameters[p] < 0.5 * gap) return true;
   return false;
 }
@@ -110,7 +113,8 @@ bool too_narrow(const PlacedEffect& effect, double gap) {
 // One direction per level against the others; of a pair, times the number behind it.
 std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candidates) {
   const CandidateColumn& x = candidates.columns[cause.columns[0]];
-  const EffectForm& form = *find_effect(cause.is_joint() ? "category_slope" : "category");
+  const effects::EffectForm& form =
+      *effects::find_effect(cause.is_joint() ? "category_slope" : "category");
   VectorXd times = VectorXd::Ones(x.values.size());
   if (cause.is_joint()) {
     const CandidateColumn& number = candidates.columns[cause.columns[1]];
@@ -120,7 +124,7 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
   for (std::size_t level = 0; level < x.levels.size(); ++level) {
     if (x.levels.size() == 2 && level == 1) break; // the mirror image of the first
     const VectorXd is = (x.values.array() == static_cast<double>(level)).cast<double>();
-    shapes.push_back({start_effect(form, cause, candidates, ActsOn::mu, 1),
+    shapes.push_back({start_effect(form, cause, candidates, effects::ActsOn::mu, 1),
                       is.cwiseProduct(times).cast<float>()});
   }
   return shapes;
@@ -146,8 +150,8 @@ void keep_different(std::vector<GridShape>& shapes) {
 
 std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColumns& columns) {
   std::vector<const double*> data;
-  for (const EffectInput& input : effect.inputs)
-    data.push_back(columns.at(symbol_of(input.column)).data());
+  for (const effects::EffectInput& input : effect.inputs)
+    data.push_back(columns.at(effects::symbol_of(input.column)).data());
   return data;
 }
 
@@ -155,25 +159,25 @@ std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColu
 
 MatrixXd roughness_of(const PlacedEffect& effect) {
   const std::vector<double> rows = effect.form->penalty(effect);
-  const auto size = static_cast<Index>(amplitudes_of(effect));
+  const auto size = static_cast<Index>(effects::amplitudes_of(effect));
   return Eigen::Map<const MatrixXd>(rows.data(), size, size); // symmetric
 }
 
 VectorXd factor_on(const PlacedEffect& effect, const BlockColumns& columns) {
   const std::vector<const double*> data = inputs_on(effect, columns);
   VectorXd factor(columns.begin()->second.size());
-  factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
-                                  fitted_values(effect), factor.data());
+  effects::factor_program(effect).evaluate(static_cast<std::size_t>(factor.size()), data,
+                                           effects::fitted_values(effect), factor.data());
   return factor;
 }
 
 MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns) {
-  const Program program = factor_program(effect);
+  const expr::Program program = effects::factor_program(effect);
   const std::vector<const double*> data = inputs_on(effect, columns);
-  const Index count = columns.at(symbol_of(effect.inputs[0].column)).size();
-  MatrixXd basis(count, static_cast<Index>(amplitudes_of(effect)));
-  BoundProgram(program, static_cast<std::size_t>(count), data)
-      .sweep(fitted_values(effect), true, [&](const BoundProgram::Block& block) {
+  const Index count = columns.at(effects::symbol_of(effect.inputs[0].column)).size();
+  MatrixXd basis(count, static_cast<Index>(effects::amplitudes_of(effect)));
+  expr::BoundProgram(program, static_cast<std::size_t>(count), data)
+      .sweep(effects::fitted_values(effect), true, [&](const expr::BoundProgram::Block& block) {
         for (Index a = 0; a < basis.cols(); ++a)
           for (std::size_t i = 0; i < block.count; ++i)
             basis(static_cast<Index>(block.first + i), a) = block.derivative[a][i];
@@ -181,7 +185,7 @@ MatrixXd amplitude_basis(const PlacedEffect& effect, const BlockColumns& columns
   return basis;
 }
 
-bool form_fits(const EffectForm& form, const Cause& cause, const Candidates& candidates) {
+bool form_fits(const effects::EffectForm& form, const Cause& cause, const Candidates& candidates) {
   const auto columns = columns_of(form, cause, candidates);
   if (form.columns != columns.size() || form.categorical == columns[0]->levels.empty())
     return false;
@@ -206,13 +210,13 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
   const CandidateColumn& x = candidates.columns[cause.columns[0]];
   if (!x.levels.empty()) return level_shapes(cause, candidates);
   std::vector<GridShape> shapes;
-  for (const EffectForm& form : all_effects()) {
+  for (const effects::EffectForm& form : effects::all_effects()) {
     if (form.parameters_of || !form_fits(form, cause, candidates)) continue;
     if (form.name == "threshold2" && !both_move(cause, candidates)) continue;
-    PlacedEffect effect = start_effect(form, cause, candidates, ActsOn::mu, 1);
+    PlacedEffect effect = start_effect(form, cause, candidates, effects::ActsOn::mu, 1);
     std::vector<std::vector<double>> grid;
     if (form.grid) {
-      std::vector<Spread> spreads;
+      std::vector<effects::Spread> spreads;
       for (const CandidateColumn* column : columns_of(form, cause, candidates))
         spreads.push_back(column->spread);
       grid = form.grid(spreads);
@@ -229,16 +233,16 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
   return shapes;
 }
 
-void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
+void bound_shapes(models::Law& extended, std::size_t own, std::span<const PlacedEffect> effects,
                   const Candidates& candidates) {
   std::size_t next = own;
   for (const PlacedEffect& effect : effects) {
-    const std::vector<Parameter> fitted = fitted_parameters(effect);
-    for (std::size_t p = amplitudes_of(effect); p < fitted.size(); ++p) {
-      const EffectInput* of = input_of(fitted[p], effect);
+    const std::vector<models::Parameter> fitted = effects::fitted_parameters(effect);
+    for (std::size_t p = effects::amplitudes_of(effect); p < fitted.size(); ++p) {
+      const effects::EffectInput* of = effects::input_of(fitted[p], effect);
       if (!of) continue; // the form's own bounds
-      const EffectInput& input = *of;
-      Parameter& parameter = extended.parameters[next + p];
+      const effects::EffectInput& input = *of;
+      models::Parameter& parameter = extended.parameters[next + p];
       const double span = input.high - input.low;
       const double gap = is_local(effect) ? 0.5 * gap_of(input.column, candidates) : 0;
       const bool width = parameter.lower > 0;
@@ -250,4 +254,4 @@ void bound_shapes(Law& extended, std::size_t own, std::span<const PlacedEffect> 
   }
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -100,4 +100,4 @@ SmoothFit fit_smooth(const VectorXd& residual, const MatrixXd& basis, const Matr
   return fit;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

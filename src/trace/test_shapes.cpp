@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::vector<TestShape> test_shapes(const Candidates& candidates, const Blocks& b
   return shapes;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -8,7 +8,7 @@
 
 #include "trace/candidates.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // One way in which the gain of a test may follow a column: the regressors of a fit, tests x degrees
 // of freedom.
@@ -24,4 +24,4 @@ struct TestShape {
 // the rest; a level of one test joins the rest.
 std::vector<TestShape> test_shapes(const Candidates& candidates, const Blocks& blocks);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -20,7 +20,7 @@
 #include "trace/scatter.h"
 #include "trace/verdict.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -31,13 +31,13 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // What each test says about the parameters, by whitened residuals. (Nuisance columns are projected
 // out of all tests together; what a test's own share in them is worth is not counted.)
-std::vector<ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
+std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
   const Whitener whitener(rival.weights, rival.predicted, campaign.blocks, campaign.nuisance);
   MatrixXd jacobian = rival.jacobian;
   MatrixXd residual = campaign.measured - rival.predicted;
   whitener.apply(jacobian);
   whitener.apply(residual);
-  std::vector<ExperimentSums> sums;
+  std::vector<calibrate::ExperimentSums> sums;
   const auto& first = campaign.blocks.first;
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
     const auto begin = static_cast<Index>(first[e]);
@@ -49,9 +49,9 @@ std::vector<ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& 
   return sums;
 }
 
-Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
-  return cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
-                          sums_by_test(campaign, rival), penalty_of(rival));
+calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
+  return calibrate::cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
+                                     sums_by_test(campaign, rival), penalty_of(rival));
 }
 
 class Reporter {
@@ -100,8 +100,9 @@ private:
            search_.last().causes.end();
   }
 
-  Metrics errors(const Dataset& data, const std::vector<double>& predicted) const {
-    return metrics(data.values("tau_R_MPa"), predicted, data.first_row, in_.bootstrap, in_.seed);
+  calibrate::Metrics errors(const data::Dataset& data, const std::vector<double>& predicted) const {
+    return calibrate::metrics(data.values("tau_R_MPa"), predicted, data.first_row, in_.bootstrap,
+                              in_.seed);
   }
 
   // The law that is handed on; none where nothing was added and nothing taken out.
@@ -109,7 +110,7 @@ private:
     const Rival& rival = delivery_.rival;
     if (rival.effects.empty() && !search_.order.found) return;
     uncertainty_ = uncertainty_of(search_.campaign(), rival);
-    ModelFit& fit = trace.extended;
+    calibrate::ModelFit& fit = trace.extended;
     fit.model = search_.model_of(rival);
     fit.std_error = uncertainty_.std_error;
     fit.remarks = uncertainty_.remarks;
@@ -118,15 +119,16 @@ private:
                           ? "generalised least squares under the noise model of the trace"
                           : "least squares, which predicts left-out experiments better here than "
                             "the noise model's weights";
-    const std::vector<double> trained = predict(fit.model, in_.training);
-    const std::vector<double> unseen = predict(fit.model, in_.validation);
+    const std::vector<double> trained = calibrate::predict(fit.model, in_.training);
+    const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
     fit.training = errors(in_.training, trained);
     fit.validation =
         trace.unseen == "validation" ? errors(in_.validation, unseen) : trace.after.validation;
-    fit.model.experiment_gains = gains_of_new_experiments(
-        experiment_gains(in_.training.values("tau_R_MPa"), trained, in_.training.first_row),
+    fit.model.experiment_gains = calibrate::gains_of_new_experiments(
+        calibrate::experiment_gains(in_.training.values("tau_R_MPa"), trained,
+                                    in_.training.first_row),
         fit.model.parameters.size());
-    fit.band = check_band(fit.model, unseen, in_.validation);
+    fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
     trace.extended_model = fit.model.name();
     if (rival.effects.empty()) trace.after = {fit.training, fit.validation};
   }
@@ -147,7 +149,7 @@ private:
       effect.p_value = finding.p_value;
       effect.statistic = finding.statistic;
       effect.threshold = finding.threshold;
-      const std::size_t count = fitted_parameters(effect.placed).size();
+      const std::size_t count = effects::fitted_parameters(effect.placed).size();
       add_parameters(effect, trace.extended, parameter);
       add_alternatives(effect, finding);
       effect.gain_MPa = delivery_.gain_MPa[i];
@@ -158,20 +160,22 @@ private:
     }
   }
 
-  void add_parameters(TracedEffect& effect, const ModelFit& fit, std::size_t first) const {
-    const auto fitted = fitted_parameters(effect.placed);
+  void add_parameters(TracedEffect& effect, const calibrate::ModelFit& fit,
+                      std::size_t first) const {
+    const auto fitted = effects::fitted_parameters(effect.placed);
     for (std::size_t p = 0; p < fitted.size(); ++p)
       effect.parameters.push_back(
           {fitted[p].name, fit.model.parameters[first + p], fit.std_error[first + p],
            fit.model.law->parameters[first + p].unit, uncertainty_.why_none[first + p]});
-    const std::vector<Parameter> all = parameters_of(effect.placed);
+    const std::vector<models::Parameter> all = effects::parameters_of(effect.placed);
     for (std::size_t p = 0; p < all.size(); ++p) {
-      const Parameter& parameter = all[p];
-      const bool known = std::any_of(fitted.begin(), fitted.end(),
-                                     [&](const Parameter& f) { return f.name == parameter.name; });
+      const models::Parameter& parameter = all[p];
+      const bool known = std::any_of(fitted.begin(), fitted.end(), [&](const models::Parameter& f) {
+        return f.name == parameter.name;
+      });
       if (!known)
         effect.parameters.push_back({parameter.name, effect.placed.parameters[p], no_value,
-                                     unit_of(parameter, effect.placed), ""});
+                                     effects::unit_of(parameter, effect.placed), ""});
     }
   }
 
@@ -199,19 +203,19 @@ private:
   const TraceInput& in_;
   const Search& search_;
   Delivery delivery_;
-  Uncertainty uncertainty_; // of the law that is handed on
+  calibrate::Uncertainty uncertainty_; // of the law that is handed on
 };
 
 // Tests and columns by name: nothing may depend on the order in which they were filed.
-Dataset in_order_of_names(const Dataset& data) {
+data::Dataset in_order_of_names(const data::Dataset& data) {
   std::vector<std::size_t> order(data.experiments.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return data.experiments[a] < data.experiments[b];
   });
-  Dataset sorted = data.subset(order);
+  data::Dataset sorted = data.subset(order);
   std::stable_sort(sorted.columns.begin(), sorted.columns.end(),
-                   [](const Column& a, const Column& b) { return a.name < b.name; });
+                   [](const data::Column& a, const data::Column& b) { return a.name < b.name; });
   return sorted;
 }
 
@@ -236,11 +240,11 @@ const char* verdict_name(Verdict verdict) {
 }
 
 Trace trace(const TraceInput& input) {
-  const Dataset training = in_order_of_names(input.training);
+  const data::Dataset training = in_order_of_names(input.training);
   const TraceInput sorted{training,      input.validation, input.fit,
                           input.options, input.bootstrap,  input.seed};
   const std::unique_ptr<Search> search = search_effects(sorted);
   return Reporter(sorted, *search).run();
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -39,7 +39,7 @@
 #include "effects/extended_law.h"
 #include "trace/options.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 struct TracedParameter {
   std::string name;
@@ -55,7 +55,7 @@ struct Alternative {
   std::vector<std::string> columns;
   std::string derived; // empty: a recorded column
   std::string form;
-  ActsOn acts_on = ActsOn::mu;
+  effects::ActsOn acts_on = effects::ActsOn::mu;
   bool in_set = false; // cannot be told apart from the effect by these data
   std::string why_not;
 };
@@ -78,7 +78,7 @@ struct Design {
 };
 
 struct TracedEffect {
-  PlacedEffect placed;
+  effects::PlacedEffect placed;
   std::vector<std::string> columns; // recorded ones
   std::string derived;              // what was computed from them
   std::vector<TracedParameter> parameters;
@@ -111,7 +111,7 @@ struct OrderStructure {
 struct Detectable {
   std::string column;
   std::string derived; // empty: recorded
-  ActsOn acts_on = ActsOn::mu;
+  effects::ActsOn acts_on = effects::ActsOn::mu;
   double size_MPa = 0;      // root mean square over the training rows, found with 80 % probability
   double share = 0;         // relative to tau_R
   bool identifiable = true; // false: recalibration absorbs it, or the column does not vary
@@ -133,9 +133,9 @@ struct Lead {
 // Whether the validation tests as a whole lie higher or lower than the training tests.
 struct ValidationShift {
   bool found = false;
-  double shift_MPa = 0; // validation minus training, mean over tests
-  Interval interval;    // 95 %
-  double share = 0;     // relative to tau_R
+  double shift_MPa = 0;         // validation minus training, mean over tests
+  calibrate::Interval interval; // 95 %
+  double share = 0;             // relative to tau_R
   double p_value = 1;
 };
 
@@ -156,8 +156,8 @@ struct Remaining {
 };
 
 struct TraceErrors {
-  Metrics training;
-  Metrics validation;
+  calibrate::Metrics training;
+  calibrate::Metrics validation;
 };
 
 struct Trace {
@@ -171,16 +171,16 @@ struct Trace {
   TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
   std::string unseen = "validation"; // | nested_cross_validation
-  Difference improvement;            // MAE on unseen tests before minus after, paired by experiment
+  calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
   NestedCheck nested;
   ValidationShift validation_shift;
-  std::vector<Lead> leads;             // strongest first
-  NoiseFloor noise_floor;              // from the noise model: if nothing else is missing
-  double scatter_between = 0;          // relative scatter between experiments, standard deviation
-  Interval scatter_interval;           // 95 %
-  double scatter_at_least = 0;         // with 95 % confidence; what repeatability is judged by
-  std::optional<double> repeatability; // what the user gave, or what repeated tests say
-  std::string repeatability_from;      // given | repeats; empty: not known
+  std::vector<Lead> leads;              // strongest first
+  calibrate::NoiseFloor noise_floor;    // from the noise model: if nothing else is missing
+  double scatter_between = 0;           // relative scatter between experiments, standard deviation
+  calibrate::Interval scatter_interval; // 95 %
+  double scatter_at_least = 0;          // with 95 % confidence; what repeatability is judged by
+  std::optional<double> repeatability;  // what the user gave, or what repeated tests say
+  std::string repeatability_from;       // given | repeats; empty: not known
   // Relative difference between two halves of the tests, along a column that is constant within
   // tests, that would have been seen with 80 % probability; infinite: none.
   double smallest_seen = 0;
@@ -192,14 +192,14 @@ struct Trace {
   std::vector<std::string> rejected;         // looked significant, and why it was not added
   std::vector<std::string> notes;
   double alpha = 0.02;
-  double least_p_value = 0; // that so many experiments can give
-  ModelFit extended;        // judged like any other; model.law is null where none was added
+  double least_p_value = 0;     // that so many experiments can give
+  calibrate::ModelFit extended; // judged like any other; model.law is null where none was added
 };
 
 struct TraceInput {
-  const Dataset& training;
-  const Dataset& validation;
-  const ModelFit& fit;
+  const data::Dataset& training;
+  const data::Dataset& validation;
+  const calibrate::ModelFit& fit;
   const TraceOptions& options;
   std::size_t bootstrap = 1000;
   std::uint64_t seed = 1;
@@ -213,4 +213,4 @@ double tests_for(double alpha);
 // they do not have.
 Trace trace(const TraceInput& input);
 
-} // namespace frictab
+} // namespace frictab::trace

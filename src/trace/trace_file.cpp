@@ -10,7 +10,9 @@
 #include "core/text.h"
 #include "io/json.h"
 
-namespace frictab {
+namespace frictab::trace {
+
+using calibrate::number_or_nan;
 
 namespace {
 
@@ -50,15 +52,15 @@ Json alternatives_json(const TracedEffect& effect) {
                     {"columns", a.columns},
                     {"derived", derived_json(a.derived)},
                     {"form", a.form},
-                    {"acts_on", acts_on_name(a.acts_on)},
+                    {"acts_on", effects::acts_on_name(a.acts_on)},
                     {"cannot_be_told_apart", a.in_set},
                     {"why_not", a.why_not}});
   return list;
 }
 
-Json placed_json(const PlacedEffect& p) {
+Json placed_json(const effects::PlacedEffect& p) {
   Json inputs = Json::array();
-  for (const EffectInput& input : p.inputs) {
+  for (const effects::EffectInput& input : p.inputs) {
     Json one = {{"column", input.column}};
     if (input.levels.empty())
       one["held_between"] = {input.low, input.high};
@@ -69,7 +71,7 @@ Json placed_json(const PlacedEffect& p) {
   }
   Json j = {{"inputs", inputs}, {"values", p.parameters}};
   if (p.stiffness > 0) j["stiffness"] = p.stiffness;
-  if (p.acts_on == ActsOn::tau) {
+  if (p.acts_on == effects::ActsOn::tau) {
     j["unit_MPa"] = p.tau_scale_MPa;
     j["fades_below_MPa"] = p.pressure_MPa;
   }
@@ -120,8 +122,8 @@ Json effect_json(const TracedEffect& e) {
   return {{"columns", e.columns},
           {"derived", derived_json(e.derived)},
           {"form", e.placed.form->name},
-          {"formula", formula_text(e.placed)},
-          {"acts_on", acts_on_name(e.placed.acts_on)},
+          {"formula", effects::formula_text(e.placed)},
+          {"acts_on", effects::acts_on_name(e.placed.acts_on)},
           {"parameters", parameters_json(e)},
           {"family", family_name(e.between)},
           {"p_value", e.p_value},
@@ -135,8 +137,8 @@ Json effect_json(const TracedEffect& e) {
           {"curve", curve_json(e.curve)}};
 }
 
-EffectInput parse_input(const Json& j) {
-  EffectInput input;
+effects::EffectInput parse_input(const Json& j) {
+  effects::EffectInput input;
   input.column = j.at("column");
   if (j.contains("levels")) input.levels = j.at("levels").get<std::vector<std::string>>();
   if (j.contains("knots")) input.knots = j.at("knots").get<std::vector<double>>();
@@ -147,14 +149,14 @@ EffectInput parse_input(const Json& j) {
   return input;
 }
 
-ActsOn parse_acts_on(const std::string& name) {
-  if (const auto acts_on = find_acts_on(name)) return *acts_on;
+effects::ActsOn parse_acts_on(const std::string& name) {
+  if (const auto acts_on = effects::find_acts_on(name)) return *acts_on;
   throw InputError({"trace.json", 0, 0}, "an effect acts on '" + name + "'", "trace again");
 }
 
-PlacedEffect parse_placed(const Json& j, const Json& effect) {
-  PlacedEffect p;
-  p.form = find_effect(effect.at("form").get<std::string>());
+effects::PlacedEffect parse_placed(const Json& j, const Json& effect) {
+  effects::PlacedEffect p;
+  p.form = effects::find_effect(effect.at("form").get<std::string>());
   if (!p.form) throw InputError({"trace.json", 0, 0}, "unknown effect form", "trace again");
   for (const Json& input : j.at("inputs"))
     p.inputs.push_back(parse_input(input));
@@ -252,12 +254,12 @@ Json nested_json(const NestedCheck& n) {
 }
 
 Json errors_json(const TraceErrors& errors) {
-  return {{"training", metrics_json(errors.training)},
-          {"validation", metrics_json(errors.validation)}};
+  return {{"training", calibrate::metrics_json(errors.training)},
+          {"validation", calibrate::metrics_json(errors.validation)}};
 }
 
 TraceErrors parse_errors(const Json& j) {
-  return {parse_metrics(j.at("training")), parse_metrics(j.at("validation"))};
+  return {calibrate::parse_metrics(j.at("training")), calibrate::parse_metrics(j.at("validation"))};
 }
 
 Json detectable_json(const std::vector<Detectable>& all) {
@@ -265,7 +267,7 @@ Json detectable_json(const std::vector<Detectable>& all) {
   for (const Detectable& d : all)
     list.push_back({{"column", d.column},
                     {"derived", derived_json(d.derived)},
-                    {"acts_on", acts_on_name(d.acts_on)},
+                    {"acts_on", effects::acts_on_name(d.acts_on)},
                     {"identifiable", d.identifiable},
                     {"size_MPa", d.identifiable ? Json(d.size_MPa) : Json()},
                     {"share", d.identifiable ? Json(d.share) : Json()}});
@@ -408,13 +410,13 @@ std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
   for (std::size_t i = 1; i < traces.size(); ++i)
     others.push_back(one_json(traces[i]));
   if (!others.empty()) j["others"] = others;
-  return json_text(j);
+  return io::json_text(j);
 }
 
 std::vector<Trace> parse_traces(std::string_view text, const std::string& file) {
-  const Json j = parse_json(text, file);
+  const Json j = io::parse_json(text, file);
   std::vector<Trace> traces;
-  read_json(file, "trace again", [&] {
+  io::read_json(file, "trace again", [&] {
     traces.push_back(parse_one(j));
     if (j.contains("others"))
       for (const Json& other : j.at("others"))
@@ -423,4 +425,4 @@ std::vector<Trace> parse_traces(std::string_view text, const std::string& file) 
   return traces;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

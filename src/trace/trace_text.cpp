@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "data/derived.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -20,7 +20,7 @@ std::string digits(double value) {
 }
 
 std::vector<std::string> error_row(const char* what, const TraceErrors& e) {
-  const Metrics& m = e.validation;
+  const calibrate::Metrics& m = e.validation;
   const std::string interval =
       std::isfinite(m.mae_interval.low)
           ? digits(m.mae_interval.low) + " .. " + digits(m.mae_interval.high)
@@ -75,9 +75,9 @@ std::string parameter_text(const TracedEffect& effect) {
 }
 
 bool belongs_to_the_experiment(const TracedEffect& effect) {
-  const DerivedQuantity* derived =
-      effect.derived.empty() ? nullptr : find_derived(effect.placed.inputs[0].column);
-  return derived && derived->continuation.rule == Continuation::none;
+  const data::DerivedQuantity* derived =
+      effect.derived.empty() ? nullptr : data::find_derived(effect.placed.inputs[0].column);
+  return derived && derived->continuation.rule == data::Continuation::none;
 }
 
 // One below the other, aligned under the names of what they vary.
@@ -98,7 +98,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
   out +=
       fmt::format("  + {}: {}, {}, p = {:.3g}, gains {} MPa on unseen tests\n", cause_text(e),
                   e.placed.form->name, site_text(e.placed.acts_on), e.p_value, digits(e.gain_MPa));
-  out += fmt::format("      {}: {}\n", formula_text(e.placed), parameter_text(e));
+  out += fmt::format("      {}: {}\n", effects::formula_text(e.placed), parameter_text(e));
   std::vector<std::string> same;
   for (const Alternative& a : e.alternatives)
     if (a.in_set) same.push_back(a.name);
@@ -124,22 +124,22 @@ std::string unseen_line(const Trace& t) {
 
 } // namespace
 
-const char* site_text(ActsOn acts_on) {
+const char* site_text(effects::ActsOn acts_on) {
   switch (acts_on) {
-  case ActsOn::mu:
+  case effects::ActsOn::mu:
     return "on mu";
-  case ActsOn::m:
+  case effects::ActsOn::m:
     return "on the limit";
-  case ActsOn::mu_m:
+  case effects::ActsOn::mu_m:
     return "on mu and the limit";
-  case ActsOn::tau:
+  case effects::ActsOn::tau:
     break;
   }
   return "added to tau_R";
 }
 
 std::string cause_text(const TracedEffect& effect) {
-  std::string text = columns_text(effect.placed);
+  std::string text = effects::columns_text(effect.placed);
   if (!effect.derived.empty()) text += " (from " + join(effect.columns, ", ") + ")";
   return text;
 }
@@ -241,4 +241,4 @@ std::string detectable_text(const Trace& t) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::trace

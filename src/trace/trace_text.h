@@ -6,7 +6,7 @@
 
 #include "trace/trace.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Verdict, effects, errors before and after, and leads, in a few lines.
 std::string trace_text(const Trace& trace);
@@ -22,9 +22,9 @@ std::string design_sentence(const Design& design);
 std::vector<std::vector<std::string>> design_rows(const Design& design);
 
 // "on mu", "on the limit", "added to tau_R".
-const char* site_text(ActsOn acts_on);
+const char* site_text(effects::ActsOn acts_on);
 
 // "friction_work (from s_mm)", "humidity_pct", "psi x s_mm".
 std::string cause_text(const TracedEffect& effect);
 
-} // namespace frictab
+} // namespace frictab::trace

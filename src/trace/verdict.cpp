@@ -8,7 +8,7 @@
 
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 namespace {
 
@@ -91,4 +91,4 @@ void add_verdict(Trace& t, const Search& search, bool contradicted) {
   t.verdict = verdict_of(t);
 }
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -3,10 +3,10 @@
 
 #include "trace/search.h"
 
-namespace frictab {
+namespace frictab::trace {
 
 // Fills verdict and remaining. `trace` is complete but for those. `contradicted`: the validation
 // tests say that a finding is worse than nothing.
 void add_verdict(Trace& trace, const Search& search, bool contradicted);
 
-} // namespace frictab
+} // namespace frictab::trace

@@ -11,23 +11,23 @@
 #include "twin/twin_draft.h"
 #include "twin/twin_effect.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
 // What a law needs to be calibrated stays; everything else may be hidden.
-void hide_columns(const TwinOptions& options, Dataset& data) {
+void hide_columns(const TwinOptions& options, data::Dataset& data) {
   FaultList faults;
   std::vector<std::string> hidden = options.hide;
   if (!options.bystanders)
     hidden.insert(hidden.end(), {"run_order", "humidity_pct", "film_um", "Ra_um", "tool"});
   std::vector<std::string> known;
-  for (const Column& column : data.columns)
+  for (const data::Column& column : data.columns)
     if (column.name != "tau_R_MPa" && column.name != "origin") known.push_back(column.name);
   for (const std::string& name : hidden) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       faults.add({"--hide"}, "no column '" + name + "' to hide", suggest(name, known));
-    std::erase_if(data.columns, [&](const Column& column) { return column.name == name; });
+    std::erase_if(data.columns, [&](const data::Column& column) { return column.name == name; });
   }
   faults.throw_if_any();
 }
@@ -35,7 +35,7 @@ void hide_columns(const TwinOptions& options, Dataset& data) {
 // Fits the law to the physics of the training part, and makes it the truth instead of that physics.
 void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
   find_column(training.data, "tau_R_MPa")->values = base_tau(training);
-  const auto law = std::make_shared<const LawTruth>(*find_law(name), training.data);
+  const auto law = std::make_shared<const LawTruth>(*models::find_law(name), training.data);
   for (TwinDraft* draft : {&training, &validation}) {
     draft->law = law;
     draft->base.tau0.assign(draft->data.rows(), 1.0);
@@ -104,4 +104,4 @@ Twin make_twin(TwinOptions options) {
   return twin;
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -16,15 +16,16 @@
 #include "twin/twin_law.h"
 #include "twin/twin_physics.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 // An effect as asked for: "form=saturation,column=s_mm,strength=0.15,on=mu".
 struct EffectSpec {
-  std::string form;              // of the effect registry
-  std::string column;            // recorded column, derived quantity, or "latent"
-  std::string column2;           // for forms of two columns
-  std::string column3;           // and of three
-  ActsOn on = ActsOn::mu;        // mu, m or tau; what is added, in units of the mean noise-free tau
+  std::string form;    // of the effect registry
+  std::string column;  // recorded column, derived quantity, or "latent"
+  std::string column2; // for forms of two columns
+  std::string column3; // and of three
+  effects::ActsOn on =
+      effects::ActsOn::mu;       // mu, m or tau; what is added, in units of the mean noise-free tau
   std::string latent = "random"; // random | groups | batch | drift | order
   std::optional<double> strength;  // training MAE of the recalibrated law without the effect over
                                    // the noise floor, minus 1
@@ -38,10 +39,11 @@ EffectSpec parse_effect(std::string_view text);
 
 struct PlantedEffect {
   EffectSpec spec;
-  const EffectForm* form = nullptr;
+  const effects::EffectForm* form = nullptr;
   std::vector<double> parameters; // in the form's order
   double strength = 0;            // reached, with this effect alone
-  PlacedEffect placed; // forms of levels or knots: these, and their pattern times the amplitude
+  effects::PlacedEffect
+      placed; // forms of levels or knots: these, and their pattern times the amplitude
 };
 
 // One per column that the form takes.
@@ -81,7 +83,7 @@ struct TwinOptions {
 };
 
 struct TwinPart {
-  Dataset data;
+  data::Dataset data;
   std::vector<double> oracle_MPa; // noise-free tau per row, effects included, hidden factor not
   std::vector<double> base_MPa;   // the same without the effects
   std::vector<double> recalibrated_MPa; // by the law with Twin::recalibrated; else empty
@@ -114,4 +116,4 @@ Twin make_twin(TwinOptions options);
 // "synthetic (frictab twin, set D, seed 1)": the value of column `origin`.
 std::string twin_origin(const TwinOptions& options);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -31,7 +31,7 @@ std::vector<double> humidity_by_order(std::uint64_t seed, std::size_t tests) {
   return humidity;
 }
 
-void fill_constant(Column& column, std::size_t experiment, std::size_t points, double value) {
+void fill_constant(data::Column& column, std::size_t experiment, std::size_t points, double value) {
   std::fill_n(column.values.begin() + static_cast<std::ptrdiff_t>(experiment * points), points,
               value);
 }
@@ -79,7 +79,7 @@ void fill_more(std::uint64_t seed, std::size_t tests, TwinDraft& draft, std::siz
   const std::size_t first = draft.data.columns.size();
   for (const char* name : {"film2_um", "lab_T_C", "dwell_s", "direction", "batch", "vib"})
     add_column(draft.data, name, rows);
-  Column* const columns = draft.data.columns.data() + first;
+  data::Column* const columns = draft.data.columns.data() + first;
   columns[3].levels = {"across", "along"};
   columns[4].levels = {"B1", "B2", "B3", "B4", "B5", "B6"};
   const auto room = room_by_order(seed, tests);
@@ -105,4 +105,4 @@ void add_bystanders(const TwinOptions& options, std::size_t tests, TwinDraft& dr
   if (options.more_bystanders) fill_more(options.seed, tests, draft, points);
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -3,11 +3,11 @@
 
 #include "twin/twin_draft.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 // Order of tests, room climate, film, roughness and tool; with options.more_bystanders also a
 // second film reading, vibration, room temperature, dwell, direction and batch. `tests` counts both
 // parts.
 void add_bystanders(const TwinOptions& options, std::size_t tests, TwinDraft& draft);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "twin/twin_text.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -151,4 +151,4 @@ void vary_profiles(TwinPlan& plan, std::uint64_t seed) {
     vary_profile(plan.validation[e].test, Random(seed, twin_stream(1, e, profile_stream)));
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -8,7 +8,7 @@
 
 #include "twin/twin_physics.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 struct TwinDesign {
   std::vector<double> p; // MPa
@@ -49,4 +49,4 @@ void vary_profiles(TwinPlan& plan, std::uint64_t seed);
 // Key of a random stream: one per part (0 training, 1 validation, 2 campaign), experiment, purpose.
 std::uint64_t twin_stream(unsigned part, std::size_t experiment, unsigned purpose);
 
-} // namespace frictab
+} // namespace frictab::twin

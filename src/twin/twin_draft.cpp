@@ -9,7 +9,7 @@
 #include "data/quantity.h"
 #include "twin/twin_bystanders.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -102,20 +102,20 @@ std::vector<double> base_tau(const TwinDraft& draft) {
   return tau_of(draft, draft.base);
 }
 
-Column& add_column(Dataset& data, const char* name, std::size_t rows) {
-  const Quantity* quantity = find_quantity(name);
+data::Column& add_column(data::Dataset& data, const char* name, std::size_t rows) {
+  const data::Quantity* quantity = data::find_quantity(name);
   data.columns.push_back({name, quantity ? quantity->unit : "", std::vector<double>(rows), {}});
   return data.columns.back();
 }
 
-const Column* find_column(const Dataset& data, std::string_view name) {
+const data::Column* find_column(const data::Dataset& data, std::string_view name) {
   const auto at = std::find_if(data.columns.begin(), data.columns.end(),
-                               [&](const Column& column) { return column.name == name; });
+                               [&](const data::Column& column) { return column.name == name; });
   return at == data.columns.end() ? nullptr : &*at;
 }
 
-Column* find_column(Dataset& data, std::string_view name) {
-  return const_cast<Column*>(find_column(static_cast<const Dataset&>(data), name));
+data::Column* find_column(data::Dataset& data, std::string_view name) {
+  return const_cast<data::Column*>(find_column(static_cast<const data::Dataset&>(data), name));
 }
 
-} // namespace frictab
+} // namespace frictab::twin

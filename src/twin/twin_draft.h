@@ -7,10 +7,10 @@
 
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 struct TwinDraft {
-  Dataset data;                        // tau_R_MPa still 0
+  data::Dataset data;                  // tau_R_MPa still 0
   TauPieces base;                      // without effects
   std::shared_ptr<const LawTruth> law; // empty: the twin's own physics
   std::vector<double> noise;           // measured = truth * noise
@@ -28,10 +28,10 @@ std::vector<double> tau_of(const TwinDraft& draft, const TauPieces& pieces);
 std::vector<double> base_tau(const TwinDraft& draft); // without effects
 
 // A new column of zeros, behind the others.
-Column& add_column(Dataset& data, const char* name, std::size_t rows);
+data::Column& add_column(data::Dataset& data, const char* name, std::size_t rows);
 
 // The column with this name, or nullptr.
-const Column* find_column(const Dataset& data, std::string_view name);
-Column* find_column(Dataset& data, std::string_view name);
+const data::Column* find_column(const data::Dataset& data, std::string_view name);
+data::Column* find_column(data::Dataset& data, std::string_view name);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -12,7 +12,7 @@
 #include "expr/program.h"
 #include "twin/twin_quantity.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -33,7 +33,7 @@ Inputs resolve(const TwinOptions& options, std::size_t effect, std::size_t tests
 }
 
 // One text column alone may also be a hidden cause, whose values are no levels.
-bool by_level_number(const EffectForm& form) {
+bool by_level_number(const effects::EffectForm& form) {
   return form.categorical && form.columns == 1;
 }
 
@@ -46,7 +46,7 @@ std::vector<double> factors(const PlantedEffect& effect, const Inputs& rows,
                    [&](double level) { return 1.0 + parameters[0] * (level / last); });
     return factor;
   }
-  PlacedEffect placed = effect.placed;
+  effects::PlacedEffect placed = effect.placed;
   placed.parameters = parameters;
   if (placed.form->pattern) {
     placed.parameters = placed.form->pattern(placed);
@@ -54,27 +54,27 @@ std::vector<double> factors(const PlantedEffect& effect, const Inputs& rows,
       value *= parameters[0];
   }
   std::vector<std::string> names;
-  for (const Parameter& parameter : parameters_of(placed))
+  for (const models::Parameter& parameter : effects::parameters_of(placed))
     names.push_back(parameter.name);
   std::vector<const double*> columns;
   for (const auto& column : rows)
     columns.push_back(column.data());
-  Program(formula_of(placed), input_symbols(*placed.form), names)
+  expr::Program(effects::formula_of(placed), effects::input_symbols(*placed.form), names)
       .evaluate(factor.size(), columns, placed.parameters, factor.data());
   return factor;
 }
 
 std::size_t level_count(const PlantedEffect& effect, const TwinDraft& draft) {
-  const Column* column = find_column(draft.data, effect.spec.column);
+  const data::Column* column = find_column(draft.data, effect.spec.column);
   return column == nullptr ? 2 : column->levels.size();
 }
 
 void apply(const PlantedEffect& effect, const std::vector<double>& factor, double tau_scale,
            TauPieces& pieces) {
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    if (effect.spec.on == ActsOn::mu) pieces.tau0[i] *= factor[i];
-    if (effect.spec.on == ActsOn::m) pieces.limit[i] *= factor[i];
-    if (effect.spec.on == ActsOn::tau) pieces.shift[i] += tau_scale * (factor[i] - 1.0);
+    if (effect.spec.on == effects::ActsOn::mu) pieces.tau0[i] *= factor[i];
+    if (effect.spec.on == effects::ActsOn::m) pieces.limit[i] *= factor[i];
+    if (effect.spec.on == effects::ActsOn::tau) pieces.shift[i] += tau_scale * (factor[i] - 1.0);
   }
 }
 
@@ -129,7 +129,7 @@ public:
     parameters[0] = amplitude;
     const auto factor = factors(effect_, rows_, parameters, levels_);
     const auto below = [](double least) { return [least](double f) { return !(f >= least); }; };
-    if (effect_.spec.on != ActsOn::tau &&
+    if (effect_.spec.on != effects::ActsOn::tau &&
         std::any_of(factor.begin(), factor.end(), below(least_factor)))
       return {};
     NoiseFree truth{draft_.base, {}};
@@ -210,17 +210,17 @@ double solved_amplitude(const EffectSpec& spec, double noise_scale, const Streng
   }
   throw InputError({"--effect"},
                    fmt::format("form '{}' of '{}' on {} cannot reach strength {}", spec.form,
-                               spec.column, acts_on_name(spec.on), shortest(target)),
+                               spec.column, effects::acts_on_name(spec.on), shortest(target)),
                    fmt::format("the strongest that keeps friction positive is {:.3g}; other shape "
                                "parameters or another sign may reach more",
                                largest));
 }
 
 void set_shapes(const EffectSpec& spec, const Inputs& rows, PlantedEffect& effect) {
-  std::vector<Spread> spreads;
+  std::vector<effects::Spread> spreads;
   for (const auto& column : rows)
-    spreads.push_back(spread_of(column));
-  effect.parameters = start_values(*effect.form, spreads);
+    spreads.push_back(effects::spread_of(column));
+  effect.parameters = effects::start_values(*effect.form, spreads);
   for (std::size_t i = 1; i < effect.parameters.size(); ++i)
     if (const auto given = spec.shapes.find(effect.form->parameters[i].name);
         given != spec.shapes.end())
@@ -230,17 +230,17 @@ void set_shapes(const EffectSpec& spec, const Inputs& rows, PlantedEffect& effec
 void bind_columns(const TwinDraft& draft, const Inputs& rows, PlantedEffect& effect) {
   effect.placed.form = effect.form;
   for (const std::string& name : columns_of(effect.spec)) {
-    const Column* column = find_column(draft.data, name);
+    const data::Column* column = find_column(draft.data, name);
     effect.placed.inputs.push_back({name, column ? column->levels : std::vector<std::string>{}});
   }
-  set_knots(effect.placed, {rows.begin(), rows.end()});
+  effects::set_knots(effect.placed, {rows.begin(), rows.end()});
 }
 
 PlantedEffect plant(const TwinOptions& options, std::size_t index, const TwinDraft& training,
                     const TwinDraft& validation) {
   const EffectSpec& spec = options.effects[index];
   const std::size_t tests = training.plan.size() + validation.plan.size();
-  PlantedEffect effect{spec, find_effect(spec.form), {}, 0, {}};
+  PlantedEffect effect{spec, effects::find_effect(spec.form), {}, 0, {}};
   Inputs rows = resolve(options, index, tests, training);
   set_shapes(spec, rows, effect);
   bind_columns(training, rows, effect);
@@ -300,4 +300,4 @@ std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draf
                    "use smaller strengths or amplitudes");
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -5,7 +5,7 @@
 
 #include "twin/twin_draft.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 // Resolves the specs against the drafts and solves amplitudes on the training part. Throws
 // InputError (every fault) for unknown columns, wrong kinds of column, strengths out of reach.
@@ -21,4 +21,4 @@ std::vector<double> truth_with(const TwinOptions& options, const TwinDraft& draf
 
 double mean_of(const std::vector<double>& values);
 
-} // namespace frictab
+} // namespace frictab::twin

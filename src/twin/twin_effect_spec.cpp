@@ -7,13 +7,13 @@
 #include "twin/twin.h"
 #include "twin/twin_text.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
 const std::string option = "--effect";
 
-std::vector<std::string> known_keys(const EffectForm* form) {
+std::vector<std::string> known_keys(const effects::EffectForm* form) {
   std::vector<std::string> keys = {"form",   "column",   "column2",   "column3", "on",
                                    "latent", "strength", "amplitude", "sign"};
   if (form != nullptr)
@@ -42,9 +42,10 @@ void read_strength(const KeyValue& item, EffectSpec& spec, FaultList& faults) {
                "strength 0.15 raises the error of the law without the effect by 15 %; use sign=-");
 }
 
-void read_shape(const KeyValue& item, const EffectForm* form, EffectSpec& spec, FaultList& faults) {
+void read_shape(const KeyValue& item, const effects::EffectForm* form, EffectSpec& spec,
+                FaultList& faults) {
   if (form == nullptr) return;
-  for (const Parameter& parameter : form->parameters) {
+  for (const models::Parameter& parameter : form->parameters) {
     if (parameter.name != item.key) continue;
     const double value = read_number(item, faults);
     if (value < parameter.lower || value > parameter.upper)
@@ -54,7 +55,8 @@ void read_shape(const KeyValue& item, const EffectForm* form, EffectSpec& spec, 
   }
 }
 
-void read_item(const KeyValue& item, const EffectForm* form, EffectSpec& spec, FaultList& faults) {
+void read_item(const KeyValue& item, const effects::EffectForm* form, EffectSpec& spec,
+               FaultList& faults) {
   if (item.key == "form")
     spec.form = item.value;
   else if (item.key == "column")
@@ -71,7 +73,7 @@ void read_item(const KeyValue& item, const EffectForm* form, EffectSpec& spec, F
     read_sign(item, spec, faults);
   else if (item.key == "on") {
     check_choice(item, {"mu", "m", "tau"}, faults);
-    spec.on = find_acts_on(item.value).value_or(spec.on);
+    spec.on = effects::find_acts_on(item.value).value_or(spec.on);
   } else if (item.key == "latent") {
     check_choice(item, {"random", "groups", "batch", "drift", "order"}, faults);
     spec.latent = item.value;
@@ -79,8 +81,8 @@ void read_item(const KeyValue& item, const EffectForm* form, EffectSpec& spec, F
     read_shape(item, form, spec, faults);
 }
 
-void check_whole(const EffectSpec& spec, const EffectForm* form, FaultList& faults) {
-  const auto names = effect_names();
+void check_whole(const EffectSpec& spec, const effects::EffectForm* form, FaultList& faults) {
+  const auto names = effects::effect_names();
   if (spec.form.empty())
     faults.add({option}, "no form is given", "known: " + join(names, ", "));
   else if (form == nullptr)
@@ -101,11 +103,11 @@ void check_whole(const EffectSpec& spec, const EffectForm* form, FaultList& faul
 }
 
 // The form decides which further keys are known, so it is found before the keys are checked.
-const EffectForm* form_named_in(std::string_view text) {
+const effects::EffectForm* form_named_in(std::string_view text) {
   FaultList ignored;
   const std::vector<std::string> only = {"form"};
   for (const KeyValue& item : read_pairs(text, ',', option, only, ignored))
-    return find_effect(item.value);
+    return effects::find_effect(item.value);
   return nullptr;
 }
 
@@ -121,14 +123,14 @@ std::vector<std::string> columns_of(const EffectSpec& spec) {
 EffectSpec parse_effect(std::string_view text) {
   FaultList faults;
   EffectSpec spec;
-  const EffectForm* form = form_named_in(text);
+  const effects::EffectForm* form = form_named_in(text);
   for (const KeyValue& item : read_pairs(text, ',', option, known_keys(form), faults)) {
     read_item(item, form, spec, faults);
     if (item.key == "column" && spec.form.empty() && item.value == "latent") spec.form = "linear";
   }
-  check_whole(spec, form == nullptr ? find_effect(spec.form) : form, faults);
+  check_whole(spec, form == nullptr ? effects::find_effect(spec.form) : form, faults);
   faults.throw_if_any();
   return spec;
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -4,14 +4,16 @@
 #include "calibrate/law_problem.h"
 #include "effects/extended_law.h"
 
-namespace frictab {
+namespace frictab::twin {
+
+using expr::Expr;
 
 namespace {
 
 // Stands for all effects at one site (mu, limit or added): its column is their factor.
-const EffectForm& planted_form() {
-  static const EffectForm form = [] {
-    EffectForm all;
+const effects::EffectForm& planted_form() {
+  static const effects::EffectForm form = [] {
+    effects::EffectForm all;
     all.name = "planted";
     all.formula = "x";
     all.factor = [] { return Expr::symbol("x"); };
@@ -20,27 +22,28 @@ const EffectForm& planted_form() {
   return form;
 }
 
-PlacedEffect planted_on(ActsOn acts_on) {
-  PlacedEffect effect;
+effects::PlacedEffect planted_on(effects::ActsOn acts_on) {
+  effects::PlacedEffect effect;
   effect.form = &planted_form();
-  effect.inputs = {{std::string("planted_") + acts_on_name(acts_on), {}, -1e300, 1e300}};
+  effect.inputs = {{std::string("planted_") + effects::acts_on_name(acts_on), {}, -1e300, 1e300}};
   effect.acts_on = acts_on;
   return effect;
 }
 
 // Columns are the law's states and the three factors, scalars the law's own parameters.
-Program program_of(const Law& law, const Conventions& conventions) {
+expr::Program program_of(const models::Law& law, const models::Conventions& conventions) {
   std::vector<double> start;
-  for (const Parameter& parameter : law.parameters)
+  for (const models::Parameter& parameter : law.parameters)
     start.push_back(parameter.start);
-  const std::vector<PlacedEffect> effects = {planted_on(ActsOn::mu), planted_on(ActsOn::m),
-                                             planted_on(ActsOn::tau)};
-  const Law extended = extended_law(law, conventions, start, effects, law.name);
+  const std::vector<effects::PlacedEffect> effects = {planted_on(effects::ActsOn::mu),
+                                                      planted_on(effects::ActsOn::m),
+                                                      planted_on(effects::ActsOn::tau)};
+  const models::Law extended = effects::extended_law(law, conventions, start, effects, law.name);
   std::map<std::string, Expr> neutral; // the limit that the law did not have is k
   for (std::size_t p = start.size(); p < extended.parameters.size(); ++p)
     neutral.emplace(extended.parameters[p].name, extended.parameters[p].start);
-  return {substitute(tau_formula(extended, conventions), neutral), inputs(extended, conventions),
-          parameter_names(law)};
+  return {substitute(models::tau_formula(extended, conventions), neutral),
+          models::inputs(extended, conventions), models::parameter_names(law)};
 }
 
 // Behind `columns` stands the storage of the one that is computed.
@@ -49,7 +52,7 @@ struct Rows {
   std::vector<const double*> columns;
 };
 
-Rows rows_of(const Program& program, const Dataset& data, const TauPieces& pieces) {
+Rows rows_of(const expr::Program& program, const data::Dataset& data, const TauPieces& pieces) {
   Rows rows;
   for (const double shift : pieces.shift)
     rows.shifted.push_back(1.0 + shift);
@@ -65,16 +68,17 @@ Rows rows_of(const Program& program, const Dataset& data, const TauPieces& piece
 
 } // namespace
 
-LawTruth::LawTruth(const Law& law, const Dataset& physics)
-    : law_(law),
-      parameters_(LawProblem(law, conventions_, physics).fit(Loss::l2, 0).result.parameters),
+LawTruth::LawTruth(const models::Law& law, const data::Dataset& physics)
+    : law_(law), parameters_(calibrate::LawProblem(law, conventions_, physics)
+                                 .fit(calibrate::Loss::l2, 0)
+                                 .result.parameters),
       program_(program_of(law, conventions_)) {}
 
 bool LawTruth::has_limit() const {
-  return frictab::has_limit(law_, conventions_);
+  return effects::has_limit(law_, conventions_);
 }
 
-std::vector<double> LawTruth::tau(const Dataset& data, const TauPieces& pieces,
+std::vector<double> LawTruth::tau(const data::Dataset& data, const TauPieces& pieces,
                                   std::span<const double> parameters) const {
   const Rows rows = rows_of(program_, data, pieces);
   std::vector<double> tau(data.rows());
@@ -82,21 +86,21 @@ std::vector<double> LawTruth::tau(const Dataset& data, const TauPieces& pieces,
   return tau;
 }
 
-std::vector<double> LawTruth::recalibrated(const Dataset& data, const TauPieces& pieces,
+std::vector<double> LawTruth::recalibrated(const data::Dataset& data, const TauPieces& pieces,
                                            std::span<const double> measured,
                                            std::size_t steps) const {
   const Rows rows = rows_of(program_, data, pieces);
-  const BoundProgram bound(program_, data.rows(), rows.columns);
-  return fit_from({bound, measured, law_.parameters}, {Loss::l2, 0}, parameters_,
-                  {.tolerance = 1e-8, .damping = 1e-6, .iterations = steps})
+  const expr::BoundProgram bound(program_, data.rows(), rows.columns);
+  return calibrate::fit_from({bound, measured, law_.parameters}, {calibrate::Loss::l2, 0},
+                             parameters_, {.tolerance = 1e-8, .damping = 1e-6, .iterations = steps})
       .parameters;
 }
 
 std::vector<std::string> truth_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
-    if (law.calibrated == Calibrated::fit) names.push_back(law.name);
+  for (const models::Law& law : models::all_laws())
+    if (law.calibrated == models::Calibrated::fit) names.push_back(law.name);
   return names;
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -10,7 +10,7 @@
 #include "expr/program.h"
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 // What effects act on, one value per row. Of the twin's physics: stresses in MPa; of a law: factors
 // on mu and on the limit.
@@ -23,28 +23,28 @@ struct TauPieces {
 class LawTruth {
 public:
   // Parameters by least squares on tau_R_MPa.
-  LawTruth(const Law& law, const Dataset& physics);
+  LawTruth(const models::Law& law, const data::Dataset& physics);
 
-  const Law& law() const { return law_; }
+  const models::Law& law() const { return law_; }
   const std::vector<double>& parameters() const { return parameters_; }
   bool has_limit() const; // whether an effect on it is another than on mu
 
   // MPa, one per row. The data must have the law's inputs.
-  std::vector<double> tau(const Dataset& data, const TauPieces& pieces,
+  std::vector<double> tau(const data::Dataset& data, const TauPieces& pieces,
                           std::span<const double> parameters) const;
 
   // Parameters by least squares on `measured`, from the true ones, after at most so many steps.
-  std::vector<double> recalibrated(const Dataset& data, const TauPieces& pieces,
+  std::vector<double> recalibrated(const data::Dataset& data, const TauPieces& pieces,
                                    std::span<const double> measured, std::size_t steps = 200) const;
 
 private:
-  const Law& law_;
-  Conventions conventions_;
+  const models::Law& law_;
+  models::Conventions conventions_;
   std::vector<double> parameters_;
-  Program program_;
+  expr::Program program_;
 };
 
 // Law names that can be a truth: those that are calibrated by a fit.
 std::vector<std::string> truth_names();
 
-} // namespace frictab
+} // namespace frictab::twin

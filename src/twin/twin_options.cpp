@@ -8,7 +8,7 @@
 #include "twin/twin.h"
 #include "twin/twin_text.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -73,4 +73,4 @@ void check_options(const TwinOptions& options) {
   faults.throw_if_any();
 }
 
-} // namespace frictab
+} // namespace frictab::twin

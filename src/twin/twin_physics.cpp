@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -166,4 +166,4 @@ const TwinParameters& twin_set(std::string_view name) {
                    "known: " + join(names, ", "));
 }
 
-} // namespace frictab
+} // namespace frictab::twin

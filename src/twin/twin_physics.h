@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frictab {
+namespace frictab::twin {
 
 // A parameter set of the twin. Tuned (ours) so that laws calibrated on it err about as much as the
 // published ones do on measured data; nothing here is a measured material.
@@ -64,4 +64,4 @@ double twin_tau(double tau0_MPa, double limit_MPa);
 // Keeps `decimals` digits behind the point.
 double round_to(double value, int decimals);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "data/derived.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -48,9 +48,9 @@ std::vector<double> latent(const TwinOptions& options, std::size_t effect, std::
 
 std::vector<std::string> known_columns(const TwinDraft& draft) {
   std::vector<std::string> names;
-  for (const Column& column : draft.data.columns)
+  for (const data::Column& column : draft.data.columns)
     if (column.name != "tau_R_MPa") names.push_back(column.name);
-  for (const DerivedQuantity& quantity : derived_quantities())
+  for (const data::DerivedQuantity& quantity : data::derived_quantities())
     names.push_back(quantity.name);
   names.push_back("latent");
   return names;
@@ -62,13 +62,13 @@ std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect
                                   const std::string& name, std::size_t tests,
                                   const TwinDraft& draft) {
   if (name == "latent") return latent(options, effect, tests, draft);
-  if (const Column* column = find_column(draft.data, name)) return column->values;
-  return derive(*find_derived(name), draft.data, base_tau(draft));
+  if (const data::Column* column = find_column(draft.data, name)) return column->values;
+  return data::derive(*data::find_derived(name), draft.data, base_tau(draft));
 }
 
 void check_column(const EffectSpec& spec, const std::string& name, const TwinDraft& draft,
                   FaultList& faults) {
-  if (spec.on == ActsOn::m && draft.law && !draft.law->has_limit())
+  if (spec.on == effects::ActsOn::m && draft.law && !draft.law->has_limit())
     faults.add({"--effect"}, "law '" + draft.law->law().name + "' has no limit to act on",
                "it is a limit itself: use on=mu");
   const auto known = known_columns(draft);
@@ -76,9 +76,9 @@ void check_column(const EffectSpec& spec, const std::string& name, const TwinDra
     faults.add({"--effect"}, "unknown column '" + name + "'", suggest(name, known));
     return;
   }
-  const Column* column = find_column(draft.data, name);
+  const data::Column* column = find_column(draft.data, name);
   const bool text = column != nullptr && !column->levels.empty();
-  const bool categorical = find_effect(spec.form)->categorical && name == spec.column;
+  const bool categorical = effects::find_effect(spec.form)->categorical && name == spec.column;
   if (text && !categorical)
     faults.add({"--effect"},
                fmt::format("column '{}' holds text, form '{}' needs numbers", name, spec.form),
@@ -89,4 +89,4 @@ void check_column(const EffectSpec& spec, const std::string& name, const TwinDra
                "use column=tool, or another form");
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "twin/twin_draft.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 // Adds a fault where `name` is unknown or does not go with the form (text and numbers), or where
 // the truth has no limit that an effect on it could change.
@@ -20,4 +20,4 @@ std::vector<double> quantity_rows(const TwinOptions& options, std::size_t effect
                                   const std::string& name, std::size_t tests,
                                   const TwinDraft& draft);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -7,7 +7,7 @@
 #include "io/json.h"
 #include "twin/twin_summary.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -48,16 +48,16 @@ Json effect_json(const PlantedEffect& effect) {
   const EffectSpec& spec = effect.spec;
   Json parameters = Json::array();
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-    const Parameter& parameter = effect.form->parameters[i];
+    const models::Parameter& parameter = effect.form->parameters[i];
     parameters.push_back({{"name", parameter.name},
                           {"value", effect.parameters[i]},
-                          {"unit", unit_of(parameter, effect.placed)}});
+                          {"unit", effects::unit_of(parameter, effect.placed)}});
   }
-  const bool derived = find_derived(spec.column) != nullptr;
+  const bool derived = data::find_derived(spec.column) != nullptr;
   Json columns = Json::array();
   if (!derived && spec.column != "latent") columns.push_back(spec.column);
   if (derived)
-    for (const std::string& need : find_derived(spec.column)->needs)
+    for (const std::string& need : data::find_derived(spec.column)->needs)
       columns.push_back(need == "tau" ? "tau_R_MPa" : need);
   for (const std::string* further : {&spec.column2, &spec.column3})
     if (!further->empty()) columns.push_back(*further);
@@ -66,11 +66,11 @@ Json effect_json(const PlantedEffect& effect) {
             {"columns", columns},
             {"derived", derived ? Json(spec.column) : Json(nullptr)},
             {"latent", spec.column == "latent" ? Json(spec.latent) : Json(nullptr)},
-            {"acts_on", acts_on_name(spec.on)},
+            {"acts_on", effects::acts_on_name(spec.on)},
             {"parameters", parameters},
             {"strength", effect.strength}};
   if (spec.strength) json["strength_asked"] = *spec.strength;
-  for (const EffectInput& input : effect.placed.inputs)
+  for (const effects::EffectInput& input : effect.placed.inputs)
     if (!input.knots.empty()) json["knots"][input.column] = input.knots;
   return json;
 }
@@ -121,7 +121,7 @@ std::string effects_line(const Twin& twin) {
         spec.column == "latent" ? "latent (" + spec.latent + ")" : join(columns_of(spec), " and ");
     text +=
         fmt::format("effect      {} of {} on {}, amplitude {:.4g}, strength {:.3g}\n", spec.form,
-                    source, acts_on_name(spec.on), effect.parameters[0], effect.strength);
+                    source, effects::acts_on_name(spec.on), effect.parameters[0], effect.strength);
   }
   return text;
 }
@@ -156,7 +156,7 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
   if (options.profile != "constant") json["profile"] = options.profile;
   if (options.more_bystanders) json["more_bystanders"] = true;
   json["notes"] = notes_json(twin.law != nullptr);
-  return json_text(json);
+  return io::json_text(json);
 }
 
 std::string twin_job(const Twin& twin, const std::string& extension, bool oracle) {
@@ -192,4 +192,4 @@ std::string twin_text(const Twin& twin, const TwinSummary& summary, const std::s
   return text + fmt::format("next: frictab run {}/job.toml\n", directory);
 }
 
-} // namespace frictab
+} // namespace frictab::twin

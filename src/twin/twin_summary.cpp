@@ -8,7 +8,7 @@
 
 #include "twin/twin_draft.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -21,8 +21,8 @@ struct Part {
 
 Part columns_of(const TwinPart& part) {
   Part out{{}, {}, find_column(part.data, "tau_R_MPa")->values};
-  if (const Column* sigma = find_column(part.data, "sigma_n_MPa")) out.sigma = sigma->values;
-  if (const Column* sigma_f = find_column(part.data, "sigma_f_MPa"))
+  if (const data::Column* sigma = find_column(part.data, "sigma_n_MPa")) out.sigma = sigma->values;
+  if (const data::Column* sigma_f = find_column(part.data, "sigma_f_MPa"))
     for (const double value : sigma_f->values)
       out.k.push_back(value / std::sqrt(3.0));
   return out;
@@ -84,7 +84,8 @@ std::array<double, 2> fit_orowan(const Part& part, double mu0, double m0) {
   return best;
 }
 
-std::vector<std::pair<std::string, double>> named(const Law& law, const Values& parameters) {
+std::vector<std::pair<std::string, double>> named(const models::Law& law,
+                                                  const Values& parameters) {
   std::vector<std::pair<std::string, double>> constants;
   for (std::size_t p = 0; p < parameters.size(); ++p)
     constants.emplace_back(law.parameters[p].name, parameters[p]);
@@ -169,4 +170,4 @@ TwinSummary summarise(const Twin& twin) {
   return std::move(builder.summary);
 }
 
-} // namespace frictab
+} // namespace frictab::twin

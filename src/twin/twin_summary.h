@@ -8,7 +8,7 @@
 
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 struct TwinError {
   double mae_MPa = 0;
@@ -43,4 +43,4 @@ std::string twin_job(const Twin& twin, const std::string& extension, bool oracle
 // About ten lines for people; `directory` as the user named it.
 std::string twin_text(const Twin& twin, const TwinSummary& summary, const std::string& directory);
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -8,7 +8,7 @@
 
 #include "core/text.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::vector<double> read_numbers(const KeyValue& item, FaultList& faults) {
   return values;
 }
 
-} // namespace frictab
+} // namespace frictab::twin

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::twin {
 
 struct KeyValue {
   std::string key;
@@ -27,4 +27,4 @@ double read_number(const KeyValue& item, FaultList& faults);
 // Comma separated numbers; a fault for each that is none.
 std::vector<double> read_numbers(const KeyValue& item, FaultList& faults);
 
-} // namespace frictab
+} // namespace frictab::twin

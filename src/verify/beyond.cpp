@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "table/outside.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 namespace {
 
@@ -19,15 +19,15 @@ void count(BeyondEnd& end, double excess) {
 
 } // namespace
 
-RowsBeyond rows_beyond(const Table& table, const States& states) {
-  const std::vector<AxisEnds> axes = axis_ends(table);
+RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
+  const std::vector<table::AxisEnds> axes = table::axis_ends(table);
   const std::size_t rows = states.empty() ? 0 : states.front().size();
   RowsBeyond out;
   out.kinds.assign(rows, RowKind::compared);
   std::vector<BeyondEnd> ends;
-  for (const AxisEnds& axis : axes) {
-    ends.push_back({axis.name, "below", outside_name(axis.below), axis.low, 0, 0});
-    ends.push_back({axis.name, "above", outside_name(axis.above), axis.high, 0, 0});
+  for (const table::AxisEnds& axis : axes) {
+    ends.push_back({axis.name, "below", table::outside_name(axis.below), axis.low, 0, 0});
+    ends.push_back({axis.name, "above", table::outside_name(axis.above), axis.high, 0, 0});
   }
   for (std::size_t i = 0; i < rows; ++i) {
     bool outside = false;
@@ -77,4 +77,4 @@ std::string not_posed_text(const DriftRecord& record) {
                      thousands(record.n_points_not_posed));
 }
 
-} // namespace frictab
+} // namespace frictab::verify

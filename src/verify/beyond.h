@@ -7,7 +7,7 @@
 #include "table/table.h"
 #include "verify/verification.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 enum class RowKind : char {
   compared, // inside, or outside only where the law's own formula goes on
@@ -22,7 +22,7 @@ struct RowsBeyond {
 };
 
 // States: one column per input of the table, in its order.
-RowsBeyond rows_beyond(const Table& table, const States& states);
+RowsBeyond rows_beyond(const table::Table& table, const table::States& states);
 
 // "T_contact_C above 200: 110 rows, up to 13.2 beyond, clamp"
 std::string beyond_text(const BeyondEnd& end);
@@ -35,4 +35,4 @@ std::string cost_text(const DriftRecord& record);
 // all.
 std::string not_posed_text(const DriftRecord& record);
 
-} // namespace frictab
+} // namespace frictab::verify

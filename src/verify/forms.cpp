@@ -16,7 +16,7 @@
 #include "table/direct.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 namespace {
 
@@ -33,8 +33,8 @@ double thread_seconds() {
 // One form, compiled and ready to be asked.
 class Subject {
 public:
-  Subject(const Exporter& exporter, const Table& table, const std::vector<std::string>& names,
-          const States& states)
+  Subject(const codegen::Exporter& exporter, const table::Table& table,
+          const std::vector<std::string>& names, const table::States& states)
       : exporter_(exporter), request_{table, "mm-t-s", {}},
         target_(exporter, request_, exporter.generate(request_), exporter.variants(request_)[0]),
         tau_(states.front().size()) {
@@ -63,9 +63,9 @@ public:
   }
 
 private:
-  const Exporter& exporter_;
-  ExportRequest request_;
-  CompiledTarget target_;
+  const codegen::Exporter& exporter_;
+  codegen::ExportRequest request_;
+  codegen::CompiledTarget target_;
   std::vector<const double*> columns_;
   std::vector<double> tau_;
   std::size_t calls_ = 1;
@@ -76,12 +76,13 @@ double median(std::array<double, repeats> values) {
   return values[repeats / 2];
 }
 
-void measure(FormComparison& out, const Exporter& exporter, const AssembledLaw& law,
-             const Table& table, const Table& direct) {
+void measure(FormComparison& out, const codegen::Exporter& exporter,
+             const models::AssembledLaw& law, const table::Table& table,
+             const table::Table& direct) {
   const std::vector<std::string> names = table.inputs();
-  const LawFunction tau_R(law, names);
-  const Probe probe =
-      with_law(tau_R, box_points(table_ranges(table, nullptr, table.model), states_timed));
+  const table::LawFunction tau_R(law, names);
+  const table::Probe probe = table::with_law(
+      tau_R, table::box_points(table::table_ranges(table, nullptr, table.model), states_timed));
   Subject of_table(exporter, table, names, probe.states);
   Subject of_law(exporter, direct, names, probe.states);
   const std::vector<double>& answer = of_law.answer();
@@ -99,27 +100,27 @@ void measure(FormComparison& out, const Exporter& exporter, const AssembledLaw& 
 
 } // namespace
 
-FormComparison form_sizes(const AssembledLaw& law, const Table& table) {
+FormComparison form_sizes(const models::AssembledLaw& law, const table::Table& table) {
   FormComparison out;
   out.model = table.model;
   out.nodes = table.nodes();
-  out.table.bytes = sizeof(double) * baked_numbers(table);
-  out.direct.bytes = sizeof(double) * baked_numbers(direct_form(law, table));
+  out.table.bytes = sizeof(double) * codegen::baked_numbers(table);
+  out.direct.bytes = sizeof(double) * codegen::baked_numbers(table::direct_form(law, table));
   if (table.record.worst_case_MPa) out.table.drift_MPa = *table.record.worst_case_MPa;
   return out;
 }
 
-FormComparison compare_forms(const AssembledLaw& law, const Table& table) {
-  const Exporter& exporter = *find_exporter("c");
+FormComparison compare_forms(const models::AssembledLaw& law, const table::Table& table) {
+  const codegen::Exporter& exporter = *codegen::find_exporter("c");
   FormComparison out = form_sizes(law, table);
   const std::string compiler = exporter.variants({table, "mm-t-s", {}})[0].command.front();
   if (table.axes.empty())
     out.why_not = "nothing is tabulated, both are the same";
-  else if (!have_program(compiler))
+  else if (!codegen::have_program(compiler))
     out.why_not = "there is no " + compiler + " on this machine";
   else
     try {
-      measure(out, exporter, law, table, direct_form(law, table));
+      measure(out, exporter, law, table, table::direct_form(law, table));
     } catch (const InputError& error) { // too large for a source
       out.why_not = error.what();
     }
@@ -160,4 +161,4 @@ std::string forms_text(const std::vector<FormComparison>& comparisons) {
   return out;
 }
 
-} // namespace frictab
+} // namespace frictab::verify

@@ -8,7 +8,7 @@
 #include "models/assembled_law.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 struct FormFigures {
   std::size_t bytes = 0;   // of numbers in the source
@@ -24,11 +24,11 @@ struct FormComparison {
 };
 
 // Sizes and the table's known drift alone: what does not depend on the machine.
-FormComparison form_sizes(const AssembledLaw& law, const Table& table);
+FormComparison form_sizes(const models::AssembledLaw& law, const table::Table& table);
 
 // Compiles both forms for target `c` as its recipe says and times them on states that fill the
 // ranges of the table.
-FormComparison compare_forms(const AssembledLaw& law, const Table& table);
+FormComparison compare_forms(const models::AssembledLaw& law, const table::Table& table);
 
 // "the law itself is 2.1 times faster: export.form = "direct"": the law is recommended unless its
 // table is at least twice as fast.
@@ -36,4 +36,4 @@ std::string form_verdict(const FormComparison& comparison);
 
 std::string forms_text(const std::vector<FormComparison>& comparisons);
 
-} // namespace frictab
+} // namespace frictab::verify

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <optional>
 
-namespace frictab {
+namespace frictab::verify {
 
 struct VerifyOptions {
   std::optional<double> max_drift_MPa; // absent: table.tolerance_MPa
   std::size_t samples = 200000;        // points over the whole range
 };
 
-} // namespace frictab
+} // namespace frictab::verify

@@ -9,7 +9,7 @@
 #include "calibrate/calibration.h"
 #include "table/table.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 // Rows beyond one end of an axis of the table.
 struct BeyondEnd {
@@ -27,7 +27,7 @@ struct DriftRecord {
   std::string subject; // "table", "c/c99", "abaqus_vfric/double", ...
   bool ran = true;     // false: could not be run here; `why_not` says why
   std::string why_not;
-  Drift rows; // on the validation rows inside the table's range, and where the law goes on
+  table::Drift rows; // on the validation rows inside the table's range, and where the law goes on
   std::size_t n_rows = 0;                    // rows
   std::size_t n_outside = 0;                 // of these outside the table's range
   std::vector<BeyondEnd> beyond;             // where they are
@@ -61,4 +61,4 @@ struct Verification {
   }
 };
 
-} // namespace frictab
+} // namespace frictab::verify

@@ -14,7 +14,9 @@
 #include "table/bound.h"
 #include "verify/beyond.h"
 
-namespace frictab {
+namespace frictab::verify {
+
+using table::Probe;
 
 namespace {
 
@@ -32,12 +34,13 @@ struct Subjects {
   Probe rows;
   RowsBeyond beyond;
   Probe range;
-  ProvenDrift proven; // empty where the table's own record is known
+  table::ProvenDrift proven; // empty where the table's own record is known
 };
 
-Probe probe(const LawFunction& law, const TableFunction& table, States states) {
-  Probe out = with_law(law, std::move(states));
-  compare(out, table);
+Probe probe(const table::LawFunction& law, const table::TableFunction& table,
+            table::States states) {
+  Probe out = table::with_law(law, std::move(states));
+  table::compare(out, table);
   return out;
 }
 
@@ -51,23 +54,24 @@ Subjects prepare(const VerifyInput& input) {
                                    "nor uses in its combine formula",
                                    input.law.model.law->name, name),
                        "verify a table against the model it was made from");
-  const LawFunction law(input.law, s.names);
-  const TableFunction table(input.table);
-  const auto ranges = table_ranges(input.table, input.rows, input.table_name);
-  s.range = probe(law, table, probe_points(ranges, input.table.axes, input.samples));
-  States worst;
+  const table::LawFunction law(input.law, s.names);
+  const table::TableFunction table(input.table);
+  const auto ranges = table::table_ranges(input.table, input.rows, input.table_name);
+  s.range = probe(law, table, table::probe_points(ranges, input.table.axes, input.samples));
+  table::States worst;
   if (input.known) {
     for (const std::string& name : s.names)
       worst.push_back({input.known->worst_state.at(name)});
   } else {
-    s.proven = prove_drift(input.law, input.table, ranges, worst_case(law, table, ranges, s.range),
-                           input.max_drift_MPa);
+    s.proven =
+        table::prove_drift(input.law, input.table, ranges,
+                           table::worst_case(law, table, ranges, s.range), input.max_drift_MPa);
     for (const double x : s.proven.worst.state)
       worst.push_back({x});
   }
-  append(s.range, probe(law, table, worst)); // sources are looked at there as well
+  table::append(s.range, probe(law, table, worst)); // sources are looked at there as well
   if (input.rows) {
-    States states = input_columns(input.law, s.names, *input.rows).values();
+    table::States states = calibrate::input_columns(input.law, s.names, *input.rows).values();
     s.beyond = rows_beyond(input.table, states);
     s.rows = probe(law, table, std::move(states));
   }
@@ -167,7 +171,7 @@ DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
 }
 
 // The columns that a source takes: the direct form may need fewer states than the table.
-Columns columns_for(const Table& source, const Subjects& s, const Probe& reference) {
+Columns columns_for(const table::Table& source, const Subjects& s, const Probe& reference) {
   Columns columns;
   for (const std::string& name : source.inputs()) {
     const auto at = std::find(s.names.begin(), s.names.end(), name);
@@ -178,13 +182,13 @@ Columns columns_for(const Table& source, const Subjects& s, const Probe& referen
 
 // The same states with some of them held. A solver's own table answers beyond its ends as it
 // likes: rows that the table refuses are none of its failures.
-Subjects at_held(const VerifyInput& input, const Subjects& s, const HeldStates& held) {
-  const LawFunction law(input.law, s.names);
-  const TableFunction table(input.table);
+Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldStates& held) {
+  const table::LawFunction law(input.law, s.names);
+  const table::TableFunction table(input.table);
   Subjects out;
   out.names = s.names;
   for (const auto& [from, to] : {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}}) {
-    States states = from->states;
+    table::States states = from->states;
     for (std::size_t d = 0; d < states.size(); ++d)
       if (const auto value = held.find(s.names[d]); value != held.end())
         std::fill(states[d].begin(), states[d].end(), value->second);
@@ -198,8 +202,9 @@ Subjects at_held(const VerifyInput& input, const Subjects& s, const HeldStates& 
 
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
 
-DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const HeldStates& held,
-                            const std::string& subject, const Answer& answer) {
+DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s,
+                            const table::HeldStates& held, const std::string& subject,
+                            const Answer& answer) {
   DriftRecord record = compare(input, at_held(input, s, held), subject, answer);
   record.held = held;
   if (s.rows.law.empty()) return record;
@@ -219,11 +224,11 @@ DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const H
 }
 
 DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
-                           const GeneratedSource& source, const BuildVariant& variant) {
-  const Exporter& exporter = *source.exporter;
+                           const GeneratedSource& source, const codegen::BuildVariant& variant) {
+  const codegen::Exporter& exporter = *source.exporter;
   const std::string form = source.request.table.is_direct() && exporter.whole() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
-  if (!have_program(variant.program())) {
+  if (!codegen::have_program(variant.program())) {
     DriftRecord record;
     record.model = input.law.model.name();
     record.subject = subject;
@@ -231,7 +236,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
     record.why_not = "there is no " + variant.program() + " on this machine";
     return record;
   }
-  const CompiledTarget target(exporter, source.request, source.bundle, variant);
+  const codegen::CompiledTarget target(exporter, source.request, source.bundle, variant);
   const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
     target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
   };
@@ -247,9 +252,9 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
   std::vector<DriftRecord> records;
   records.push_back(input.known ? *input.known : compare_table(input, s));
   for (const GeneratedSource& source : sources)
-    for (const BuildVariant& variant : source.exporter->variants(source.request))
+    for (const codegen::BuildVariant& variant : source.exporter->variants(source.request))
       records.push_back(verify_variant(input, s, source, variant));
   return records;
 }
 
-} // namespace frictab
+} // namespace frictab::verify

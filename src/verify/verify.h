@@ -7,14 +7,14 @@
 #include "table/build.h"
 #include "verify/verification.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 // What one table is held against.
 struct VerifyInput {
-  const AssembledLaw& law;
-  const Table& table;
-  std::string table_name;        // for messages
-  const Dataset* rows = nullptr; // validation rows; may be absent
+  const models::AssembledLaw& law;
+  const table::Table& table;
+  std::string table_name;              // for messages
+  const data::Dataset* rows = nullptr; // validation rows; may be absent
   double max_drift_MPa = 0.5;
   std::size_t samples = 200000;       // points over the whole range
   const DriftRecord* known = nullptr; // the table's own, where it was compared just before
@@ -23,9 +23,9 @@ struct VerifyInput {
 // Compares the table, then each variant of each bundle. A variant whose compiler is absent is
 // recorded as not run, with the reason. Throws InputError where table and model do not fit.
 struct GeneratedSource {
-  const Exporter* exporter;
-  ExportRequest request;
-  SourceBundle bundle;
+  const codegen::Exporter* exporter;
+  codegen::ExportRequest request;
+  codegen::SourceBundle bundle;
 };
 std::vector<DriftRecord> verify(const VerifyInput& input,
                                 const std::vector<GeneratedSource>& sources);
@@ -35,4 +35,4 @@ std::string verification_json(const Verification& verification);
 Verification parse_verification(std::string_view text, const std::string& file);
 std::string verification_junit(const Verification& verification);
 
-} // namespace frictab
+} // namespace frictab::verify

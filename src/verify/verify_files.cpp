@@ -8,7 +8,7 @@
 #include "io/json.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::verify {
 
 namespace {
 
@@ -78,15 +78,15 @@ std::string verification_json(const Verification& verification) {
   Json records = Json::array();
   for (const DriftRecord& record : verification.records)
     records.push_back(record_json(record));
-  return json_text({{"schema", "frictab/verify/1"},
-                    {"tool_version", FRICTAB_VERSION},
-                    {"max_drift_MPa", verification.max_drift_MPa},
-                    {"passed", verification.passed()},
-                    {"records", records}});
+  return io::json_text({{"schema", "frictab/verify/1"},
+                        {"tool_version", FRICTAB_VERSION},
+                        {"max_drift_MPa", verification.max_drift_MPa},
+                        {"passed", verification.passed()},
+                        {"records", records}});
 }
 
 Verification parse_verification(std::string_view text, const std::string& file) {
-  const Json j = parse_json(text, file);
+  const Json j = io::parse_json(text, file);
   try {
     Verification verification;
     verification.max_drift_MPa = j.at("max_drift_MPa");
@@ -160,4 +160,4 @@ std::string verification_junit(const Verification& verification) {
   return out.str();
 }
 
-} // namespace frictab
+} // namespace frictab::verify

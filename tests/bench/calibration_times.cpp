@@ -18,6 +18,9 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using calibrate::Loss;
+
 namespace {
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
@@ -25,13 +28,13 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
       .count();
 }
 
-void time_law(const Law& law, const Dataset& data, Loss loss, int rounds) {
-  const Conventions conventions;
+void time_law(const models::Law& law, const data::Dataset& data, Loss loss, int rounds) {
+  const models::Conventions conventions;
   double prepare_ms = 1e9, fit_ms = 1e9, errors_ms = 1e9;
-  LawFit fit;
+  calibrate::LawFit fit;
   for (int i = 0; i < rounds; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const LawProblem problem(law, conventions, data);
+    const calibrate::LawProblem problem(law, conventions, data);
     const auto prepared = std::chrono::steady_clock::now();
     prepare_ms = std::min(prepare_ms, milliseconds_since(begin));
     fit = problem.fit(loss, 10);
@@ -48,16 +51,16 @@ void time_law(const Law& law, const Dataset& data, Loss loss, int rounds) {
 }
 
 // All laws at once on all cores, as the calibration stage does.
-void time_all(const Dataset& data, Loss loss, int rounds) {
-  std::vector<const Law*> laws;
-  for (const Law& law : all_laws())
-    if (law.calibrated == Calibrated::fit) laws.push_back(&law);
+void time_all(const data::Dataset& data, Loss loss, int rounds) {
+  std::vector<const models::Law*> laws;
+  for (const models::Law& law : models::all_laws())
+    if (law.calibrated == models::Calibrated::fit) laws.push_back(&law);
   double ms = 1e9;
   for (int i = 0; i < rounds; ++i) {
     const auto begin = std::chrono::steady_clock::now();
     parallel_for(laws.size(), [&](std::size_t l) {
-      const LawProblem problem(*laws[l], {}, data);
-      LawFit fit = problem.fit(loss, 10);
+      const calibrate::LawProblem problem(*laws[l], {}, data);
+      calibrate::LawFit fit = problem.fit(loss, 10);
       problem.add_uncertainty(fit, loss, 10, data.first_row);
     });
     ms = std::min(ms, milliseconds_since(begin));
@@ -71,12 +74,12 @@ void time_all(const Dataset& data, Loss loss, int rounds) {
 int main(int argc, char** argv) try {
   using namespace frictab;
   if (argc < 2) return 2;
-  const Dataset data = make_twin({}).training.data;
-  std::ofstream(argv[1]) << csv_text(data);
+  const data::Dataset data = twin::make_twin({}).training.data;
+  std::ofstream(argv[1]) << data::csv_text(data);
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 5;
-  for (const Loss loss : {Loss::l2, Loss::l1}) {
-    for (const Law& law : all_laws())
-      if (law.calibrated == Calibrated::fit) time_law(law, data, loss, rounds);
+  for (const calibrate::Loss loss : {calibrate::Loss::l2, calibrate::Loss::l1}) {
+    for (const models::Law& law : models::all_laws())
+      if (law.calibrated == models::Calibrated::fit) time_law(law, data, loss, rounds);
     time_all(data, loss, rounds);
   }
   return 0;

@@ -11,7 +11,7 @@ int main(int argc, char** argv) try {
   double best = 1e9;
   for (int i = 0; i < 5; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    const frictab::Dataset data = frictab::load_dataset({argv[1]}, {});
+    const frictab::data::Dataset data = frictab::data::load_dataset({argv[1]}, {});
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (data.rows() > 0) best = std::min(best, wall.count());
   }

@@ -13,6 +13,9 @@
 
 namespace frictab::foreign {
 
+using data::Column;
+using data::Dataset;
+
 namespace {
 
 constexpr std::size_t held_out_tests = 60;
@@ -209,7 +212,8 @@ std::vector<Column> recorded(const Part& part, const Values& tau, const Draft& d
   columns.push_back(text_column("origin", part, "synthetic"));
   for (Column& column : columns) {
     drop_unused_levels(column);
-    if (const Quantity* quantity = find_quantity(column.name)) column.unit = quantity->unit;
+    if (const data::Quantity* quantity = data::find_quantity(column.name))
+      column.unit = quantity->unit;
     if (is_stress(column.name))
       for (double& x : column.values)
         x *= options.stress_unit;
@@ -256,7 +260,7 @@ Dataset reordered(const Dataset& data, const std::vector<std::size_t>& order) {
     out.experiments.push_back(data.experiments[e]);
     out.first_row.push_back(out.first_row.back() + static_cast<std::size_t>(end - first));
   }
-  fingerprint(out);
+  data::fingerprint(out);
   return out;
 }
 

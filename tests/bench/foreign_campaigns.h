@@ -39,9 +39,9 @@ struct Cause {
 };
 
 struct Campaign {
-  Dataset training, validation; // oracle_MPa: with the effects, without the tests' own gains
-  std::string base;             // the registered law to calibrate
-  std::vector<Cause> causes;    // that are recorded
+  data::Dataset training, validation; // oracle_MPa: with the effects, without the tests' own gains
+  std::string base;                   // the registered law to calibrate
+  std::vector<Cause> causes;          // that are recorded
   // Relative standard deviation between tests: of what they came from, and of these tests.
   double gain_scatter = 0, gain_sample = 0;
   bool absorbed = false; // the base law takes the effect up: its strength was not reached

@@ -14,6 +14,8 @@
 
 namespace frictab::foreign {
 
+using trace::Trace;
+
 namespace {
 
 // --- the stage under test: all that is read of its results stands here --------------------------
@@ -24,7 +26,7 @@ using Names = std::vector<std::string>;
 Names names_of(const Names& columns, const std::string& derived) {
   if (derived.empty()) return columns;
   Names names{derived};
-  const DerivedQuantity* quantity = find_derived(derived);
+  const data::DerivedQuantity* quantity = data::find_derived(derived);
   if (quantity == nullptr) return names;
   for (const std::string& column : columns)
     if (std::find(quantity->needs.begin(), quantity->needs.end(), column) == quantity->needs.end())
@@ -39,9 +41,9 @@ struct Found {
 
 std::vector<Found> found_effects(const Trace& trace) {
   std::vector<Found> found;
-  for (const TracedEffect& effect : trace.effects) {
+  for (const trace::TracedEffect& effect : trace.effects) {
     found.push_back({names_of(effect.columns, effect.derived), {}});
-    for (const Alternative& other : effect.alternatives)
+    for (const trace::Alternative& other : effect.alternatives)
       if (other.in_set) found.back().as_good.push_back(names_of(other.columns, other.derived));
   }
   return found;
@@ -52,8 +54,8 @@ bool is_delivered(const Trace& trace) {
 }
 
 void read_verdict(const Trace& trace, Score& score) {
-  score.verdict = verdict_name(trace.verdict);
-  score.unexplained = trace.verdict == Verdict::unexplained_structure;
+  score.verdict = trace::verdict_name(trace.verdict);
+  score.unexplained = trace.verdict == trace::Verdict::unexplained_structure;
   score.order_found = trace.order.found;
   if (!trace.effects.empty()) score.p_value = trace.effects.front().p_value;
   score.scatter = trace.scatter_between;
@@ -61,11 +63,12 @@ void read_verdict(const Trace& trace, Score& score) {
   score.scatter_high = trace.scatter_interval.high;
 }
 
-Trace traced(const Campaign& campaign, const ModelFit& fit, const Options& options, double alpha) {
-  TraceOptions how;
+Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Options& options,
+             double alpha) {
+  trace::TraceOptions how;
   how.alpha = alpha;
-  Trace found = trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
-  if (options.show) std::fputs(trace_text(found).c_str(), stderr);
+  Trace found = trace::trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
+  if (options.show) std::fputs(trace::trace_text(found).c_str(), stderr);
   return found;
 }
 
@@ -74,7 +77,7 @@ Trace traced(const Campaign& campaign, const ModelFit& fit, const Options& optio
 // Columns of one campaign: those that go together in its data have found each other.
 class Sameness {
 public:
-  explicit Sameness(const Dataset& data) : data_(data) {}
+  explicit Sameness(const data::Dataset& data) : data_(data) {}
 
   bool operator()(const std::string& a, const std::string& b) const {
     if (a == b) return true;
@@ -94,16 +97,16 @@ public:
 
 private:
   std::vector<double> values(const std::string& name) const {
-    if (const Column* column = data_.find(name))
+    if (const data::Column* column = data_.find(name))
       return column->levels.empty() ? column->values : std::vector<double>{};
-    const DerivedQuantity* quantity = find_derived(name);
+    const data::DerivedQuantity* quantity = data::find_derived(name);
     if (quantity == nullptr) return {};
     for (const std::string& need : quantity->needs)
       if (need != "tau" && !data_.has(need)) return {};
-    return derive(*quantity, data_, data_.oracle_MPa);
+    return data::derive(*quantity, data_, data_.oracle_MPa);
   }
 
-  const Dataset& data_;
+  const data::Dataset& data_;
 };
 
 // --- score --------------------------------------------------------------------------------------
@@ -182,11 +185,11 @@ Score judged(const Options& options, double alpha) try {
   score.absorbed = campaign.absorbed;
   score.gain_scatter = campaign.gain_scatter;
   score.gain_sample = campaign.gain_sample;
-  CalibrationInput input{campaign.training, campaign.validation, {}, {}};
+  calibrate::CalibrationInput input{campaign.training, campaign.validation, {}, {}};
   input.models.use = {campaign.base};
   input.options.bootstrap = 50; // no interval of it is judged here
-  const Calibration calibration = calibrate(input);
-  const ModelFit& fit = calibration.fits.front();
+  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  const calibrate::ModelFit& fit = calibration.fits.front();
   const auto begin = std::chrono::steady_clock::now();
   const Trace trace = traced(campaign, fit, options, alpha);
   const auto end = std::chrono::steady_clock::now();
@@ -196,10 +199,11 @@ Score judged(const Options& options, double alpha) try {
   Judge(campaign, found).score(score);
   const auto measured = campaign.validation.values("tau_R_MPa");
   score.delivered = is_delivered(trace);
-  score.before = mean_error(measured, predict(fit.model, campaign.validation));
-  score.after = score.delivered
-                    ? mean_error(measured, predict(trace.extended.model, campaign.validation))
-                    : score.before;
+  score.before = mean_error(measured, calibrate::predict(fit.model, campaign.validation));
+  score.after =
+      score.delivered
+          ? mean_error(measured, calibrate::predict(trace.extended.model, campaign.validation))
+          : score.before;
   score.oracle = mean_error(measured, campaign.validation.oracle_MPa);
   return score;
 } catch (const std::exception& error) {

@@ -57,7 +57,7 @@ Part masked_part(const Options& options, std::size_t tests, const Program& progr
              rows_of_a_test(options.rows, random), random);
   // Forming or a plain rig; no flow stress, so that nothing limits friction.
   const bool plain = options.seed % 2 == 0;
-  std::erase_if(part.columns, [&](const Column& c) {
+  std::erase_if(part.columns, [&](const data::Column& c) {
     return c.name == "sigma_f_MPa" || (plain && (c.name == "psi" || c.name == "T_contact_C"));
   });
   const auto columns = told_apart(options.masked_columns, tests, random);

@@ -8,17 +8,17 @@
 namespace frictab::foreign {
 
 const Values& Part::at(const std::string& name) const {
-  for (const Column& column : columns)
+  for (const data::Column& column : columns)
     if (column.name == name) return column.values;
   throw std::invalid_argument("no column " + name);
 }
 
 bool Part::has(const std::string& name) const {
   return std::any_of(columns.begin(), columns.end(),
-                     [&](const Column& column) { return column.name == name; });
+                     [&](const data::Column& column) { return column.name == name; });
 }
 
-void Part::add(Column column) {
+void Part::add(data::Column column) {
   columns.push_back(std::move(column));
 }
 

@@ -16,7 +16,7 @@ using Values = std::vector<double>;
 // Training or held-out tests while they are made. Some columns may never be recorded.
 struct Part {
   std::vector<std::size_t> first_row{0};
-  std::vector<Column> columns;
+  std::vector<data::Column> columns;
   Values place; // of each test in the order of tests, 0 .. 1
   Values law;   // friction by the base truth, MPa
   Values truth; // the same with effects
@@ -25,7 +25,7 @@ struct Part {
   std::size_t rows() const { return first_row.back(); }
   const Values& at(const std::string& name) const;
   bool has(const std::string& name) const;
-  void add(Column column);
+  void add(data::Column column);
   void add_per_test(const std::string& name, const Values& values,
                     std::vector<std::string> levels = {});
   Values per_test(const std::string& name) const; // of each test's first row

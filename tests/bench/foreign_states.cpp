@@ -222,9 +222,10 @@ void simulate(Part& part, const Program& program, const Point& point, std::size_
   const bool first = part.columns.empty();
   for (const auto& [name, values] : recorded) {
     if (first) part.add({name, "", {}, {}});
-    Values& column = std::find_if(part.columns.begin(), part.columns.end(), [&](const Column& c) {
-                       return c.name == name;
-                     })->values;
+    Values& column =
+        std::find_if(part.columns.begin(), part.columns.end(), [&](const data::Column& c) {
+          return c.name == name;
+        })->values;
     for (std::size_t r = 0; r < rows; ++r)
       column.push_back((*values)[rows == 1 ? alone : r * (steps - 1) / (rows - 1)]);
   }

@@ -21,7 +21,7 @@ namespace {
 
 struct Arguments {
   Counts counts;
-  double alpha = TraceOptions{}.alpha;
+  double alpha = trace::TraceOptions{}.alpha;
   unsigned threads = 0;
   std::string csv;
   bool list = false, show = false;

@@ -12,6 +12,8 @@
 
 namespace frictab::bench {
 
+using table::Table;
+
 namespace {
 
 const char* const names[] = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm"};
@@ -74,11 +76,11 @@ std::string loops(std::size_t axes, int taps, const char* nodes) {
 }
 
 std::string additions(const Table& table) {
-  const bool cubic = table.interpolation == Interpolation::cubic;
+  const bool cubic = table.interpolation == table::Interpolation::cubic;
   const std::string kernels = std::string(FRICTAB_SOURCE_DIR) + "/src/table/";
-  std::string text = read_file(kernels + "frictab_cubic.h") +
-                     read_file(kernels + "frictab_gradient.h") +
-                     read_file(kernels + "frictab_cubic_gradient.h") + added;
+  std::string text = io::read_file(kernels + "frictab_cubic.h") +
+                     io::read_file(kernels + "frictab_gradient.h") +
+                     io::read_file(kernels + "frictab_cubic_gradient.h") + added;
   text = replaced(text, "{loops}", loops(table.axes.size(), cubic ? 4 : 2, cubic ? ".nodes" : ""));
   text = replaced(text, "{kernel}", cubic ? "ft_cubic" : "ft_linear");
   text = replaced(text, "{axes}", std::to_string(table.axes.size()));
@@ -98,11 +100,11 @@ std::string additions(const Table& table) {
 Table random_table(const std::vector<std::size_t>& counts, bool even, bool cubic) {
   Table table;
   table.quantity = "tau_R";
-  table.interpolation = cubic ? Interpolation::cubic : Interpolation::linear;
-  table.combine = Expr::symbol("value");
+  table.interpolation = cubic ? table::Interpolation::cubic : table::Interpolation::linear;
+  table.combine = expr::Expr::symbol("value");
   std::size_t nodes = 1;
   for (const std::size_t count : counts) {
-    TableAxis axis;
+    table::TableAxis axis;
     axis.name = names[table.axes.size()];
     for (std::size_t i = 0; i < count; ++i) {
       const double w = static_cast<double>(i) / static_cast<double>(count - 1);
@@ -118,13 +120,14 @@ Table random_table(const std::vector<std::size_t>& counts, bool even, bool cubic
 }
 
 CKernel::CKernel(const Table& table, const std::vector<std::string>& flags) {
-  const Exporter& c = *find_exporter("c");
-  const ExportRequest request{table, "mm-t-s", {}};
-  SourceBundle bundle = c.generate(request);
+  const codegen::Exporter& c = *codegen::find_exporter("c");
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  codegen::SourceBundle bundle = c.generate(request);
   if (!table.axes.empty()) bundle["frictab_tau_R.c"] += additions(table);
-  BuildVariant build = c.variants(request)[0];
+  codegen::BuildVariant build = c.variants(request)[0];
   build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
-  library_ = std::make_unique<Library>(compile_library(bundle, build, directory_.path()));
+  library_ = std::make_unique<codegen::Library>(
+      codegen::compile_library(bundle, build, directory_.path()));
   value = library_->find<double(const double*)>("bench_value");
   single = library_->find<double(const double*)>("bench_single");
   gradient = library_->find<double(const double*, double*)>("bench_gradient");
@@ -134,22 +137,23 @@ CKernel::CKernel(const Table& table, const std::vector<std::string>& flags) {
 }
 
 FortranKernel::FortranKernel(const Table& table, bool has_gradient) {
-  BuildVariant build;
+  codegen::BuildVariant build;
   build.name = "core";
   build.command = {"gfortran", "-O2", "-std=legacy", "-ffp-contract=off", "-fPIC",
                    "-shared",  "-o",  "@{out}",      "@{dir}/core.f"};
-  const std::string text = fortran::core({.table = table}, {.gradient = has_gradient}).text + "\n";
-  library_ =
-      std::make_unique<Library>(compile_library({{"core.f", text}}, build, directory_.path()));
+  const std::string text =
+      codegen::fortran::core({.table = table}, {.gradient = has_gradient}).text + "\n";
+  library_ = std::make_unique<codegen::Library>(
+      codegen::compile_library({{"core.f", text}}, build, directory_.path()));
   value = library_->find<double(const double*)>("ftintp_");
   if (has_gradient)
     gradient = library_->find<void(const double*, double*, double*, const int*)>("ftintg_");
 }
 
 BatchEntries::BatchEntries(const Table& table, const std::string& target) {
-  const Exporter& exporter = *find_exporter(target);
-  const ExportRequest request{table, "mm-t-s", {}};
-  library_ = std::make_unique<Library>(compile_library(
+  const codegen::Exporter& exporter = *codegen::find_exporter(target);
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  library_ = std::make_unique<codegen::Library>(codegen::compile_library(
       exporter.generate(request), exporter.variants(request)[0], directory_.path()));
   value = library_->find<std::remove_pointer_t<decltype(value)>>("frictab_tau_R_batch");
   gradient =
@@ -161,10 +165,10 @@ void write_generated(const std::filesystem::path& directory) {
   const auto write = [&](const std::string& name, const std::string& text) {
     std::ofstream(directory / name, std::ios::binary) << text;
   };
-  for (const auto& [name, text] : find_exporter("c")->generate({table, "mm-t-s", {}}))
+  for (const auto& [name, text] : codegen::find_exporter("c")->generate({table, "mm-t-s", {}}))
     write(name, text);
   nlohmann::json nodes;
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     nodes[axis.name] = axis.nodes;
   write("table.json", nlohmann::json{{"nodes", nodes}, {"value", table.value}}.dump());
 }

@@ -13,6 +13,9 @@
 #include <gsl/gsl_spline2d.h>
 
 namespace frictab::bench {
+
+using table::Table;
+
 namespace {
 
 constexpr std::size_t queries = 4096;
@@ -94,7 +97,7 @@ void add_table(const std::string& grid, bool even, bool cubic) {
       return value;
     };
   });
-  const auto function = std::make_shared<TableFunction>(table);
+  const auto function = std::make_shared<table::TableFunction>(table);
   add(name + "/value/" + grid + "/frictab", axes, [function, axes] {
     return [f = function.get(), axes](const double* u) { return (*f)({u, axes}); };
   });
@@ -159,17 +162,17 @@ void add_batches(const std::string& name, const Table& table,
 // The law of tests/support/kinked_law.h at 0.01 MPa: logarithms of three axes, lookup, exponential,
 // min; and the law itself.
 void add_kinked() {
-  const Model model = test::kinked_model();
-  TableOptions options;
+  const models::Model model = test::kinked_model();
+  table::TableOptions options;
   options.tolerance_MPa = 0.01;
-  options.interpolation = Interpolation::linear;
+  options.interpolation = table::Interpolation::linear;
   const auto ranges = test::kinked_ranges();
-  const Table table = build_table(AssembledLaw(model), ranges, options);
+  const Table table = table::build_table(models::AssembledLaw(model), ranges, options);
   constexpr std::size_t n = 5;
   auto rows = std::make_shared<std::vector<double>>(states(n)); // states, one after the other
   auto columns = std::make_shared<Columns>(n);
   for (std::size_t i = 0; i < rows->size(); ++i) {
-    const StateRange& range = ranges[i % n];
+    const table::StateRange& range = ranges[i % n];
     double& x = (*rows)[i];
     x = range.low + x * (range.high - range.low);
     (*columns)[i % n].push_back(x);
@@ -184,9 +187,9 @@ void add_kinked() {
           return [tau](const double* x) { return tau(x[0], x[1], x[2], x[3], 0, x[4]); };
         });
   }
-  const auto function = std::make_shared<TableFunction>(table);
+  const auto function = std::make_shared<table::TableFunction>(table);
   add("kinked/tau" + tail + "/frictab", rows->data(), n, [function, rows] {
-    const TableFunction* f = function.get();
+    const table::TableFunction* f = function.get();
     return [f](const double* x) { return (*f)({x, n}); };
   });
   std::vector<const double*> pointers;
@@ -195,7 +198,8 @@ void add_kinked() {
   auto tau = std::make_shared<std::vector<double>>(queries);
   measure("kinked/tau" + tail + "/frictab batch", queries,
           [=] { (void)columns, function->evaluate(queries, pointers, *tau); });
-  const auto law = std::make_shared<LawFunction>(AssembledLaw(model), function->inputs());
+  const auto law =
+      std::make_shared<table::LawFunction>(models::AssembledLaw(model), function->inputs());
   measure("kinked/law/frictab batch", queries,
           [=] { law->evaluate(queries, pointers, tau->data()); });
 }

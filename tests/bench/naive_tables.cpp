@@ -13,58 +13,67 @@
 #include "table/table_file.h"
 
 namespace frictab {
+
+using expr::Expr;
+using models::AssembledLaw;
+using models::Model;
+using table::Table;
+
 namespace {
 
 constexpr std::size_t samples = 200000;
 
 // The same law without pieces: everything is in the tabulated number.
 Model without_pieces(const Model& model) {
-  Law law = *model.law;
+  models::Law law = *model.law;
   const Expr tau = AssembledLaw(model).tau_R;
-  law.build = [tau](const Conventions&) { return Formula{tau, Expr::symbol("value")}; };
+  law.build = [tau](const models::Conventions&) {
+    return models::Formula{tau, Expr::symbol("value")};
+  };
   law.quantity = "tau_R";
   law.log_value = false;
   law.kinks.clear();
   Model out = model;
-  out.law = unregistered_law(std::move(law));
+  out.law = models::unregistered_law(std::move(law));
   out.gain = 1;
   out.conventions.shear_limit = false; // it is in tau already
   return out;
 }
 
-double drift_of(const Model& model, const Table& table, const std::vector<StateRange>& ranges) {
-  const TableFunction function(table);
-  return worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
-                    probe_points(ranges, table.axes, samples))
+double drift_of(const Model& model, const Table& table,
+                const std::vector<table::StateRange>& ranges) {
+  const table::TableFunction function(table);
+  return table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
+                           ranges, table::probe_points(ranges, table.axes, samples))
       .drift_MPa;
 }
 
 // Evenly spaced, the same number of nodes on every axis, at least `nodes` in all.
-Table naive(const Model& model, const std::vector<StateRange>& ranges, std::size_t nodes) {
-  TableOptions options;
+Table naive(const Model& model, const std::vector<table::StateRange>& ranges, std::size_t nodes) {
+  table::TableOptions options;
   options.coordinates = "plain";
-  options.interpolation = Interpolation::linear;
+  options.interpolation = table::Interpolation::linear;
   const auto per_axis = static_cast<std::size_t>(std::ceil(
       std::pow(static_cast<double>(nodes), 1.0 / static_cast<double>(ranges.size())) - 1e-9));
-  for (const StateRange& range : ranges) {
+  for (const table::StateRange& range : ranges) {
     options.axes[range.name].nodes = std::max<std::size_t>(2, per_axis);
     options.axes[range.name].spacing = "linear";
   }
-  return build_table(AssembledLaw(model), ranges, options);
+  return table::build_table(AssembledLaw(model), ranges, options);
 }
 
 void print_row(const std::filesystem::path& directory, const std::filesystem::path& file) {
-  const Table table = read_table(file);
+  const Table table = table::read_table(file);
   const std::filesystem::path source = directory / "models" / (table.model + ".json");
   if (!std::filesystem::exists(source)) return; // an end of the band has no file of its own
-  const Model model = parse_model(read_file(source), source.string());
-  const auto ranges = table_ranges(table, nullptr, file.string());
-  const TableFunction function(table);
-  const ProvenDrift drift =
-      prove_drift(AssembledLaw(model), table, ranges,
-                  worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
-                             probe_points(ranges, table.axes, samples)),
-                  table.record.tolerance_MPa.value());
+  const Model model = calibrate::parse_model(io::read_file(source), source.string());
+  const auto ranges = table::table_ranges(table, nullptr, file.string());
+  const table::TableFunction function(table);
+  const table::ProvenDrift drift = table::prove_drift(
+      AssembledLaw(model), table, ranges,
+      table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
+                        ranges, table::probe_points(ranges, table.axes, samples)),
+      table.record.tolerance_MPa.value());
   const Model whole = without_pieces(model);
   const Table same = naive(whole, ranges, table.nodes());
   const Table large = naive(whole, ranges, 100000);

@@ -7,29 +7,32 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using calibrate::Loss;
+
 namespace {
 
-const Twin& campaign() {
-  static const Twin twin = make_twin({});
+const twin::Twin& campaign() {
+  static const twin::Twin twin = twin::make_twin({});
   return twin;
 }
 
 // One law on the 44,550 rows of the synthetic campaign, standard errors included.
 void calibrate_law(benchmark::State& state, const char* law, Loss loss) {
-  CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
+  calibrate::CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
   input.models.use = {law};
   input.options.loss = loss;
   for (auto _ : state)
-    benchmark::DoNotOptimize(calibrate(input).fits.front());
+    benchmark::DoNotOptimize(calibrate::calibrate(input).fits.front());
 }
 // Every calibrated law, and the errors and intervals of all on training and validation rows.
 void calibrate_all(benchmark::State& state, Loss loss) {
-  CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
-  for (const Law& law : all_laws())
-    if (law.calibrated == Calibrated::fit) input.models.use.push_back(law.name);
+  calibrate::CalibrationInput input{campaign().training.data, campaign().validation.data, {}, {}};
+  for (const models::Law& law : models::all_laws())
+    if (law.calibrated == models::Calibrated::fit) input.models.use.push_back(law.name);
   input.options.loss = loss;
   for (auto _ : state)
-    benchmark::DoNotOptimize(calibrate(input).fits.front());
+    benchmark::DoNotOptimize(calibrate::calibrate(input).fits.front());
 }
 BENCHMARK_CAPTURE(calibrate_all, closed_forms_L2, Loss::l2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(calibrate_all, closed_forms_L1, Loss::l1)->Unit(benchmark::kMillisecond);
@@ -44,17 +47,18 @@ BENCHMARK_CAPTURE(calibrate_law, wzl_L2, "wzl", Loss::l2)->Unit(benchmark::kMill
 
 // Queries at random states: the table as the tool evaluates it, and the law itself.
 struct Query {
-  explicit Query(const char* name) : model(test::plausible_model(*find_law(name))) {
-    const Dataset data = test::sample_data(model);
-    table = build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {});
+  explicit Query(const char* name) : model(test::plausible_model(*models::find_law(name))) {
+    const data::Dataset data = test::sample_data(model);
+    table = table::build_table(models::AssembledLaw(model),
+                               table::state_ranges(models::AssembledLaw(model), data, {}), {});
     states = test::random_states(table.inputs(), count, 5);
     for (const auto& column : states)
       columns.push_back(column.data());
     tau.resize(count);
   }
   static constexpr std::size_t count = 4096;
-  Model model;
-  Table table;
+  models::Model model;
+  table::Table table;
   std::vector<std::vector<double>> states;
   std::vector<const double*> columns;
   std::vector<double> tau;
@@ -62,7 +66,7 @@ struct Query {
 
 void query_table(benchmark::State& state, const char* law) {
   Query query(law);
-  const TableFunction function(query.table);
+  const table::TableFunction function(query.table);
   for (auto _ : state) {
     function.evaluate(Query::count, query.columns, query.tau);
     benchmark::ClobberMemory();
@@ -72,7 +76,7 @@ void query_table(benchmark::State& state, const char* law) {
 
 void query_law(benchmark::State& state, const char* law) {
   Query query(law);
-  const LawFunction function(AssembledLaw(query.model), query.table.inputs());
+  const table::LawFunction function(models::AssembledLaw(query.model), query.table.inputs());
   for (auto _ : state) {
     function.evaluate(Query::count, query.columns, query.tau.data());
     benchmark::ClobberMemory();

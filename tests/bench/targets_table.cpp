@@ -20,6 +20,11 @@
 #include "table/table_file.h"
 
 namespace frictab::bench {
+
+using codegen::BuildVariant;
+using codegen::Exporter;
+using codegen::ExportRequest;
+
 namespace {
 
 constexpr std::size_t rows = 4080; // 30 blocks of 136 contact points
@@ -87,7 +92,7 @@ std::vector<BuildVariant> compilers(const Exporter& exporter, const ExportReques
 
 struct Subject {
   std::string name;
-  Table table;
+  table::Table table;
   double spread;                // beyond the ends of the axes
   std::function<void()> kernel; // the same lookups by hand
 };
@@ -98,12 +103,12 @@ void print_line(const Subject& subject, const Exporter& exporter, const ExportRe
   const std::string who = fmt::format(
       "| {} | {} | {}", subject.name, exporter.name,
       variant.command.empty() ? variant.interpreter : variant.command[0] + " " + variant.name);
-  const SourceBundle bundle = exporter.generate(request);
+  const codegen::SourceBundle bundle = exporter.generate(request);
   std::vector<double> tau(rows, std::nan(""));
   Times cost = {std::nan(""), std::nan("")};
   std::size_t posed = 0;
   try {
-    const CompiledTarget target(exporter, request, bundle, variant);
+    const codegen::CompiledTarget target(exporter, request, bundle, variant);
     const auto drive = [&] { target.drive(rows, states.columns(), tau); };
     drive();
     posed = static_cast<std::size_t>(
@@ -131,11 +136,11 @@ void print_subject(const Subject& subject) {
   const test::States states(subject.table, rows, 41, subject.spread,
                             subject.kernel ? fixed : in_range);
   const std::vector<double> truth = test::expected(subject.table, states);
-  for (const Exporter& exporter : all_exporters()) {
+  for (const Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.whole()) continue;
     const ExportRequest request{subject.table, "mm-t-s", {}};
     for (const BuildVariant& variant : compilers(exporter, request))
-      if (have_program(variant.program()))
+      if (codegen::have_program(variant.program()))
         print_line(subject, exporter, request, variant, states, truth);
   }
 }
@@ -149,7 +154,7 @@ Subject grid(const std::vector<std::size_t>& counts) {
   const test::States states(out.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});
   std::vector<double> u;
   for (std::size_t i = 0; i < rows; ++i)
-    for (const TableAxis& axis : out.table.axes) {
+    for (const table::TableAxis& axis : out.table.axes) {
       const std::vector<std::string> inputs = out.table.inputs();
       const auto c = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
       u.push_back(states.columns()[static_cast<std::size_t>(c)][i]);
@@ -164,12 +169,12 @@ Subject grid(const std::vector<std::size_t>& counts) {
 
 // VFRIC with all its arguments, by contact points per call: the states of `subject`.
 void print_blocks(const Subject& subject) {
-  const Exporter& exporter = *find_exporter("abaqus_vfric");
+  const Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
   const ExportRequest request{subject.table, "mm-t-s", {}};
   const BuildVariant variant = exporter.variants(request)[0];
-  if (!have_program(variant.program())) return;
-  const CompiledTarget target(exporter, request, exporter.generate(request), variant);
-  void* routine = Library::address(target.handle(), "vfric_");
+  if (!codegen::have_program(variant.program())) return;
+  const codegen::CompiledTarget target(exporter, request, exporter.generate(request), variant);
+  void* routine = codegen::Library::address(target.handle(), "vfric_");
   const test::States states(subject.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});
   for (const int block : {1, 16, 136, 510}) {
     std::vector<calls::VfricCall<double>> calls(rows / static_cast<std::size_t>(block));
@@ -218,7 +223,7 @@ int run(const std::filesystem::path& directory) {
     if (entry.path().extension() == ".h5") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) {
-    const Table table = read_table(file);
+    const table::Table table = table::read_table(file);
     print_subject({table.model, table, 0.1, {}});
   }
   return 0;

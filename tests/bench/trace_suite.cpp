@@ -25,11 +25,17 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using trace::Trace;
+using trace::TracedEffect;
+using twin::EffectSpec;
+using twin::TwinPart;
+
 namespace {
 
 // The stage under test.
-Trace traced(const TraceInput& input) {
-  return trace(input);
+Trace traced(const trace::TraceInput& input) {
+  return trace::trace(input);
 }
 
 // --- cases --------------------------------------------------------------------------------------
@@ -136,18 +142,18 @@ struct Case {
   std::string group; // single | order | hidden | two | null
   std::string name;
   double strength = 0;
-  TwinOptions options;
+  twin::TwinOptions options;
 };
 
-TwinOptions campaign(const std::string& law, std::uint64_t seed, const std::string& noise) {
-  TwinOptions options;
+twin::TwinOptions campaign(const std::string& law, std::uint64_t seed, const std::string& noise) {
+  twin::TwinOptions options;
   options.law = law;
   options.seed = seed;
   options.noise = noise;
   options.profile = "varied";
   options.more_bystanders = true;
-  options.design = parse_design("p=500,1625,2750", {});
-  options.scatter = parse_scatter("test=0.04,slow=0.04,rho=0.95,white=0.015");
+  options.design = twin::parse_design("p=500,1625,2750", {});
+  options.scatter = twin::parse_scatter("test=0.04,slow=0.04,rho=0.95,white=0.015");
   return options;
 }
 
@@ -156,7 +162,7 @@ Case case_of(const std::string& group, const Planted& planted, double strength,
   Case made{group, planted.name, strength, campaign(planted.law, seed, "normal")};
   for (const char* effect : planted.effects)
     made.options.effects.push_back(
-        parse_effect(fmt::format("{},strength={}", effect, shortest(strength))));
+        twin::parse_effect(fmt::format("{},strength={}", effect, shortest(strength))));
   if (*planted.hide) made.options.hide = {planted.hide};
   return made;
 }
@@ -167,7 +173,7 @@ struct Options {
   std::uint64_t first_seed = 1;
   std::vector<double> strengths = {0.02, 0.05, 0.15, 0.5};
   std::string only;
-  double alpha = TraceOptions{}.alpha;
+  double alpha = trace::TraceOptions{}.alpha;
   unsigned threads = 0;
   bool list = false;
 };
@@ -219,13 +225,13 @@ public:
 
 private:
   std::vector<double> values(const std::string& name) const {
-    if (const Column* column = part_.data.find(name))
+    if (const data::Column* column = part_.data.find(name))
       return column->levels.empty() ? column->values : std::vector<double>{};
-    const DerivedQuantity* quantity = find_derived(name);
+    const data::DerivedQuantity* quantity = data::find_derived(name);
     if (quantity == nullptr) return {};
     for (const std::string& need : quantity->needs)
       if (need != "tau" && !part_.data.has(need)) return {};
-    return derive(*quantity, part_.data, part_.base_MPa);
+    return data::derive(*quantity, part_.data, part_.base_MPa);
   }
 
   const TwinPart& part_;
@@ -239,13 +245,13 @@ Names names_of(const EffectSpec& spec) {
 
 Names names_of(const TracedEffect& effect) {
   Names names;
-  for (const EffectInput& input : effect.placed.inputs)
+  for (const effects::EffectInput& input : effect.placed.inputs)
     names.push_back(input.column);
   return names;
 }
 
 // Of a product with a derived factor the recorded columns behind it, which match nothing planted.
-Names names_of(const Alternative& alternative) {
+Names names_of(const trace::Alternative& alternative) {
   const bool product = alternative.form == "product";
   return alternative.derived.empty() || product ? alternative.columns : Names{alternative.derived};
 }
@@ -287,12 +293,12 @@ std::string family_of(const std::string& form) {
 
 class Judge {
 public:
-  Judge(const Twin& twin, const Trace& trace)
+  Judge(const twin::Twin& twin, const Trace& trace)
       : twin_(twin), trace_(trace), quantities_(twin.training) {}
 
   Score score() {
-    score_.detected = trace_.verdict == Verdict::effect_added;
-    score_.order = trace_.order.found || trace_.verdict == Verdict::unexplained_structure;
+    score_.detected = trace_.verdict == trace::Verdict::effect_added;
+    score_.order = trace_.order.found || trace_.verdict == trace::Verdict::unexplained_structure;
     score_.added = trace_.effects.size();
     for (const EffectSpec& spec : twin_.options.effects)
       if (recorded(spec)) judge_planted(spec);
@@ -302,7 +308,7 @@ public:
         trace_.effects.empty() ? trace_.remaining.p_value : trace_.effects.front().p_value;
     score_.order_p = trace_.order.p_value;
     score_.rejected = join(trace_.rejected, "; ");
-    for (const Lead& lead : trace_.leads)
+    for (const trace::Lead& lead : trace_.leads)
       score_.rejected += fmt::format("; lead {} p {:.3g}: {}", lead.name, lead.p_value, lead.why);
     errors();
     return std::move(score_);
@@ -323,7 +329,7 @@ private:
       const bool here = quantities_.same(names_of(effect), names);
       if (here && !named) judge_match(spec, effect);
       named = named || here;
-      for (const Alternative& other : effect.alternatives)
+      for (const trace::Alternative& other : effect.alternatives)
         in_set = in_set || (other.in_set && quantities_.same(names_of(other), names));
     }
     score_.named += named;
@@ -347,12 +353,12 @@ private:
     });
     score_.order_only += effect.order_confounded;
     std::set<Names> set{names};
-    for (const Alternative& other : effect.alternatives)
+    for (const trace::Alternative& other : effect.alternatives)
       if (other.in_set) set.insert(names_of(other));
     score_.sets += static_cast<double>(set.size());
     score_.found +=
         fmt::format("{}{} of {} on {}", score_.found.empty() ? "" : "; ", effect.placed.form->name,
-                    join(names, " x "), acts_on_name(effect.placed.acts_on));
+                    join(names, " x "), effects::acts_on_name(effect.placed.acts_on));
   }
 
   static double mae(const TwinPart& part) {
@@ -374,20 +380,20 @@ private:
     score_.excess = trace_.scatter_at_least > twin_.options.scatter.test;
   }
 
-  const Twin& twin_;
+  const twin::Twin& twin_;
   const Trace& trace_;
   Quantities quantities_;
   Score score_;
 };
 
 Score run_case(const Case& c, double alpha) try {
-  Twin twin = make_twin(c.options);
+  twin::Twin twin = twin::make_twin(c.options);
   for (TwinPart* part : {&twin.training, &twin.validation})
-    fingerprint(part->data);
-  CalibrationInput input{twin.training.data, twin.validation.data, {}, {}};
+    data::fingerprint(part->data);
+  calibrate::CalibrationInput input{twin.training.data, twin.validation.data, {}, {}};
   input.models.use = {c.options.law};
-  const Calibration calibration = calibrate(input);
-  TraceOptions options;
+  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  trace::TraceOptions options;
   options.alpha = alpha;
   const auto begin = std::chrono::steady_clock::now();
   const Trace trace = traced({twin.training.data, twin.validation.data, calibration.fits.front(),

@@ -24,8 +24,8 @@ TEST(InitCommand, WritesAJobThatIsReadAndSaysWhatToDoNext) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "new/job.toml\n");
   EXPECT_THAT(result.err, HasSubstr("frictab run new/job.toml"));
-  EXPECT_EQ(directory.read("new/job.toml"), job_template());
-  EXPECT_NO_THROW(read_job(directory.path("new/job.toml")));
+  EXPECT_EQ(directory.read("new/job.toml"), job::job_template());
+  EXPECT_NO_THROW(job::read_job(directory.path("new/job.toml")));
 }
 
 TEST(InitCommand, ReplacesAFileOnlyByForce) {
@@ -37,7 +37,7 @@ TEST(InitCommand, ReplacesAFileOnlyByForce) {
                          "  hint: name another directory, or --force to replace it\n");
   EXPECT_EQ(directory.read("job.toml"), "mine");
   EXPECT_EQ(run_frictab({"init", ".", "--force"}, directory.path()).exit_code, 0);
-  EXPECT_EQ(directory.read("job.toml"), job_template());
+  EXPECT_EQ(directory.read("job.toml"), job::job_template());
 }
 
 TEST(InitCommand, RefusesAFileInPlaceOfADirectory) {
@@ -66,11 +66,11 @@ TEST(ListCommand, NamesEveryLawEffectAndTarget) {
     return out;
   };
   std::vector<std::string> laws, effects, targets;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     laws.push_back(law.name);
-  for (const EffectForm& effect : all_effects())
+  for (const effects::EffectForm& effect : effects::all_effects())
     effects.push_back(effect.name);
-  for (const Exporter& target : all_exporters())
+  for (const codegen::Exporter& target : codegen::all_exporters())
     targets.push_back(target.name);
   EXPECT_EQ(names("models"), laws);
   EXPECT_EQ(names("effects"), effects);
@@ -114,7 +114,7 @@ TEST(ExplainCommand, ShowsAJobKeyWithItsDefault) {
 
 TEST(ExplainCommand, ShowsEveryKeyOfTheJob) {
   const CommandResult result = run_frictab({"explain", "job"});
-  for (const KeyRule& rule : key_rules())
+  for (const job::KeyRule& rule : job::key_rules())
     EXPECT_THAT(result.out, HasSubstr("\n    " + rule.path + "\n"));
 }
 
@@ -126,8 +126,8 @@ TEST(ExplainCommand, ShowsAQuantityAsJson) {
 }
 
 TEST(ExplainCommand, KnowsEveryNameThatIsListed) {
-  for (const std::string& name : explainable()) {
-    const auto explanation = explain(name);
+  for (const std::string& name : cli::explainable()) {
+    const auto explanation = cli::explain(name);
     ASSERT_TRUE(explanation) << name;
     EXPECT_FALSE(explanation->title.empty()) << name;
   }
@@ -150,7 +150,7 @@ TEST(DoctorCommand, SaysWhatThisMachineHas) {
   for (const char* library : {"HDF5", "NLopt", "Eigen"})
     EXPECT_TRUE(found.at(library).at("ok")) << library;
   EXPECT_THAT(found.at("gcc").at("text").get<std::string>(), HasSubstr("/gcc"));
-  for (const Exporter& target : all_exporters())
+  for (const codegen::Exporter& target : codegen::all_exporters())
     EXPECT_TRUE(found.at(target.name).at("ok")) << found.at(target.name);
 }
 

@@ -101,14 +101,14 @@ TEST(Docs, EveryCommandThatIsNamedExists) {
 
 TEST(Docs, TheFirstPageNamesEveryTarget) {
   const std::string text = text_of(house / "README.md");
-  for (const Exporter& target : all_exporters())
+  for (const codegen::Exporter& target : codegen::all_exporters())
     EXPECT_NE(text.find("`" + target.name + "`"), std::string::npos) << target.name;
 }
 
 TEST(Docs, JobsThatAreShownCanBeRead) {
   for (const char* page : {"README.md", "docs/guide.md"})
     for (const std::string& job : blocks(text_of(house / page), "toml"))
-      EXPECT_NO_THROW(parse_job(job, page)) << job;
+      EXPECT_NO_THROW(job::parse_job(job, page)) << job;
 }
 
 TEST(SlowDocsExample, CommandsOfTheGuideRun) {

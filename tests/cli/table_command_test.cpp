@@ -8,6 +8,11 @@
 #include "table/table_file.h"
 
 namespace frictab {
+
+using expr::Expr;
+using table::Table;
+using table::write_table;
+
 namespace {
 
 using test::CommandResult;
@@ -17,9 +22,9 @@ using test::TemporaryDirectory;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TableAxis axis(const std::string& name, const std::string& unit, bool log,
-               std::vector<double> nodes) {
-  TableAxis out;
+table::TableAxis axis(const std::string& name, const std::string& unit, bool log,
+                      std::vector<double> nodes) {
+  table::TableAxis out;
   out.name = name;
   out.unit = unit;
   out.log = log;

@@ -34,7 +34,7 @@ samples = 2000
 class TracedLawCommands : public testing::Test {
 protected:
   void SetUp() override {
-    const Dataset data = test::traced_data(truth);
+    const data::Dataset data = test::traced_data(truth);
     const std::size_t training[] = {0, 1, 2, 3, 4, 5, 6, 7}, validation[] = {8, 9, 10, 11};
     directory.write("training.csv", test::csv_of(data.subset(training)));
     directory.write("validation.csv", test::csv_of(data.subset(validation)));
@@ -46,13 +46,14 @@ protected:
 
   // What the trace stage leaves behind.
   void add_traced() {
-    Calibration calibration = parse_calibration(directory.read("out/calibration.json"), "c.json");
-    ModelFit fit = calibration.fits.front();
+    calibrate::Calibration calibration =
+        calibrate::parse_calibration(directory.read("out/calibration.json"), "c.json");
+    calibrate::ModelFit fit = calibration.fits.front();
     fit.model = truth;
     fit.std_error.assign(truth.parameters.size(), 0.001);
     calibration.fits.push_back(fit);
-    directory.write("out/calibration.json", calibration_json(calibration));
-    directory.write("out/models/log_coulomb_traced.json", model_json(fit, calibration));
+    directory.write("out/calibration.json", calibrate::calibration_json(calibration));
+    directory.write("out/models/log_coulomb_traced.json", calibrate::model_json(fit, calibration));
   }
 
   test::CommandResult verify_alone(const std::string& data) {
@@ -61,7 +62,7 @@ protected:
                         data});
   }
 
-  const Model truth = test::traced_model({"humidity", "work"});
+  const models::Model truth = test::traced_model({"humidity", "work"});
   TemporaryDirectory directory;
   std::string job;
 };
@@ -85,8 +86,8 @@ TEST_F(TracedLawCommands, GoFromTheModelToRoutinesThatAreVerified) {
 TEST_F(TracedLawCommands, VerifyOneTableOnDataThatHaveItsColumns) {
   ASSERT_EQ(run_frictab({"tabulate", job, "-q"}).exit_code, 0);
   EXPECT_EQ(verify_alone(directory.path("validation.csv")).exit_code, 0);
-  Dataset data = test::traced_data(truth);
-  std::erase_if(data.columns, [](const Column& c) { return c.name == "humidity_pct"; });
+  data::Dataset data = test::traced_data(truth);
+  std::erase_if(data.columns, [](const data::Column& c) { return c.name == "humidity_pct"; });
   const auto lacking = verify_alone(directory.write("dry.csv", test::csv_of(data)));
   EXPECT_EQ(lacking.exit_code, 2);
   EXPECT_THAT(lacking.err, HasSubstr("dry.csv: error: the data have no column humidity_pct, which "

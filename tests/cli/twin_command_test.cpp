@@ -30,11 +30,11 @@ protected:
   // Standard output of the command.
   std::string run(std::vector<std::string> arguments, bool force = false,
                   std::uint64_t seed = 1) const {
-    CommonOptions common;
+    cli::CommonOptions common;
     common.force = force;
     common.seed = seed;
     CLI::App app;
-    const Command* command = Registry<Command>::instance().find("twin");
+    const cli::Command* command = Registry<cli::Command>::instance().find("twin");
     const auto body = command->declare(app, common);
     arguments.push_back(directory_.string());
     std::reverse(arguments.begin(), arguments.end());
@@ -49,7 +49,7 @@ protected:
     return testing::internal::GetCapturedStdout();
   }
 
-  std::string content(const char* name) const { return read_file(directory_ / name); }
+  std::string content(const char* name) const { return io::read_file(directory_ / name); }
 
   std::vector<std::string> files() const {
     std::vector<std::string> names;

@@ -53,15 +53,15 @@ void fuzz(const std::string& valid, std::size_t cases,
 }
 
 TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {
-  const Dataset data = test::sample_data(test::plausible_model(*find_law("orowan")));
-  CalibrationInput input{data, data, {}, {}};
+  const data::Dataset data = test::sample_data(test::plausible_model(*models::find_law("orowan")));
+  calibrate::CalibrationInput input{data, data, {}, {}};
   input.models.use = {"orowan", "coulomb_0.08"};
-  const Calibration calibration = calibrate(input);
-  fuzz(calibration_json(calibration), 4000,
-       [](const std::string& text) { parse_calibration(text, "calibration.json"); });
-  fuzz(model_json(calibration.fits.front(), calibration), 4000,
-       [](const std::string& text) { parse_model(text, "model.json"); });
-  Verification verification{0.5, {}};
+  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  fuzz(calibrate::calibration_json(calibration), 4000,
+       [](const std::string& text) { calibrate::parse_calibration(text, "calibration.json"); });
+  fuzz(calibrate::model_json(calibration.fits.front(), calibration), 4000,
+       [](const std::string& text) { calibrate::parse_model(text, "model.json"); });
+  verify::Verification verification{0.5, {}};
   verification.records.push_back({"orowan",
                                   "table",
                                   true,
@@ -78,22 +78,23 @@ TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {
                                   10,
                                   0,
                                   true});
-  fuzz(verification_json(verification), 4000,
-       [](const std::string& text) { parse_verification(text, "verify.json"); });
+  fuzz(verify::verification_json(verification), 4000,
+       [](const std::string& text) { verify::parse_verification(text, "verify.json"); });
   fuzz(R"({"schema": "frictab/recipe/1", "files": ["a.c", "b.h", "recipe.json"]})", 4000,
-       [](const std::string& text) { files_of_recipe(text, "recipe.json"); });
+       [](const std::string& text) { codegen::files_of_recipe(text, "recipe.json"); });
 }
 
 TEST(FormatsFuzz, DamagedFormulasAreFaults) {
-  const Law& law = *find_law("wanheim_bay");
-  fuzz(to_text(tau_formula(law, {})), 20000,
-       [](const std::string& text) { to_text(parse_expr(text)); });
+  const models::Law& law = *models::find_law("wanheim_bay");
+  fuzz(expr::to_text(models::tau_formula(law, {})), 20000,
+       [](const std::string& text) { expr::to_text(expr::parse_expr(text)); });
 }
 
 TEST(Recipe, FileNamesMayNotLeadOutOfTheDirectory) {
   for (const char* name : {"../x.c", "/etc/x", "a/../../b"})
-    EXPECT_THROW(files_of_recipe(std::string("{\"files\": [\"") + name + "\"]}", "recipe.json"),
-                 InputError)
+    EXPECT_THROW(
+        codegen::files_of_recipe(std::string("{\"files\": [\"") + name + "\"]}", "recipe.json"),
+        InputError)
         << name;
 }
 

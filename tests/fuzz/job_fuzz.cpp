@@ -52,7 +52,7 @@ const std::string_view pieces[] = {"[",
                                    "0x7f"};
 
 std::string all_keys() {
-  std::string text = job_template(), out;
+  std::string text = job::job_template(), out;
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] != '#' || text[i + 1] == ' ' || (i > 0 && text[i - 1] != '\n')) out += text[i];
   return out;
@@ -93,7 +93,7 @@ std::string without_comments(const std::string& text) {
 
 TEST(JobFuzz, GivesAJobOrFaultsForTenThousandDamagedFiles) {
   const std::string good = without_comments(all_keys());
-  ASSERT_NO_THROW(parse_job(good, "job.toml"));
+  ASSERT_NO_THROW(job::parse_job(good, "job.toml"));
   std::size_t jobs = 0, refused = 0;
   for (std::size_t i = 0; i < 10000; ++i) {
     Random random(20240607, i);
@@ -101,7 +101,7 @@ TEST(JobFuzz, GivesAJobOrFaultsForTenThousandDamagedFiles) {
     for (std::size_t n = 1 + random.below(3); n > 0; --n)
       damage(text, random);
     try {
-      parse_job(text, "job.toml");
+      job::parse_job(text, "job.toml");
       ++jobs;
     } catch (const InputError& error) {
       ++refused;
@@ -120,12 +120,12 @@ TEST(JobFuzz, GivesAJobOrFaultsForDamagedOverrides) {
   const std::string good = "[data]\ntraining = \"a.csv\"\n";
   for (std::size_t i = 0; i < 3000; ++i) {
     Random random(20240608, i);
-    const KeyRule& rule = key_rules()[random.below(key_rules().size())];
+    const job::KeyRule& rule = job::key_rules()[random.below(job::key_rules().size())];
     std::string assignment = rule.path + "=" + (rule.example.empty() ? "1" : rule.example);
     for (std::size_t n = 1 + random.below(3); n > 0; --n)
       damage(assignment, random);
     try {
-      parse_job(good, "job.toml", {assignment});
+      job::parse_job(good, "job.toml", {assignment});
     } catch (const InputError&) {
     } catch (const std::exception& error) {
       FAIL() << "case " << i << ": " << error.what() << "\n" << assignment;

@@ -45,11 +45,11 @@ std::string mutated(std::string bytes, Random& random, std::size_t most) {
 }
 
 // What a Dataset promises, so that a fault that slips through is seen.
-bool is_sound(const Dataset& data) {
+bool is_sound(const data::Dataset& data) {
   if (data.rows() == 0 || data.first_row.size() != data.experiments.size() + 1) return false;
-  for (const Column& column : data.columns) {
+  for (const data::Column& column : data.columns) {
     if (column.values.size() != data.rows()) return false;
-    const Quantity* quantity = find_quantity(column.name);
+    const data::Quantity* quantity = data::find_quantity(column.name);
     for (const double value : column.values) {
       if (quantity && !(std::isfinite(value) && value >= quantity->lowest)) return false;
       if (!column.levels.empty() && !(value >= 0 && value < double(column.levels.size())))
@@ -61,9 +61,9 @@ bool is_sound(const Dataset& data) {
 
 enum Outcome { read_well, refused, unsound, other_error };
 
-Outcome load(const std::string& file, const DataOptions& options) {
+Outcome load(const std::string& file, const data::DataOptions& options) {
   try {
-    return is_sound(load_dataset({file}, options)) ? read_well : unsound;
+    return is_sound(data::load_dataset({file}, options)) ? read_well : unsound;
   } catch (const InputError& error) {
     return error.faults().empty() ? other_error : refused;
   } catch (const std::exception& error) {
@@ -111,7 +111,7 @@ TEST_F(LoadFuzz, DamagedCsvGivesADatasetOrAnInputError) {
                             "b,1,1300,8,91,\"q \"\"z\"\"\"\n";
   const std::string tabs = "preamble\r\nsigma_n_MPa\tF_R_N\tF_N_N\tpsi\r\n[Pa]\t[N]\t[kN]\t[-]\r\n"
                            "1800,\t1,5\t3\t1,0\r\n1900,5\t1,7\t4\t1,25\r\nend of test\r\n";
-  DataOptions german;
+  data::DataOptions german;
   german.decimal = ',';
   german.skip_rows = 1;
   german.skip_footer = 1;
@@ -122,7 +122,7 @@ TEST_F(LoadFuzz, DamagedCsvGivesADatasetOrAnInputError) {
     const bool is_comma = random.below(2) == 0;
     const std::string bytes = mutated(is_comma ? comma : tabs, random, 6);
     write(bytes);
-    const Outcome outcome = load(file_.string(), is_comma ? DataOptions{} : german);
+    const Outcome outcome = load(file_.string(), is_comma ? data::DataOptions{} : german);
     ++outcomes[outcome];
     ASSERT_TRUE(outcome == read_well || outcome == refused) << "case " << i << ":\n" << bytes;
   }
@@ -136,14 +136,15 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   {
     const std::vector<double> values{1, 2, 3, 4};
     const std::size_t rows[] = {4};
-    Hdf5Writer out(file_);
+    io::Hdf5Writer out(file_);
     for (const char* name : {"sigma_n_MPa", "tau_R_MPa", "v_rel_mm_s", "room_C"})
-      out.dataset(name, rows, values, name[0] == 'r' ? Hdf5Storage{0, 4, true} : Hdf5Storage{});
+      out.dataset(name, rows, values,
+                  name[0] == 'r' ? io::Hdf5Storage{0, 4, true} : io::Hdf5Storage{});
     out.attribute("sigma_n_MPa", "units", "MPa");
     out.dataset("experiment", std::vector<std::string>{"a", "a", "b", "b"});
     out.close();
   }
-  const std::string valid = read_file(file_);
+  const std::string valid = io::read_file(file_);
   Random random(12);
   std::size_t outcomes[4] = {};
   for (int batch = 0; batch < 50; ++batch) {

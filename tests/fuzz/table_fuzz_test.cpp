@@ -21,13 +21,13 @@ namespace {
 enum Outcome : char { read_well = 'w', refused = 'r', unsound = 'u', other_error = 'o' };
 
 // What read_table promises.
-bool is_sound(const Table& table) {
+bool is_sound(const table::Table& table) {
   std::vector<double> values(table.nodes());
   if (table.stored)
     table.stored->read(0, values);
   else if (table.value.size() != table.nodes())
     return false;
-  const TableFunction function(table);
+  const table::TableFunction function(table);
   std::vector<double> state;
   for (const std::string& name : function.inputs())
     state.push_back(table.range(name).value_or(std::pair{1.0, 2.0}).second);
@@ -39,8 +39,8 @@ bool is_sound(const Table& table) {
 
 Outcome read(const std::string& file, std::size_t in_memory) {
   try {
-    info_text(read_description(file), file);
-    return is_sound(read_table(file, in_memory)) ? read_well : unsound;
+    table::info_text(table::read_description(file), file);
+    return is_sound(table::read_table(file, in_memory)) ? read_well : unsound;
   } catch (const InputError& error) {
     return error.faults().empty() ? other_error : refused;
   } catch (const std::exception&) {
@@ -90,11 +90,11 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
   Random random(31);
   std::size_t well = 0, faults = 0;
   for (const test::NamedTable& sample : test::sample_tables())
-    for (const Hdf5Storage& storage : {Hdf5Storage{}, Hdf5Storage{12, 3, true}}) {
+    for (const io::Hdf5Storage& storage : {io::Hdf5Storage{}, io::Hdf5Storage{12, 3, true}}) {
       if (sample.table.is_direct()) continue; // is no file
-      write_table(sample.table, file, storage);
-      const std::string valid = read_file(file);
-      const std::size_t in_memory = storage.chunked() ? 0 : most_bytes_in_memory;
+      table::write_table(sample.table, file, storage);
+      const std::string valid = io::read_file(file);
+      const std::size_t in_memory = storage.chunked() ? 0 : table::most_bytes_in_memory;
       std::vector<std::string> cases(60);
       for (std::string& bytes : cases)
         bytes = damaged(valid, random);

@@ -11,8 +11,8 @@ namespace frictab {
 
 namespace {
 
-TemplateValues values() {
-  TemplateValues item, all;
+codegen::TemplateValues values() {
+  codegen::TemplateValues item, all;
   item.text["n"] = "1\n2";
   item.flags["f"] = true;
   all.text["x"] = "text";
@@ -56,7 +56,7 @@ TEST(TemplateFuzz, EveryTextRendersOrIsRefusedWithAPlace) {
       text +=
           "@{x}\n@if f\n@end\n@for w in rows\n@{w.n}\n@if w.f\n@end\n@end\n@for v in none\n@end\n";
     try {
-      render(text, "fuzz", values());
+      codegen::render(text, "fuzz", values());
       ++rendered;
     } catch (const std::logic_error& error) {
       ++refused;

@@ -8,36 +8,45 @@
 #include "table/bound.h"
 
 namespace frictab {
+
+using models::AssembledLaw;
+using models::Model;
+using table::bound_drift;
+using table::DriftBound;
+using table::Interpolation;
+using table::rounded_up;
+
 namespace {
 
 struct Case {
   Model model;
-  std::vector<StateRange> ranges;
-  Table table;
-  WorstCase worst;
+  std::vector<table::StateRange> ranges;
+  table::Table table;
+  table::WorstCase worst;
 };
 
-Case with_table(const Model& model, const std::vector<StateRange>& ranges,
+Case with_table(const Model& model, const std::vector<table::StateRange>& ranges,
                 Interpolation interpolation, double tolerance = 0.5) {
-  TableOptions options;
+  table::TableOptions options;
   options.interpolation = interpolation;
   options.tolerance_MPa = tolerance;
-  Case out{model, ranges, build_table(AssembledLaw(model), ranges, options), {}};
-  const TableFunction function(out.table);
-  out.worst = worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
-                         probe_points(ranges, out.table.axes, 20000));
+  Case out{model, ranges, table::build_table(AssembledLaw(model), ranges, options), {}};
+  const table::TableFunction function(out.table);
+  out.worst =
+      table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
+                        ranges, table::probe_points(ranges, out.table.axes, 20000));
   return out;
 }
 
 Case of_law(const std::string& name, Interpolation interpolation, double tolerance = 0.5) {
-  const Model model = test::plausible_model(*find_law(name));
-  return with_table(model, state_ranges(AssembledLaw(model), test::sample_data(model), {}),
+  const Model model = test::plausible_model(*models::find_law(name));
+  return with_table(model, table::state_ranges(AssembledLaw(model), test::sample_data(model), {}),
                     interpolation, tolerance);
 }
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -52,14 +61,14 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
-  for (const Interpolation interpolation : grid_interpolations) {
+  for (const Interpolation interpolation : table::grid_interpolations) {
     const Case one = of_law(GetParam(), interpolation);
-    const ProvenDrift proven =
-        prove_drift(AssembledLaw(one.model), one.table, one.ranges, one.worst, 0.5);
+    const table::ProvenDrift proven =
+        table::prove_drift(AssembledLaw(one.model), one.table, one.ranges, one.worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
     EXPECT_GE(*proven.bound.MPa, one.worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa + 1e-8)
-        << interpolation_name(interpolation);
+        << table::interpolation_name(interpolation);
   }
 }
 
@@ -67,16 +76,16 @@ INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(law_names(
 
 // Away from its law by a known amount: what is added to a node must come out again.
 TEST(Bound, IsAboveATableThatIsWrong) {
-  for (const Interpolation interpolation : grid_interpolations) {
+  for (const Interpolation interpolation : table::grid_interpolations) {
     Case one = of_law("wanheim_bay", interpolation, 0.1);
     one.table.value[one.table.value.size() / 2] += 0.05; // of ln tau
-    const TableFunction function(one.table);
-    const WorstCase worst =
-        worst_case(LawFunction(AssembledLaw(one.model), function.inputs()), function, one.ranges,
-                   probe_points(one.ranges, one.table.axes, 20000));
+    const table::TableFunction function(one.table);
+    const table::WorstCase worst =
+        table::worst_case(table::LawFunction(AssembledLaw(one.model), function.inputs()), function,
+                          one.ranges, table::probe_points(one.ranges, one.table.axes, 20000));
     EXPECT_GT(worst.drift_MPa, 2.0);
-    const ProvenDrift proven =
-        prove_drift(AssembledLaw(one.model), one.table, one.ranges, worst, 0.5);
+    const table::ProvenDrift proven =
+        table::prove_drift(AssembledLaw(one.model), one.table, one.ranges, worst, 0.5);
     ASSERT_TRUE(proven.bound.MPa);
     EXPECT_GE(*proven.bound.MPa, worst.drift_MPa);
     EXPECT_LT(*proven.bound.MPa, 1.5 * worst.drift_MPa);
@@ -85,25 +94,26 @@ TEST(Bound, IsAboveATableThatIsWrong) {
 
 TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
   for (const char* law : {"levanov", "wanheim_bay"})
-    for (const Interpolation interpolation : grid_interpolations) {
+    for (const Interpolation interpolation : table::grid_interpolations) {
       const Case one = of_law(law, interpolation);
-      BoundOptions options;
+      table::BoundOptions options;
       options.goal_MPa = 1.004 * one.worst.drift_MPa;
       options.most_boxes = 4'000'000;
       const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
       ASSERT_TRUE(bound.MPa);
       EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa)
-          << law << " " << interpolation_name(interpolation);
+          << law << " " << table::interpolation_name(interpolation);
     }
 }
 
 TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
   const Model model = test::network_model();
-  const std::vector<StateRange> ranges = {
+  const std::vector<table::StateRange> ranges = {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
   const Case one = with_table(model, ranges, Interpolation::cubic, 1);
-  const ProvenDrift proven = prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
+  const table::ProvenDrift proven =
+      table::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
   EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
   EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
@@ -118,7 +128,7 @@ TEST(Bound, IsShownRoundedUpNeverDown) {
 
 TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
   const Case one = of_law("wanheim_bay", Interpolation::cubic);
-  BoundOptions options;
+  table::BoundOptions options;
   options.goal_MPa = 1.05 * one.worst.drift_MPa;
   const DriftBound all = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   set_threads(1);
@@ -131,7 +141,7 @@ TEST(Bound, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
   Case one = of_law("levanov", Interpolation::linear);
-  one.table.combine = one.table.combine * Expr(1.0000001);
+  one.table.combine = one.table.combine * expr::Expr(1.0000001);
   const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, {0.5});
   EXPECT_FALSE(bound.MPa);
   EXPECT_EQ(bound.why_not, "the table is combined to tau_R by a formula that is not the law's");
@@ -139,7 +149,7 @@ TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
 
 TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
   const Case one = of_law("levanov", Interpolation::linear);
-  BoundOptions options{.goal_MPa = 0.5};
+  table::BoundOptions options{.goal_MPa = 0.5};
   options.most_cells = 10;
   const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   EXPECT_FALSE(bound.MPa);

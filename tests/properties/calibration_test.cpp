@@ -11,12 +11,23 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::Calibration;
+using calibrate::calibration_json;
+using calibrate::CalibrationInput;
+using calibrate::Loss;
+using calibrate::ModelFit;
+using calibrate::predict;
+using data::Dataset;
+using models::find_law;
+using models::Model;
+
 namespace {
 
 std::vector<std::string> fitted_laws() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
-    if (law.calibrated == Calibrated::fit) names.push_back(law.name);
+  for (const models::Law& law : models::all_laws())
+    if (law.calibrated == models::Calibrated::fit) names.push_back(law.name);
   return names;
 }
 
@@ -25,7 +36,7 @@ ModelFit fit_of(const std::string& law, const Dataset& training, Loss loss = Los
   input.models.use = {law};
   input.options.loss = loss;
   input.options.bootstrap = 0;
-  return calibrate(input).fits.front();
+  return calibrate::calibrate(input).fits.front();
 }
 
 class EveryFittedLaw : public testing::TestWithParam<std::string> {};
@@ -65,12 +76,13 @@ TEST_P(EveryFittedLaw, ModelFileReadsBackToTheSameBits) {
   const Dataset data = test::sample_data(truth, options);
   CalibrationInput input{data, data, {}, {}};
   input.models.use = {GetParam()};
-  const Calibration calibration = calibrate(input);
+  const Calibration calibration = calibrate::calibrate(input);
   const ModelFit& fit = calibration.fits.front();
-  const Model again = parse_model(model_json(fit, calibration), "model.json");
+  const Model again = calibrate::parse_model(calibrate::model_json(fit, calibration), "model.json");
   EXPECT_EQ(again.parameters, fit.model.parameters);
   EXPECT_EQ(predict(again, data), predict(fit.model, data));
-  const Calibration read = parse_calibration(calibration_json(calibration), "calibration.json");
+  const Calibration read =
+      calibrate::parse_calibration(calibration_json(calibration), "calibration.json");
   EXPECT_EQ(calibration_json(read), calibration_json(calibration));
 }
 
@@ -78,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryFittedLaw, testing::ValuesIn(fitted_laws
 
 TEST(SlowCalibration, OrowanFindsTheBestOfItsSeveralMinima) {
   // Brute force over a fine grid must not find anything better than the fit.
-  const Law& law = *find_law("orowan");
+  const models::Law& law = *find_law("orowan");
   test::SampleOptions options;
   options.experiments = 12;
   options.experiment_scatter = 0.15;
@@ -125,13 +137,13 @@ TEST(SlowCalibration, DoesNotDependOnTheNumberOfThreads) {
   const Dataset data = test::sample_data(test::plausible_model(*find_law("wzl")), options);
   for (const Loss loss : {Loss::l2, Loss::l1, Loss::huber}) {
     CalibrationInput input{data, data, {}, {}};
-    for (const Law& law : all_laws()) // the network has a test of its own
-      if (law.calibrated != Calibrated::train) input.models.use.push_back(law.name);
+    for (const models::Law& law : models::all_laws()) // the network has a test of its own
+      if (law.calibrated != models::Calibrated::train) input.models.use.push_back(law.name);
     input.options.loss = loss;
     set_threads(1);
-    const std::string one = calibration_json(calibrate(input));
+    const std::string one = calibration_json(calibrate::calibrate(input));
     set_threads(2);
-    const std::string two = calibration_json(calibrate(input));
+    const std::string two = calibration_json(calibrate::calibrate(input));
     set_threads(0);
     EXPECT_EQ(one, two) << static_cast<int>(loss);
   }
@@ -139,7 +151,7 @@ TEST(SlowCalibration, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Calibration, NamesTheParameterThatTheDataDoNotDetermineAndWhatWouldSettleIt) {
   Dataset data = test::sample_data(test::plausible_model(*find_law("log_coulomb")));
-  for (Column& column : data.columns)
+  for (data::Column& column : data.columns)
     if (column.name == "psi") column.values.assign(data.rows(), 1.0);
   const ModelFit fit = fit_of("log_coulomb", data);
   EXPECT_TRUE(std::isnan(fit.std_error[2]));
@@ -200,7 +212,7 @@ TEST(Calibration, NamesAParameterThatOneExperimentAloneDetermines) {
   test::SampleOptions options;
   options.noise_MPa = 3;
   Dataset data = test::sample_data(test::plausible_model(*find_law("log_coulomb")), options);
-  for (Column& column : data.columns) // psi differs from 1 in the first experiment only
+  for (data::Column& column : data.columns) // psi differs from 1 in the first experiment only
     if (column.name == "psi")
       std::fill(column.values.begin() + static_cast<long>(data.first_row[1]), column.values.end(),
                 1.0);
@@ -213,15 +225,15 @@ TEST(Calibration, NamesAParameterThatOneExperimentAloneDetermines) {
 
 TEST(Calibration, LeavesOutLawsWhoseColumnsAreMissingAndSaysSo) {
   Dataset data = test::sample_data(test::plausible_model(*find_law("coulomb")));
-  std::erase_if(data.columns, [](const Column& c) { return c.name == "sigma_f_MPa"; });
-  const Calibration calibration = calibrate({data, data, {}, {}});
+  std::erase_if(data.columns, [](const data::Column& c) { return c.name == "sigma_f_MPa"; });
+  const Calibration calibration = calibrate::calibrate({data, data, {}, {}});
   EXPECT_EQ(calibration.fits.size(), 8U);
   EXPECT_EQ(calibration.left_out.front().text(), "shear_0.12: needs sigma_f_MPa");
   CalibrationInput asked{data, data, {}, {}};
   asked.models.use = {"coulomb", "shaw"};
   asked.models.place = {"job.toml", 4, 1};
   try {
-    calibrate(asked);
+    calibrate::calibrate(asked);
     FAIL() << "a law without its columns was accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -238,8 +250,8 @@ TEST(Calibration, RanksByErrorOnExperimentsNotTrainedOn) {
   const Dataset training = test::sample_data(truth, options);
   options.seed = 2;
   const Dataset validation = test::sample_data(truth, options);
-  const Calibration calibration = calibrate({training, validation, {}, {}});
-  EXPECT_EQ(calibration.fits.size(), all_laws().size());
+  const Calibration calibration = calibrate::calibrate({training, validation, {}, {}});
+  EXPECT_EQ(calibration.fits.size(), models::all_laws().size());
   EXPECT_EQ(calibration.fits.front().model.law->name, "wzl");
   for (std::size_t i = 1; i < calibration.fits.size(); ++i)
     EXPECT_LE(calibration.fits[i - 1].validation.mae_MPa, calibration.fits[i].validation.mae_MPa);
@@ -248,7 +260,7 @@ TEST(Calibration, RanksByErrorOnExperimentsNotTrainedOn) {
 TEST(Metrics, AreTheErrorsOfAHandWorkedCase) {
   const std::vector<double> measured{10, 12, 8, 20}, predicted{9, 14, 8, 17};
   const std::vector<std::size_t> first_row{0, 2, 4};
-  const Metrics m = metrics(measured, predicted, first_row, 500, 1);
+  const calibrate::Metrics m = calibrate::metrics(measured, predicted, first_row, 500, 1);
   EXPECT_DOUBLE_EQ(m.mae_MPa, 1.5);
   EXPECT_DOUBLE_EQ(m.rmse_MPa, std::sqrt(14.0 / 4));
   EXPECT_DOUBLE_EQ(m.bias_MPa, 0.5);
@@ -267,7 +279,7 @@ TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {
     measured.insert(measured.end(), 100, e % 2 ? 1.0 : -1.0);
     first_row.push_back(measured.size());
   }
-  const Metrics m = metrics(measured, predicted, first_row, 2000, 1);
+  const calibrate::Metrics m = calibrate::metrics(measured, predicted, first_row, 2000, 1);
   EXPECT_NEAR(m.bias_interval.high, 1.96 / std::sqrt(20.0), 0.08);
 }
 

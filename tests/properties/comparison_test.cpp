@@ -13,6 +13,16 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::compare;
+using calibrate::Comparisons;
+using calibrate::ErrorSums;
+using calibrate::family_sentence;
+using calibrate::LawErrors;
+using calibrate::Metrics;
+using calibrate::metrics;
+using calibrate::pairwise_sentence;
+
 namespace {
 
 using testing::ElementsAre;
@@ -48,14 +58,14 @@ TEST(SlowComparison, OfALawWithItselfIsExactlyZero) {
   const std::vector<double> mae{3, 8, 1, 12, 5, 6, 2};
   const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", mae)}, 500, 1);
   ASSERT_EQ(c.pairs.size(), 1u);
-  for (const Difference& d : {c.pairs[0].mae, c.pairs[0].rmse}) {
+  for (const calibrate::Difference& d : {c.pairs[0].mae, c.pairs[0].rmse}) {
     EXPECT_EQ(d.value_MPa, 0);
     EXPECT_EQ(d.interval.low, 0);
     EXPECT_EQ(d.interval.high, 0);
     EXPECT_EQ(d.p_value, 1);
     EXPECT_FALSE(d.distinguishable());
   }
-  EXPECT_THAT(possibly_best(c), ElementsAre("a", "b"));
+  EXPECT_THAT(calibrate::possibly_best(c), ElementsAre("a", "b"));
 }
 
 TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
@@ -67,7 +77,7 @@ TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
   EXPECT_NEAR(c.pairs[0].mae.interval.low, 1, 1e-9) << "what both share does not widen it";
   EXPECT_NEAR(c.pairs[0].mae.interval.high, 1, 1e-9);
   EXPECT_LT(c.pairs[0].mae.p_value, 0.01);
-  EXPECT_THAT(possibly_best(c), ElementsAre("a"));
+  EXPECT_THAT(calibrate::possibly_best(c), ElementsAre("a"));
 }
 
 TEST(SlowComparison, FindsADifferenceThatTheSeparateIntervalsHide) {
@@ -89,8 +99,8 @@ TEST(SlowComparison, IntervalLeavesZeroOutExactlyWhereThePValueIsBelowFivePercen
   int distinguishable = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
     const Comparisons c = compare(exchangeable(3, 8, random), 150 + i, i);
-    for (const Comparison& pair : c.pairs)
-      for (const Difference& d : {pair.mae, pair.rmse}) {
+    for (const calibrate::Comparison& pair : c.pairs)
+      for (const calibrate::Difference& d : {pair.mae, pair.rmse}) {
         EXPECT_EQ(d.interval.low > 0 || d.interval.high < 0, d.distinguishable()) << d.p_value;
         distinguishable += d.distinguishable();
       }
@@ -102,7 +112,7 @@ TEST(SlowComparison, KeepsPairsInTheOrderOfRanks) {
   Random random(1);
   const Comparisons c = compare(exchangeable(4, 10, random), 200, 1);
   std::vector<std::string> pairs;
-  for (const Comparison& pair : c.pairs)
+  for (const calibrate::Comparison& pair : c.pairs)
     pairs.push_back(pair.law + "-" + pair.other);
   EXPECT_THAT(pairs, ElementsAre("law0-law1", "law0-law2", "law0-law3", "law1-law2", "law1-law3",
                                  "law2-law3"));
@@ -139,10 +149,10 @@ TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
     std::stable_sort(laws.begin(), laws.end(),
                      [&](const LawErrors& a, const LawErrors& b) { return mae(a) < mae(b); });
     const Comparisons c = compare(laws, 500, static_cast<std::uint64_t>(i));
-    const auto best = possibly_best(c);
+    const auto best = calibrate::possibly_best(c);
     first_excluded += std::find(best.begin(), best.end(), "law0") == best.end();
     one_left += best.size() == 1;
-    naive += as_good_as_first(c).size() < 7;
+    naive += calibrate::as_good_as_first(c).size() < 7;
   }
   // 5 % and three standard errors of 200 trials.
   EXPECT_LE(first_excluded, 0.096 * campaigns);
@@ -153,13 +163,13 @@ TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
 TEST(SlowComparison, IsTheSameForAnyNumberOfThreads) {
   Random random(3);
   const auto laws = exchangeable(5, 12, random);
-  Calibration one, two;
+  calibrate::Calibration one, two;
   set_threads(1);
   one.comparisons = compare(laws, 300, 1);
   set_threads(2);
   two.comparisons = compare(laws, 300, 1);
   set_threads(0);
-  EXPECT_EQ(calibration_json(one), calibration_json(two));
+  EXPECT_EQ(calibrate::calibration_json(one), calibrate::calibration_json(two));
 }
 
 TEST(SlowComparison, OfOneExperimentOrWithoutResamplesIsNotMade) {
@@ -212,7 +222,7 @@ TEST(Metrics, IntervalsHoldTheTruthIn90To98OfAHundredCampaignsOf30Experiments) {
   Random random(7);
   const Metrics truth = metrics(campaign(200'000, random), 0, 1);
   int mae = 0, rmse = 0, bias = 0;
-  const auto holds = [](const Interval& i, double value) {
+  const auto holds = [](const calibrate::Interval& i, double value) {
     return i.low <= value && value <= i.high;
   };
   for (std::uint64_t c = 0; c < 200; ++c) {

@@ -11,6 +11,12 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using calibrate::conditioned_predictions;
+using calibrate::gain_prior;
+using calibrate::GainPrior;
+using data::Dataset;
+
 namespace {
 
 struct Campaign {
@@ -113,7 +119,7 @@ TEST(Conditional, KeepsTheShearLimitAfterTheGain) {
 }
 
 TEST(Conditional, OfTheTruthOfTheTwinComesNearToKnowingEachTestsFactor) {
-  const Twin twin = make_twin({});
+  const twin::Twin twin = twin::make_twin({});
   const GainPrior prior = gain_prior(twin.training.data, twin.training.oracle_MPa, 1);
   const Dataset& data = twin.validation.data;
   const double without = mae_beyond(data, twin.validation.oracle_MPa, 1);
@@ -124,8 +130,8 @@ TEST(Conditional, OfTheTruthOfTheTwinComesNearToKnowingEachTestsFactor) {
   EXPECT_LT(with, 4.3);
 }
 
-CalibrationInput asked(const Dataset& training, const Dataset& validation, double x) {
-  CalibrationInput input{training, validation, {}, {}};
+calibrate::CalibrationInput asked(const Dataset& training, const Dataset& validation, double x) {
+  calibrate::CalibrationInput input{training, validation, {}, {}};
   input.models.use = {"coulomb", "coulomb_0.08"};
   input.options.condition_on_mm = x;
   input.options.place = {"job.toml", 5, 1};
@@ -134,17 +140,18 @@ CalibrationInput asked(const Dataset& training, const Dataset& validation, doubl
 
 TEST(Conditional, IsReportedApartOnTheSameRowsAndReadsBack) {
   const Dataset training = gained({.noise = 0.02}), validation = gained({.noise = 0.02, .seed = 2});
-  const Calibration c = calibrate(asked(training, validation, 1));
+  const calibrate::Calibration c = calibrate::calibrate(asked(training, validation, 1));
   EXPECT_EQ(c.fits.size(), 2u) << "not among the ranked laws";
   ASSERT_EQ(c.conditional.laws.size(), 2u);
-  for (const ConditionalFit& fit : c.conditional.laws) {
+  for (const calibrate::ConditionalFit& fit : c.conditional.laws) {
     EXPECT_EQ(fit.conditional.n_rows, fit.unconditional.n_rows);
     EXPECT_EQ(fit.conditional.n_rows, 40u * 90u) << "rows beyond 1 mm only";
     EXPECT_NEAR(fit.gain.value_MPa, fit.unconditional.mae_MPa - fit.conditional.mae_MPa, 1e-12);
     EXPECT_GT(fit.gain.interval.low, 0);
   }
-  const std::string json = calibration_json(c);
-  EXPECT_EQ(calibration_json(parse_calibration(json, "calibration.json")), json);
+  const std::string json = calibrate::calibration_json(c);
+  EXPECT_EQ(calibrate::calibration_json(calibrate::parse_calibration(json, "calibration.json")),
+            json);
 }
 
 TEST(Conditional, CountsExperimentsWithoutAStartOrWithoutARest) {
@@ -154,16 +161,16 @@ TEST(Conditional, CountsExperimentsWithoutAStartOrWithoutARest) {
     validation.columns[1].values[i] += 5; // E0 starts at 5 mm
   for (std::size_t i = 100; i < 200; ++i)
     validation.columns[1].values[i] *= 0.05; // E1 ends at 0.5 mm
-  const Conditional c = calibrate(asked(training, validation, 1)).conditional;
+  const calibrate::Conditional c = calibrate::calibrate(asked(training, validation, 1)).conditional;
   EXPECT_EQ(c.n_experiments, 40u);
   EXPECT_EQ(c.n_without_start, 1u);
   EXPECT_EQ(c.n_without_rest, 1u);
   EXPECT_EQ(c.laws.front().conditional.n_experiments, 39u);
 }
 
-std::string refusal(const CalibrationInput& input) {
+std::string refusal(const calibrate::CalibrationInput& input) {
   try {
-    calibrate(input);
+    calibrate::calibrate(input);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -183,7 +190,7 @@ TEST(Conditional, BeyondEveryExperimentIsRefusedWithTheLongestDistance) {
 
 TEST(Conditional, WithoutSlidingDistanceIsRefusedWithWhatToMap) {
   Dataset training = gained({}), validation = gained({.seed = 2});
-  std::erase_if(validation.columns, [](const Column& c) { return c.name == "s_mm"; });
+  std::erase_if(validation.columns, [](const data::Column& c) { return c.name == "s_mm"; });
   EXPECT_EQ(refusal(asked(training, validation, 1)),
             "job.toml:5:1: error: calibration.condition_on_mm needs s_mm, which the validation "
             "data do not have\n"

@@ -12,10 +12,15 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::Loss;
+using data::Dataset;
+using models::Model;
+
 namespace {
 
 void scale(Dataset& data, const std::string& name, const std::function<double(double)>& change) {
-  for (Column& column : data.columns)
+  for (data::Column& column : data.columns)
     if (column.name == name)
       for (double& x : column.values)
         x = change(x);
@@ -23,14 +28,14 @@ void scale(Dataset& data, const std::string& name, const std::function<double(do
 
 // tau_R again from the model, after the states have been changed.
 Dataset measured_again(Dataset data, const Model& truth, double scatter, double noise_MPa) {
-  std::vector<double> tau = predict(truth, data);
+  std::vector<double> tau = calibrate::predict(truth, data);
   Random random(17);
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const double factor = std::exp(scatter * random.normal());
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       tau[i] = std::max(0.0, tau[i] * factor + noise_MPa * random.normal());
   }
-  for (Column& column : data.columns)
+  for (data::Column& column : data.columns)
     if (column.name == "tau_R_MPa") column.values = tau;
   return data;
 }
@@ -108,43 +113,45 @@ class SlowConvergence : public testing::TestWithParam<std::string> {};
 
 // The least loss of 50 starts spread over the bounds, each polished on all rows. L1 is polished
 // with a rounding that is small to `scatter`, and then taken without.
-double best_of_many(const FitProblem& problem, Loss kind, double scatter) {
+double best_of_many(const calibrate::FitProblem& problem, Loss kind, double scatter) {
   double best = std::numeric_limits<double>::infinity();
   std::vector<double> unit(problem.parameters.size());
   for (std::size_t i = 0; i < 50; ++i) {
     halton(100 + i, unit);
     std::vector<double> start;
     for (std::size_t p = 0; p < unit.size(); ++p) {
-      const Parameter& b = problem.parameters[p];
-      start.push_back(is_scale(b) ? b.lower * std::pow(b.upper / b.lower, unit[p])
-                                  : b.lower + unit[p] * (b.upper - b.lower));
+      const models::Parameter& b = problem.parameters[p];
+      start.push_back(calibrate::is_scale(b) ? b.lower * std::pow(b.upper / b.lower, unit[p])
+                                             : b.lower + unit[p] * (b.upper - b.lower));
     }
-    FitResult fit = fit_from(problem, {Loss::l2, 0}, start);
-    if (kind == Loss::huber) fit = fit_from(problem, {kind, 10}, fit.parameters);
+    calibrate::FitResult fit = calibrate::fit_from(problem, {Loss::l2, 0}, start);
+    if (kind == Loss::huber) fit = calibrate::fit_from(problem, {kind, 10}, fit.parameters);
     if (kind == Loss::l1)
       for (const double share : {0.1, 0.01, 0.001})
-        fit = fit_from(problem, {kind, share * scatter, 6 * share * scatter}, fit.parameters);
-    best = std::min(best, mean_cost(problem, {kind, kind == Loss::l1 ? 0.0 : 10}, fit.parameters));
+        fit = calibrate::fit_from(problem, {kind, share * scatter, 6 * share * scatter},
+                                  fit.parameters);
+    best = std::min(
+        best, calibrate::mean_cost(problem, {kind, kind == Loss::l1 ? 0.0 : 10}, fit.parameters));
   }
   return best;
 }
 
 TEST_P(SlowConvergence, NoneOf50StartsFindsABetterFit) {
-  const Model truth = test::plausible_model(*find_law(GetParam()));
-  const Law& law = *truth.law;
-  const auto names = inputs(law, {});
-  const Program program(tau_formula(law, {}), names, parameter_names(law));
+  const Model truth = test::plausible_model(*models::find_law(GetParam()));
+  const models::Law& law = *truth.law;
+  const auto names = models::inputs(law, {});
+  const expr::Program program(models::tau_formula(law, {}), names, models::parameter_names(law));
   for (const Shape& shape : shapes) {
     const Dataset data = shape.make(truth);
     std::vector<const double*> columns;
     for (const std::string& name : names)
       columns.push_back(data.values(name).data());
-    const BoundProgram bound(program, data.rows(), columns);
-    const FitProblem problem{bound, data.values("tau_R_MPa"), law.parameters};
+    const expr::BoundProgram bound(program, data.rows(), columns);
+    const calibrate::FitProblem problem{bound, data.values("tau_R_MPa"), law.parameters};
     for (const Loss kind : {Loss::l2, Loss::l1, Loss::huber}) {
-      const LawFit fit = LawProblem(law, {}, data).fit(kind, 10);
-      const LossFunction loss{kind, kind == Loss::l1 ? 0.0 : 10};
-      const double found = mean_cost(problem, loss, fit.result.parameters);
+      const calibrate::LawFit fit = calibrate::LawProblem(law, {}, data).fit(kind, 10);
+      const calibrate::LossFunction loss{kind, kind == Loss::l1 ? 0.0 : 10};
+      const double found = calibrate::mean_cost(problem, loss, fit.result.parameters);
       EXPECT_LE(found, best_of_many(problem, kind, found) * (1 + 1e-6))
           << shape.name << ", loss " << static_cast<int>(kind) << ": " << fit.result.termination;
     }
@@ -153,8 +160,9 @@ TEST_P(SlowConvergence, NoneOf50StartsFindsABetterFit) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, SlowConvergence, testing::ValuesIn([] {
                            std::vector<std::string> names;
-                           for (const Law& law : all_laws())
-                             if (law.calibrated == Calibrated::fit) names.push_back(law.name);
+                           for (const models::Law& law : models::all_laws())
+                             if (law.calibrated == models::Calibrated::fit)
+                               names.push_back(law.name);
                            return names;
                          }()),
                          [](const auto& test) { return test.param; });

@@ -10,6 +10,9 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::Loss;
+
 namespace {
 
 constexpr std::size_t replicates = 200;
@@ -18,10 +21,10 @@ constexpr double t_975_of_29 = 2.0452; // Student's t with experiments - 1 degre
 
 // A campaign as tribometers give it: every experiment has its own states and a gain of its own
 // (coating, residue), and the noise along it is AR(1) with a memory of ten rows.
-Dataset campaign(const Model& truth, std::uint64_t replicate) {
-  Dataset data =
+data::Dataset campaign(const models::Model& truth, std::uint64_t replicate) {
+  data::Dataset data =
       test::sample_data(truth, {.experiments = experiments, .rows = 40, .seed = 1000 + replicate});
-  std::vector<double> tau = predict(truth, data);
+  std::vector<double> tau = calibrate::predict(truth, data);
   Random random(replicate, 0x636f766572);
   for (std::size_t e = 0; e < experiments; ++e) {
     const double gain = 1 + 0.08 * random.normal();
@@ -31,7 +34,7 @@ Dataset campaign(const Model& truth, std::uint64_t replicate) {
       tau[i] = tau[i] * gain + 4 * drift + 3 * random.normal();
     }
   }
-  for (Column& column : data.columns)
+  for (data::Column& column : data.columns)
     if (column.name == "tau_R_MPa") column.values = tau;
   return data;
 }
@@ -40,13 +43,13 @@ class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, Loss>
 
 TEST_P(SlowCoverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
   const auto [name, loss] = GetParam();
-  const Model truth = test::plausible_model(*find_law(name));
+  const models::Model truth = test::plausible_model(*models::find_law(name));
   const std::size_t size = truth.parameters.size();
   std::vector<char> covered(replicates * size, 0);
   parallel_for(replicates, [&](std::size_t r) {
-    const Dataset data = campaign(truth, r);
-    const LawProblem problem(*truth.law, {}, data);
-    LawFit fit = problem.fit(loss, 10);
+    const data::Dataset data = campaign(truth, r);
+    const calibrate::LawProblem problem(*truth.law, {}, data);
+    calibrate::LawFit fit = problem.fit(loss, 10);
     problem.add_uncertainty(fit, loss, 10, data.first_row);
     for (std::size_t p = 0; p < size; ++p)
       covered[r * size + p] = std::abs(fit.result.parameters[p] - truth.parameters[p]) <=

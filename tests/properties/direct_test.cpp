@@ -13,6 +13,12 @@
 #include "table/drift.h"
 
 namespace frictab {
+
+using expr::Expr;
+using models::AssembledLaw;
+using table::StateRange;
+using table::Table;
+
 namespace {
 
 // Table 1 and what an FE run adds.
@@ -36,7 +42,7 @@ Table direct_of(const AssembledLaw& law) {
   table.combine = law.combine;
   for (const StateRange& range : ranges_of(law)) {
     if (!law.piece_inputs.count(range.name)) continue;
-    TableAxis axis;
+    table::TableAxis axis;
     axis.name = range.name;
     axis.unit = "1";
     axis.nodes = {range.low, range.high};
@@ -44,25 +50,27 @@ Table direct_of(const AssembledLaw& law) {
   }
   for (std::size_t p = 0; p < law.parameters.size(); ++p)
     table.constants[law.parameters[p]] = law.model.parameters[p];
-  return direct_form(law, table);
+  return table::direct_form(law, table);
 }
 
-void expect_law(const Model& model) {
+void expect_law(const models::Model& model) {
   const AssembledLaw law(model);
   const Table table = direct_of(law);
-  const Probe probe = // all corners too
-      with_law(LawFunction(law, table.inputs()), box_points(ranges_of(law), 20000));
+  const table::Probe probe = // all corners too
+      table::with_law(table::LawFunction(law, table.inputs()),
+                      table::box_points(ranges_of(law), 20000));
   std::vector<const double*> columns;
   for (const auto& column : probe.states)
     columns.push_back(column.data());
-  for (const Exporter& exporter : all_exporters()) {
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.whole()) continue; // solvers' own tables have tests of their own
     const test::SampleRequest sampled(exporter, table, "mm-t-s");
-    const ExportRequest request = sampled.get();
-    const BuildVariant variant = exporter.variants(request)[0]; // double precision
-    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
+    const codegen::ExportRequest request = sampled.get();
+    const codegen::BuildVariant variant = exporter.variants(request)[0]; // double precision
+    if (!codegen::have_program(variant.program()))
+      GTEST_SKIP() << variant.program() << " is missing";
     std::vector<double> tau(probe.law.size(), -1);
-    CompiledTarget(exporter, request, exporter.generate(request), variant)
+    codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
         .drive(tau.size(), columns, tau);
     EXPECT_LE(test::worst_relative(tau, probe.law, 1e-300), 1e-12) << exporter.name;
   }
@@ -70,7 +78,7 @@ void expect_law(const Model& model) {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -84,15 +92,15 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 class SlowDirectFormOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowDirectFormOfEveryLaw, IsTheLawTo1e12InEveryTarget) {
-  expect_law(test::plausible_model(*find_law(GetParam())));
+  expect_law(test::plausible_model(*models::find_law(GetParam())));
 }
 
 TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
-  const AssembledLaw law(test::plausible_model(*find_law(GetParam())));
+  const AssembledLaw law(test::plausible_model(*models::find_law(GetParam())));
   const Table table = direct_of(law);
-  const TableFunction direct(table);
-  const Program tau_R(law.tau_R, table.inputs(), law.parameters);
-  const States states = box_points(ranges_of(law), 200);
+  const table::TableFunction direct(table);
+  const expr::Program tau_R(law.tau_R, table.inputs(), law.parameters);
+  const table::States states = table::box_points(ranges_of(law), 200);
   for (std::size_t i = 0; i < 200; ++i) {
     std::vector<double> state, by_law(states.size()), by_direct(states.size());
     for (const auto& column : states)
@@ -112,22 +120,22 @@ TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
 }
 
 TEST(DirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
-  Model model = test::network_model(4, 3);
+  models::Model model = test::network_model(4, 3);
   // 40 times the slope: tanh is 1 on most of the box.
   Expr steep = model.law->build(model.conventions).value;
   for (const char* name : {"sigma_n_MPa", "T_contact_C"})
     steep = substitute(steep, {{name, 40.0 * Expr::symbol(name)}});
-  Law law = *model.law;
-  law.build = [steep](const Conventions&) {
-    return Formula{steep, Expr::symbol("value") * Expr::symbol("sigma_n_MPa")};
+  models::Law law = *model.law;
+  law.build = [steep](const models::Conventions&) {
+    return models::Formula{steep, Expr::symbol("value") * Expr::symbol("sigma_n_MPa")};
   };
-  model.law = unregistered_law(law);
+  model.law = models::unregistered_law(law);
   expect_law(model);
 }
 
 // The layer, written out again as a formula.
-Expr written_out(const LayeredFormula& split) {
-  const UnitLayer& layer = *split.layer;
+Expr written_out(const codegen::LayeredFormula& split) {
+  const codegen::UnitLayer& layer = *split.layer;
   std::vector<Expr> outputs(layer.offset.begin(), layer.offset.end());
   for (std::size_t u = 0; u < layer.units(); ++u) {
     Expr sum = layer.bias[u];
@@ -137,21 +145,21 @@ Expr written_out(const LayeredFormula& split) {
   }
   std::map<std::string, Expr> with;
   for (std::size_t m = 0; m < outputs.size(); ++m)
-    with.emplace(layer_output(m), outputs[m]);
+    with.emplace(codegen::layer_output(m), outputs[m]);
   return substitute(split.rest, with);
 }
 
 TEST(Layer, IsFoundInTheFormulaOfANetworkAndKeepsItsValue) {
-  const Model model = test::network_model(20, 8);
+  const models::Model model = test::network_model(20, 8);
   const Expr formula = model.law->build(model.conventions).value;
-  const LayeredFormula split = split_layer(formula);
+  const codegen::LayeredFormula split = codegen::split_layer(formula);
   ASSERT_TRUE(split.layer);
   EXPECT_EQ(split.layer->units(), 160U);
   EXPECT_EQ(split.layer->outputs, 20U);
   EXPECT_EQ(split.layer->features.size(), 5U);
   const std::vector<std::string> names = {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C",
                                           "s_mm"};
-  const Program law(formula, names, {"mu0"}), again(written_out(split), names, {"mu0"});
+  const expr::Program law(formula, names, {"mu0"}), again(written_out(split), names, {"mu0"});
   const auto states = test::random_states(names, 100, 9);
   for (std::size_t i = 0; i < 100; ++i) {
     const double state[] = {states[0][i], states[1][i], states[2][i], states[3][i], states[4][i]};
@@ -169,7 +177,7 @@ TEST(Layer, IsNotMadeOfFormulasThatAreNone) {
     mixed = mixed + tanh(i * x) + x;
   }
   for (const Expr& formula : {few, deep, uneven, mixed, x, Expr(1.0)})
-    EXPECT_FALSE(split_layer(formula).layer) << to_text(formula);
+    EXPECT_FALSE(codegen::split_layer(formula).layer) << expr::to_text(formula);
 }
 
 } // namespace

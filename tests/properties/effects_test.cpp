@@ -9,6 +9,13 @@
 #include "expr/program.h"
 
 namespace frictab {
+
+using effects::EffectForm;
+using effects::parameters_of;
+using effects::PlacedEffect;
+using effects::Spread;
+using expr::Program;
+
 namespace {
 
 const std::vector<double> some_x = {-1e6, -300, -273.15, -20, -1,  -1e-3, 0,    1e-9,
@@ -24,17 +31,17 @@ PlacedEffect placed(const EffectForm& form, const std::vector<Spread>& of, doubl
   effect.form = &form;
   std::vector<std::vector<double>> values;
   for (std::size_t i = 0; i < form.columns; ++i) {
-    effect.inputs.push_back({input_symbols(form)[i], {}, of[i].minimum, of[i].maximum});
+    effect.inputs.push_back({effects::input_symbols(form)[i], {}, of[i].minimum, of[i].maximum});
     values.push_back({of[i].minimum, of[i].low, of[i].median, of[i].high, of[i].maximum});
   }
   if (form.categorical) effect.inputs[0].levels = {"A", "B", "C"};
-  set_knots(effect, {values.begin(), values.end()});
+  effects::set_knots(effect, {values.begin(), values.end()});
   if (form.pattern) {
     effect.parameters = form.pattern(effect);
     for (double& value : effect.parameters)
       value *= amplitude;
   } else {
-    effect.parameters = start_values(form, of);
+    effect.parameters = effects::start_values(form, of);
     effect.parameters[0] = amplitude;
   }
   return effect;
@@ -46,13 +53,13 @@ PlacedEffect placed(const EffectForm& form, double amplitude) {
 
 std::vector<std::string> names_of(const PlacedEffect& effect) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : parameters_of(effect))
+  for (const models::Parameter& parameter : parameters_of(effect))
     names.push_back(parameter.name);
   return names;
 }
 
 Program program_of(const PlacedEffect& effect) {
-  return {formula_of(effect), input_symbols(*effect.form), names_of(effect)};
+  return {effects::formula_of(effect), effects::input_symbols(*effect.form), names_of(effect)};
 }
 
 class EffectForms : public testing::TestWithParam<const EffectForm*> {};
@@ -70,11 +77,11 @@ TEST_P(EffectForms, DescribesItself) {
   EXPECT_EQ(depends, form.text != nullptr);
   EXPECT_EQ(depends, form.pattern != nullptr);
   EXPECT_EQ(form.penalty != nullptr, !form.knots.empty());
-  for (const Shape& shape : form.shapes)
+  for (const effects::Shape& shape : form.shapes)
     EXPECT_LT(shape.input, form.columns);
   auto parameters = parameters_of(placed(form, 0));
   parameters.insert(parameters.end(), form.parameters.begin(), form.parameters.end());
-  for (const Parameter& parameter : parameters) {
+  for (const models::Parameter& parameter : parameters) {
     EXPECT_LE(parameter.lower, parameter.start) << parameter.name;
     EXPECT_GE(parameter.upper, parameter.start) << parameter.name;
     EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
@@ -85,7 +92,7 @@ TEST_P(EffectForms, HasAParameterForEachAmplitudeOfItsPattern) {
   for (const Spread& spread : spreads) {
     const PlacedEffect effect = placed(*GetParam(), {spread, spreads[1], spreads[2]}, 1);
     EXPECT_EQ(effect.parameters.size(), parameters_of(effect).size());
-    EXPECT_LE(amplitudes_of(effect), effect.parameters.size());
+    EXPECT_LE(effects::amplitudes_of(effect), effect.parameters.size());
   }
 }
 
@@ -116,11 +123,11 @@ TEST_P(EffectForms, TriesShapesThatItsBoundsAllow) {
 TEST_P(EffectForms, UsesOnlyItsInputsAndParameters) {
   const PlacedEffect effect = placed(*GetParam(), 0);
   std::set<std::string> known;
-  for (const auto& name : input_symbols(*effect.form))
+  for (const auto& name : effects::input_symbols(*effect.form))
     known.insert(name);
   for (const auto& name : names_of(effect))
     known.insert(name);
-  EXPECT_EQ(symbols(formula_of(effect)), known);
+  EXPECT_EQ(expr::symbols(effects::formula_of(effect)), known);
 }
 
 TEST_P(EffectForms, NeutralAmplitudeIsExactlyOne) {
@@ -153,7 +160,8 @@ TEST_P(EffectForms, IsFiniteInsideTheDataAndReactsToItsAmplitude) {
 TEST_P(EffectForms, ReadsBackFromItsText) {
   const PlacedEffect effect = placed(*GetParam(), 0.37);
   const Program direct = program_of(effect);
-  const Program read(parse_expr(to_text(formula_of(effect))), direct.columns(), direct.scalars());
+  const Program read(expr::parse_expr(expr::to_text(effects::formula_of(effect))), direct.columns(),
+                     direct.scalars());
   for (double x = 0; x <= 25; x += 0.7) {
     const double row[] = {x, 20 - x, x};
     const std::span<const double> in(row, effect.form->columns);
@@ -175,7 +183,7 @@ TEST_P(EffectForms, IsLinearInItsAmplitudesWhereItSaysSo) {
 
 std::vector<const EffectForm*> forms() {
   std::vector<const EffectForm*> forms;
-  for (const EffectForm& form : all_effects())
+  for (const EffectForm& form : effects::all_effects())
     forms.push_back(&form);
   return forms;
 }
@@ -187,7 +195,7 @@ std::string name_of(const testing::TestParamInfo<const EffectForm*>& test) {
 INSTANTIATE_TEST_SUITE_P(Registry, EffectForms, testing::ValuesIn(forms()), name_of);
 
 TEST(Effects, HoldEveryFormOnce) {
-  EXPECT_EQ(join(effect_names(), " "),
+  EXPECT_EQ(join(effects::effect_names(), " "),
             "power exponential linear logarithmic arrhenius saturation hinge step bump stribeck "
             "periodic category product parabola hysteresis category_slope threshold2 recovery "
             "product3 spline surface spline_by_level");
@@ -195,7 +203,7 @@ TEST(Effects, HoldEveryFormOnce) {
 
 TEST(Effects, SpreadIgnoresWhatIsNotFinite) {
   const std::vector<double> values = {3, NAN, 1, INFINITY, 2};
-  const Spread spread = spread_of(values);
+  const Spread spread = effects::spread_of(values);
   EXPECT_EQ(spread.minimum, 1);
   EXPECT_EQ(spread.median, 2);
   EXPECT_EQ(spread.maximum, 3);

@@ -12,6 +12,11 @@
 #include "table/spline.h"
 
 namespace frictab {
+
+using table::axis_search;
+using table::AxisSearch;
+using table::CellSearch;
+
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -132,7 +137,7 @@ struct Grid {
     std::size_t size = 1;
     for (const std::size_t count : counts) {
       searches.push_back(axis_search(nodes(count, spacing), search));
-      splines.push_back(spline_axis(searches.back().u));
+      splines.push_back(table::spline_axis(searches.back().u));
       size *= count;
     }
     Random random(5);
@@ -140,7 +145,7 @@ struct Grid {
       single.push_back(static_cast<float>(random.uniform(-1, 2)));
       value.push_back(static_cast<double>(single.back()));
     }
-    coefficients = spline_coefficients(splines, value);
+    coefficients = table::spline_coefficients(splines, value);
     coefficients.shrink_to_fit();
     for (double& c : coefficients) { // the same in both types
       single_coefficients.push_back(static_cast<float>(c));
@@ -158,7 +163,7 @@ struct Grid {
   }
   int axes() const { return static_cast<int>(linear.size()); }
   std::vector<AxisSearch> searches;
-  std::vector<SplineAxis> splines;
+  std::vector<table::SplineAxis> splines;
   std::vector<ft_axis> linear;
   std::vector<ft_spline_axis> cubic;
   std::vector<double> value, coefficients;
@@ -239,8 +244,9 @@ TEST(Kernels, MeetTheValuesAtTheNodesBitForBitWhereLinear) {
       std::size_t rest = i;
       for (std::size_t d = counts.size(); d-- > 0; rest /= counts[d])
         u[d] = grid.searches[d].u[rest % counts[d]];
-      ASSERT_EQ(interpolate(grid.axes(), grid.linear.data(), grid.value.data(), u.data(), nullptr),
-                grid.value[i]);
+      ASSERT_EQ(
+          table::interpolate(grid.axes(), grid.linear.data(), grid.value.data(), u.data(), nullptr),
+          grid.value[i]);
     }
   }
 }
@@ -261,7 +267,7 @@ TEST(Kernels, OfSevenAndEightAxesReproduceMultilinearFunctions) {
         u[d] = grid.searches[d].u[rest % 3];
       grid.value[i] = field(u);
     }
-    grid.coefficients = spline_coefficients(grid.splines, grid.value);
+    grid.coefficients = table::spline_coefficients(grid.splines, grid.value);
     Random random(axes);
     for (int i = 0; i < 50; ++i) {
       std::vector<double> u(axes), by(axes);
@@ -269,13 +275,13 @@ TEST(Kernels, OfSevenAndEightAxesReproduceMultilinearFunctions) {
         x = random.uniform(-0.7, 2);
       const double truth = field(u), bound = 1e-13 * truth;
       const int n = grid.axes();
-      const double linear =
-          interpolate(n, grid.linear.data(), grid.value.data(), u.data(), by.data(), nullptr);
+      const double linear = table::interpolate(n, grid.linear.data(), grid.value.data(), u.data(),
+                                               by.data(), nullptr);
       EXPECT_NEAR(linear, truth, bound);
       for (std::size_t d = 0; d < axes; ++d)
         EXPECT_NEAR(by[d], truth / (1.5 * static_cast<double>(d + 3) + u[d]), 10 * bound);
-      const double cubic =
-          interpolate(n, grid.cubic.data(), grid.coefficients.data(), u.data(), by.data(), nullptr);
+      const double cubic = table::interpolate(n, grid.cubic.data(), grid.coefficients.data(),
+                                              u.data(), by.data(), nullptr);
       EXPECT_NEAR(cubic, truth, 100 * bound); // coefficients of 3^8 nodes are solved for
       for (std::size_t d = 0; d < axes; ++d)
         EXPECT_NEAR(by[d], truth / (1.5 * static_cast<double>(d + 3) + u[d]), 1000 * bound);

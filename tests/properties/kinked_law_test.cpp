@@ -9,16 +9,16 @@ namespace frictab {
 namespace {
 
 TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
-  const Model model = test::kinked_model();
+  const models::Model model = test::kinked_model();
   const auto ranges = test::kinked_ranges();
-  TableOptions options;
+  table::TableOptions options;
   options.tolerance_MPa = 0.01;
-  options.interpolation = Interpolation::linear;
-  const Table table = build_table(AssembledLaw(model), ranges, options);
+  options.interpolation = table::Interpolation::linear;
+  const table::Table table = table::build_table(models::AssembledLaw(model), ranges, options);
   EXPECT_LE(table.nodes(), 300U);
-  const TableFunction function(table);
-  EXPECT_LE(worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
-                       probe_points(ranges, table.axes, 200000))
+  const table::TableFunction function(table);
+  EXPECT_LE(table::worst_case(table::LawFunction(models::AssembledLaw(model), function.inputs()),
+                              function, ranges, table::probe_points(ranges, table.axes, 200000))
                 .drift_MPa,
             0.01);
 }

@@ -9,16 +9,23 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using expr::Expr;
+using expr::Program;
+using models::inputs;
+using models::parameter_names;
+using models::tau_formula;
+
 namespace {
 
 class EveryLaw : public testing::TestWithParam<std::string> {
 protected:
-  const Law& law() const { return *find_law(GetParam()); }
+  const models::Law& law() const { return *models::find_law(GetParam()); }
 };
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -42,7 +49,7 @@ TEST_P(EveryLaw, DescribesItself) {
   EXPECT_FALSE(law().formula.empty());
   EXPECT_FALSE(law().reference.empty());
   ASSERT_FALSE(law().parameters.empty());
-  for (const Parameter& p : law().parameters) {
+  for (const models::Parameter& p : law().parameters) {
     EXPECT_FALSE(p.meaning.empty()) << p.name;
     EXPECT_FALSE(p.unit.empty()) << p.name;
     EXPECT_LT(p.lower, p.upper) << p.name;
@@ -50,11 +57,11 @@ TEST_P(EveryLaw, DescribesItself) {
     EXPECT_LE(p.start, p.upper) << p.name;
   }
   for (const std::string& input : inputs(law(), {}))
-    EXPECT_TRUE(find_quantity(input) && find_quantity(input)->state) << input;
+    EXPECT_TRUE(data::find_quantity(input) && data::find_quantity(input)->state) << input;
 }
 
 TEST_P(EveryLaw, StaysBetweenZeroAndTheShearLimitForAnyParameters) {
-  const Conventions conventions;
+  const models::Conventions conventions;
   const auto names = inputs(law(), conventions);
   const Program program(tau_formula(law(), conventions), names, parameter_names(law()));
   const auto states = test::random_states(names, 2000, 3);
@@ -65,7 +72,7 @@ TEST_P(EveryLaw, StaysBetweenZeroAndTheShearLimitForAnyParameters) {
   Random random(5);
   for (int draw = 0; draw < 50; ++draw) {
     std::vector<double> parameters, tau(2000);
-    for (const Parameter& p : law().parameters)
+    for (const models::Parameter& p : law().parameters)
       parameters.push_back(random.uniform(p.lower, p.upper));
     program.evaluate(2000, columns, parameters, tau.data());
     for (std::size_t i = 0; i < tau.size(); ++i) {
@@ -77,19 +84,19 @@ TEST_P(EveryLaw, StaysBetweenZeroAndTheShearLimitForAnyParameters) {
 }
 
 TEST_P(EveryLaw, GradientAgreesWithCentralDifferences) {
-  const Model model = test::plausible_model(law());
+  const models::Model model = test::plausible_model(law());
   const auto names = inputs(law(), model.conventions);
   const Program program(tau_formula(law(), model.conventions), names, parameter_names(law()));
   const auto states = test::random_states(names, 500, 7);
   const auto columns = pointers(states);
-  const BoundProgram bound(program, 500, columns);
+  const expr::BoundProgram bound(program, 500, columns);
   const auto tau_at = [&](std::vector<double> parameters) {
     std::vector<double> tau(500);
     program.evaluate(500, columns, parameters, tau.data());
     return tau;
   };
   std::vector<std::vector<double>> analytic(model.parameters.size(), std::vector<double>(500));
-  bound.sweep(model.parameters, true, [&](const BoundProgram::Block& block) {
+  bound.sweep(model.parameters, true, [&](const expr::BoundProgram::Block& block) {
     for (std::size_t p = 0; p < analytic.size(); ++p)
       for (std::size_t i = 0; i < block.count; ++i)
         analytic[p][block.first + i] = block.derivative[p][i];
@@ -112,7 +119,7 @@ TEST_P(EveryLaw, GradientAgreesWithCentralDifferences) {
 }
 
 TEST_P(EveryLaw, NaNInAnyStateItUsesGivesNaN) {
-  const Model model = test::plausible_model(law());
+  const models::Model model = test::plausible_model(law());
   const auto names = inputs(law(), model.conventions);
   const Program program(tau_formula(law(), model.conventions), names, parameter_names(law()));
   for (std::size_t n = 0; n < names.size(); ++n) {
@@ -126,10 +133,10 @@ TEST_P(EveryLaw, NaNInAnyStateItUsesGivesNaN) {
 }
 
 TEST_P(EveryLaw, TextOfItsFormulaReadsBackToTheSameBits) {
-  const Model model = test::plausible_model(law());
+  const models::Model model = test::plausible_model(law());
   const Expr formula = tau_formula(law(), model.conventions);
-  const Expr again = parse_expr(to_text(formula));
-  EXPECT_EQ(to_text(again), to_text(formula));
+  const Expr again = expr::parse_expr(expr::to_text(formula));
+  EXPECT_EQ(expr::to_text(again), expr::to_text(formula));
   const auto names = inputs(law(), model.conventions);
   const Program a(formula, names, parameter_names(law()));
   const Program b(again, names, parameter_names(law()));
@@ -141,7 +148,7 @@ TEST_P(EveryLaw, TextOfItsFormulaReadsBackToTheSameBits) {
 }
 
 TEST_P(EveryLaw, WithoutTheShearLimitNeedsNoFlowStressUnlessItsFormulaDoes) {
-  Conventions conventions;
+  models::Conventions conventions;
   conventions.shear_limit = false;
   const auto limited = inputs(law(), {});
   const auto free = inputs(law(), conventions);
@@ -161,7 +168,7 @@ TEST(Laws, HaveTheNamesOfTheContract) {
 
 double tau(const std::string& name, std::vector<double> parameters, double sigma_n,
            double sigma_f) {
-  const Law& law = *find_law(name);
+  const models::Law& law = *models::find_law(name);
   const Program program(tau_formula(law, {}), {"sigma_n_MPa", "sigma_f_MPa"}, parameter_names(law));
   const std::vector<double> row{sigma_n, sigma_f};
   return program(row, parameters);

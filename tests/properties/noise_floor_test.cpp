@@ -11,14 +11,21 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using calibrate::oracle_floor;
+using calibrate::replicate_floor;
+using calibrate::replicate_groups;
+using data::Dataset;
+using twin::Twin;
+
 namespace {
 
 Twin campaign(const std::string& design, std::uint64_t seed) {
-  TwinOptions options;
+  twin::TwinOptions options;
   options.seed = seed;
   options.bystanders = false; // tests with other tools are no repeats
-  options.design = parse_design(design, default_design(twin_set("D")));
-  Twin twin = make_twin(options);
+  options.design = twin::parse_design(design, twin::default_design(twin::twin_set("D")));
+  Twin twin = twin::make_twin(options);
   twin.training.data.oracle_MPa = twin.training.oracle_MPa;
   return twin;
 }
@@ -63,7 +70,7 @@ TEST(Replicates, MayDifferByOnePercentOfTheRangeButNotByTwo) {
 
 TEST(Replicates, AreNotClaimedWhereNothingTellsExperimentsApart) {
   Dataset data = levels({1, 2, 3}, {500, 500, 500});
-  std::erase_if(data.columns, [](const Column& c) { return c.name == "psi"; });
+  std::erase_if(data.columns, [](const data::Column& c) { return c.name == "psi"; });
   EXPECT_TRUE(replicate_groups(data).empty());
 }
 
@@ -142,8 +149,8 @@ TEST(NoiseFloor, OfTheOracleIsTheOraclesError) {
   const Twin twin = campaign("psi=1,20;points=30", 3);
   const Dataset& data = twin.training.data;
   const auto floor = oracle_floor(data, 100, 1);
-  const Metrics m =
-      metrics(data.values("tau_R_MPa"), twin.training.oracle_MPa, data.first_row, 100, 1);
+  const calibrate::Metrics m = calibrate::metrics(data.values("tau_R_MPa"),
+                                                  twin.training.oracle_MPa, data.first_row, 100, 1);
   ASSERT_TRUE(floor);
   EXPECT_EQ(floor->mae_MPa, m.mae_MPa);
   EXPECT_EQ(floor->rmse_MPa, m.rmse_MPa);
@@ -157,14 +164,14 @@ TEST(NoiseFloor, WithinExperimentsIsTheWhiteNoiseAndNotTheOffsetsBetweenThem) {
     offsets.push_back(100 + 30 * random.normal());
   Dataset data = levels(offsets, std::vector<double>(20, 800.0));
   // 200 rows each, on a bow.
-  for (Column& column : data.columns)
+  for (data::Column& column : data.columns)
     column.values.resize(20 * 200, 1.0);
   for (std::size_t i = 0; i < 4000; ++i)
     data.columns[3].values[i] =
         offsets[i / 200] + 20 * std::sin(0.01 * static_cast<double>(i % 200)) + 5 * random.normal();
   for (std::size_t e = 0; e <= 20; ++e)
     data.first_row[e] = 200 * e;
-  const auto floor = within_floor(data, 100, 1);
+  const auto floor = calibrate::within_floor(data, 100, 1);
   ASSERT_TRUE(floor);
   EXPECT_TRUE(floor->lower_bound);
   EXPECT_NEAR(floor->rmse_MPa, 5, 0.2);
@@ -175,32 +182,34 @@ TEST(NoiseFloor, IsTakenFromTheMostTrustworthySourceAndSaidAsWhatItIs) {
   Twin twin = campaign("psi=1,20;points=30;replicates=2;validation=6", 3);
   Dataset &training = twin.training.data, &validation = twin.validation.data;
   const auto floors = [&] {
-    Calibration calibration;
-    CalibrationInput input{training, validation, {}, {}};
-    add_noise_floors(calibration, input);
+    calibrate::Calibration calibration;
+    calibrate::CalibrationInput input{training, validation, {}, {}};
+    calibrate::add_noise_floors(calibration, input);
     return calibration;
   };
-  Calibration c = floors();
+  calibrate::Calibration c = floors();
   EXPECT_EQ(c.noise_floors.front().method, "oracle");
   EXPECT_EQ(c.noise_floors.front().part, "training");
   training.oracle_MPa.clear();
   c = floors();
   ASSERT_EQ(c.noise_floors.size(), 3u);
   EXPECT_EQ(c.noise_floors[0].method, "replicates");
-  EXPECT_EQ(noise_floor_sentence(c, 2),
+  EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
             fmt::format("noise floor {:.2f} MPa: 108 repeated tests in 54 groups, of the training "
                         "data",
                         c.noise_floors[0].mae_MPa));
-  EXPECT_EQ(noise_floor_advice(c), "");
+  EXPECT_EQ(calibrate::noise_floor_advice(c), "");
   c.noise_floors.erase(c.noise_floors.begin());
-  EXPECT_EQ(noise_floor_sentence(c, 2),
+  EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
             fmt::format("noise floor above {:.2f} MPa: scatter within experiments only, scatter "
                         "between experiments not included",
                         c.noise_floors[0].mae_MPa));
-  EXPECT_EQ(noise_floor_advice(c), "repeat some tests at the same set levels to know it");
+  EXPECT_EQ(calibrate::noise_floor_advice(c),
+            "repeat some tests at the same set levels to know it");
   c.noise_floors.clear();
-  EXPECT_EQ(noise_floor_sentence(c, 2), "noise floor unknown: no repeated tests, and experiments "
-                                        "too short to see their scatter");
+  EXPECT_EQ(calibrate::noise_floor_sentence(c, 2),
+            "noise floor unknown: no repeated tests, and experiments "
+            "too short to see their scatter");
 }
 
 } // namespace

@@ -8,32 +8,38 @@
 #include "table/bound.h"
 
 namespace frictab {
+
+using models::AssembledLaw;
+using table::TableOptions;
+
 namespace {
 
 struct Made {
-  Model model;
-  std::vector<StateRange> ranges;
-  Table table;
+  models::Model model;
+  std::vector<table::StateRange> ranges;
+  table::Table table;
 };
 
 Made make(const std::string& law, const TableOptions& options) {
-  Made made{test::plausible_model(*find_law(law)), {}, {}};
-  made.ranges = state_ranges(AssembledLaw(made.model), test::sample_data(made.model), options);
-  made.table = build_table(AssembledLaw(made.model), made.ranges, options);
+  Made made{test::plausible_model(*models::find_law(law)), {}, {}};
+  made.ranges =
+      table::state_ranges(AssembledLaw(made.model), test::sample_data(made.model), options);
+  made.table = table::build_table(AssembledLaw(made.model), made.ranges, options);
   return made;
 }
 
-ProvenDrift drift_of(const Made& made, double allowed) {
-  const TableFunction function(made.table);
-  return prove_drift(AssembledLaw(made.model), made.table, made.ranges,
-                     worst_case(LawFunction(AssembledLaw(made.model), function.inputs()), function,
-                                made.ranges, probe_points(made.ranges, made.table.axes, 20000)),
-                     allowed);
+table::ProvenDrift drift_of(const Made& made, double allowed) {
+  const table::TableFunction function(made.table);
+  return table::prove_drift(
+      AssembledLaw(made.model), made.table, made.ranges,
+      table::worst_case(table::LawFunction(AssembledLaw(made.model), function.inputs()), function,
+                        made.ranges, table::probe_points(made.ranges, made.table.axes, 20000)),
+      allowed);
 }
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -49,27 +55,27 @@ class SlowToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
   for (const char* coordinates : {"law", "plain"})
-    for (const Interpolation interpolation : grid_interpolations)
+    for (const table::Interpolation interpolation : table::grid_interpolations)
       for (const double tolerance : {0.5, 0.1}) {
         TableOptions options;
         options.coordinates = coordinates;
         options.interpolation = interpolation;
         options.tolerance_MPa = tolerance;
         const Made made = make(GetParam(), options);
-        const ProvenDrift proven = drift_of(made, tolerance);
+        const table::ProvenDrift proven = drift_of(made, tolerance);
         ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
         EXPECT_LE(proven.worst.drift_MPa, tolerance);
         EXPECT_LE(*proven.bound.MPa, 1.025 * tolerance)
-            << coordinates << " " << interpolation_name(interpolation) << " " << tolerance;
+            << coordinates << " " << table::interpolation_name(interpolation) << " " << tolerance;
       }
 }
 
 TEST_P(SlowToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
   TableOptions options;
   options.coordinates = "plain";
-  const Table table = make(GetParam(), options).table;
+  const table::Table table = make(GetParam(), options).table;
   EXPECT_FALSE(table.log_value);
-  for (const TableAxis& axis : table.axes)
+  for (const table::TableAxis& axis : table.axes)
     EXPECT_FALSE(axis.log) << axis.name;
 }
 
@@ -92,7 +98,7 @@ TEST(Budget, IsKeptAndMoreNodesAreCloser) {
 
 TEST(Budget, OfNodesIsUsedAsWellAsATableToThatToleranceUsesThem) {
   // A table made to a tolerance has some nodes; asked for as many, the tool must come as close.
-  for (const Interpolation interpolation : grid_interpolations) {
+  for (const table::Interpolation interpolation : table::grid_interpolations) {
     TableOptions options;
     options.interpolation = interpolation;
     const Made to_tolerance = make("wanheim_bay", options);
@@ -101,14 +107,14 @@ TEST(Budget, OfNodesIsUsedAsWellAsATableToThatToleranceUsesThem) {
     EXPECT_LE(to_budget.table.nodes(), *options.nodes);
     EXPECT_LE(drift_of(to_budget, 0.5).worst.drift_MPa,
               1.05 * drift_of(to_tolerance, 0.5).worst.drift_MPa)
-        << interpolation_name(interpolation);
+        << table::interpolation_name(interpolation);
   }
 }
 
 TEST(Budget, OfBytesCountsValuesAndNodes) {
   TableOptions options;
   options.max_bytes = 2048;
-  const Table table = make("levanov", options).table;
+  const table::Table table = make("levanov", options).table;
   EXPECT_LE(table.bytes(), 2048U);
   EXPECT_GT(table.bytes(), 1024U);
   EXPECT_EQ(table.record.asked_bytes, 2048);

@@ -12,6 +12,9 @@
 
 namespace frictab {
 
+using codegen::Exporter;
+using codegen::find_exporter;
+
 namespace {
 
 // log, exp and pow come from the same libm on both sides; what is left is the order of operations.
@@ -28,15 +31,16 @@ struct Case {
 
 class SlowAgreement : public testing::TestWithParam<Case> {};
 
-void compare(const Exporter& exporter, const ExportRequest& request, std::size_t rows,
+void compare(const Exporter& exporter, const codegen::ExportRequest& request, std::size_t rows,
              const std::map<std::string, double>& fixed) {
   const test::States states(request.table, rows, 11, 0.1, fixed);
   const std::vector<double> truth = test::expected(request.table, states);
-  const SourceBundle bundle = exporter.generate(request);
-  for (const BuildVariant& variant : exporter.variants(request)) {
-    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is not installed";
+  const codegen::SourceBundle bundle = exporter.generate(request);
+  for (const codegen::BuildVariant& variant : exporter.variants(request)) {
+    if (!codegen::have_program(variant.program()))
+      GTEST_SKIP() << variant.program() << " is not installed";
     std::vector<double> tau(rows, -1);
-    CompiledTarget(exporter, request, bundle, variant).drive(rows, states.columns(), tau);
+    codegen::CompiledTarget(exporter, request, bundle, variant).drive(rows, states.columns(), tau);
     const double bound = variant.eps < 1e-10 ? double_bound : single_bound;
     EXPECT_LE(test::worst_relative(tau, truth), bound) << exporter.name << "/" << variant.name;
   }
@@ -50,7 +54,7 @@ TEST_P(SlowAgreement, OfTheRoutineWithFrictabItself) {
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
     const test::SampleRequest sampled(exporter, sample.table, GetParam().units);
-    const ExportRequest request = sampled.get();
+    const codegen::ExportRequest request = sampled.get();
     // Properties are constants of a call: most points share them, as in a solver.
     const std::map<std::string, double> fixed = {
         {"psi", 2.5}, {"sigma_f_MPa", 480.0}, {"humidity %, room", 41.0}};
@@ -60,12 +64,12 @@ TEST_P(SlowAgreement, OfTheRoutineWithFrictabItself) {
 }
 
 // The table alone: what is interpolated is tau_R.
-Table without_formula(Table table) {
-  table.combine = Expr::symbol("value");
+table::Table without_formula(table::Table table) {
+  table.combine = expr::Expr::symbol("value");
   table.constants.clear();
   table.extension.reset();
-  for (TableAxis& axis : table.axes)
-    axis.below = axis.above = Outside::clamp;
+  for (table::TableAxis& axis : table.axes)
+    axis.below = axis.above = table::Outside::clamp;
   return table;
 }
 
@@ -73,35 +77,36 @@ TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
   const Exporter &c = *find_exporter("c"), &fortran = *find_exporter("abaqus_vfric");
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
-    const Table table = without_formula(sample.table);
+    const table::Table table = without_formula(sample.table);
     if (table.axes.empty() || table.is_direct()) continue;
-    const ExportRequest request{table, "mm-t-s", {}};
+    const codegen::ExportRequest request{table, "mm-t-s", {}};
     const test::States states(table, 20000, 17, 0.1);
     const std::vector<double> truth = test::expected(table, states);
     for (const std::vector<std::string>& flags :
          {std::vector<std::string>{}, {"-march=native", "-O3"}, {"-DFT_PLAIN", "-O1"}}) {
-      BuildVariant build = c.variants(request)[0];
-      if (!have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
+      codegen::BuildVariant build = c.variants(request)[0];
+      if (!codegen::have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
       build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
       std::vector<double> tau(states.rows());
-      CompiledTarget(c, request, c.generate(request), build)
+      codegen::CompiledTarget(c, request, c.generate(request), build)
           .drive(states.rows(), states.columns(), tau);
       EXPECT_EQ(tau, truth) << (flags.empty() ? "-O2" : flags[0]);
     }
     const Exporter& free_form = *find_exporter("fortran");
-    const BuildVariant build = free_form.variants(request)[0];
-    if (!have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
+    const codegen::BuildVariant build = free_form.variants(request)[0];
+    if (!codegen::have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
     std::vector<double> tau(states.rows());
-    CompiledTarget(free_form, request, free_form.generate(request), build)
+    codegen::CompiledTarget(free_form, request, free_form.generate(request), build)
         .drive(states.rows(), states.columns(), tau);
     EXPECT_EQ(tau, truth) << "Fortran 2008";
-    const Library* library = test::compiled(sample.name + " bits", fortran, request, "double");
+    const codegen::Library* library =
+        test::compiled(sample.name + " bits", fortran, request, "double");
     if (!library) GTEST_SKIP() << "gfortran is not installed";
     const auto interpolate = library->find<double(const double*)>("ftintp_");
     const std::vector<std::string> inputs = table.inputs();
     for (std::size_t i = 0; i < states.rows(); ++i) {
       std::vector<double> u;
-      for (const TableAxis& axis : table.axes) {
+      for (const table::TableAxis& axis : table.axes) {
         const auto input = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
         const double x = states.columns()[static_cast<std::size_t>(input)][i];
         u.push_back(axis.log ? std::log(x) : x);
@@ -114,7 +119,7 @@ TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
 
 std::vector<Case> every_routine() {
   std::vector<Case> cases;
-  for (const Exporter& exporter : all_exporters())
+  for (const Exporter& exporter : codegen::all_exporters())
     for (const char* units : {"mm-t-s", "m-kg-s"})
       if (exporter.whole()) cases.push_back({exporter.name, units});
   return cases;

@@ -10,19 +10,19 @@ namespace frictab {
 namespace {
 
 TEST(SlowCTarget, CompilesWithoutAWarningByGccAndClangAndAgrees) {
-  const Exporter& c = *find_exporter("c");
+  const codegen::Exporter& c = *codegen::find_exporter("c");
   for (const std::string compiler : {"gcc", "clang"}) {
-    if (!have_program(compiler)) GTEST_SKIP() << compiler << " is not installed";
+    if (!codegen::have_program(compiler)) GTEST_SKIP() << compiler << " is not installed";
     for (const test::NamedTable& sample : test::sample_tables()) {
       SCOPED_TRACE(compiler + " " + sample.name);
-      const ExportRequest request{sample.table, "m-kg-s", {}};
-      BuildVariant build = c.variants(request)[0];
+      const codegen::ExportRequest request{sample.table, "m-kg-s", {}};
+      codegen::BuildVariant build = c.variants(request)[0];
       build.command[0] = compiler;
       for (const char* flag : {"-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"})
         build.command.insert(build.command.begin() + 1, flag);
       const test::States states(sample.table, 20000, 3);
       std::vector<double> tau(states.rows());
-      CompiledTarget(c, request, c.generate(request), build)
+      codegen::CompiledTarget(c, request, c.generate(request), build)
           .drive(states.rows(), states.columns(), tau);
       EXPECT_LE(test::worst_relative(tau, test::expected(sample.table, states)), 1e-13);
     }
@@ -30,19 +30,19 @@ TEST(SlowCTarget, CompilesWithoutAWarningByGccAndClangAndAgrees) {
 }
 
 TEST(SlowCTarget, CompilesAsOneFileAloneAndIsUsableFromCpp) {
-  const Table table = test::four_axis_table();
-  const ExportRequest request{table, "mm-t-s", {}};
-  SourceBundle bundle = find_exporter("c")->generate(request);
+  const table::Table table = test::four_axis_table();
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  codegen::SourceBundle bundle = codegen::find_exporter("c")->generate(request);
   EXPECT_EQ(bundle.size(), 3u);
   EXPECT_THAT(bundle.at("frictab_tau_R.c"),
               testing::Not(testing::ContainsRegex("malloc|stdio|static double [a-z_0-9]*;")));
   bundle["use.cpp"] = "#include \"frictab_tau_R.h\"\n"
                       "double use() { return frictab_tau_R(1, 1, 1, 1, 1, 1); }\n";
-  BuildVariant build;
+  codegen::BuildVariant build;
   build.name = "cpp";
   build.command = {"g++", "-Wall", "-Werror", "-fPIC", "-shared", "-o", "@{out}", "@{dir}/use.cpp"};
-  const TemporaryDirectory work;
-  EXPECT_NO_THROW(compile_library(bundle, build, work.path()));
+  const codegen::TemporaryDirectory work;
+  EXPECT_NO_THROW(codegen::compile_library(bundle, build, work.path()));
 }
 
 } // namespace

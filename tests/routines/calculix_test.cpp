@@ -11,6 +11,10 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using expr::Expr;
+using table::Table;
+
 namespace {
 
 using testing::HasSubstr;
@@ -26,7 +30,7 @@ struct Spring {
   double tangential[3] = {1.2, -1.6, 0};
   double coefficient = 0.1; // of *FRICTION
 
-  double run(const Library& library) const {
+  double run(const codegen::Library& library) const {
     using Usrmu = void(double*, const double*, const double*, const double*, const double*,
                        const double*, const double*);
     double um = coefficient;
@@ -41,11 +45,11 @@ struct Spring {
 class Calculix : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
-  static const Exporter& target() { return *find_exporter("calculix_usrmu"); }
-  static ExportRequest request(const Table& table) {
+  static const codegen::Exporter& target() { return *codegen::find_exporter("calculix_usrmu"); }
+  static codegen::ExportRequest request(const Table& table) {
     return {table, "mm-t-s", {{"psi", "constant:2.5"}, {"sigma_f_MPa", "constant:480"}}};
   }
   // Over pressure, surface expansion, speed and temperature.
@@ -53,11 +57,11 @@ protected:
     static const Table four = test::four_axis_table();
     return four;
   }
-  static const Library& routine() {
+  static const codegen::Library& routine() {
     return *test::compiled("four", target(), request(table()), "double", test::strict_declared);
   }
   static double mu(double pressure, double speed, double temperature) {
-    static const TableFunction tau(table());
+    static const table::TableFunction tau(table());
     const double state[] = {pressure, psi, speed, temperature, flow};
     return tau(state) / pressure;
   }
@@ -90,7 +94,7 @@ TEST_F(Calculix, TakesTheSpeedOfTheTangentialDisplacementOverTheIncrement) {
 TEST_F(Calculix, TakesTheTangentialDisplacementAsTheSlidingDistance) {
   Table slides = test::constant_table();
   slides.combine = Expr::symbol("sigma_n_MPa") * Expr::symbol("s_mm");
-  const Library& library =
+  const codegen::Library& library =
       *test::compiled("slides", target(), {slides, "mm-t-s", {}}, "double", test::strict_declared);
   EXPECT_CLOSE(Spring().run(library), 2.0);
 }
@@ -98,19 +102,19 @@ TEST_F(Calculix, TakesTheTangentialDisplacementAsTheSlidingDistance) {
 TEST_F(Calculix, TakesTheConstantTemperatureWhereTheDeckHasNone) {
   Spring cold;
   cold.temperature = 0;
-  EXPECT_CLOSE(cold.run(routine()), mu(1000, 50, *typical_value(table(), "T_contact_C")));
+  EXPECT_CLOSE(cold.run(routine()), mu(1000, 50, *codegen::typical_value(table(), "T_contact_C")));
 }
 
 TEST_F(Calculix, IsNotAskedForATemperatureOf0WhichStandsForNone) {
   Table warm = table();
   warm.axes[3].nodes.front() = 0;
-  const ExportRequest asked = request(warm);
+  const codegen::ExportRequest asked = request(warm);
   const test::States states(warm, 2, 5, 0, {{"psi", 2.5}, {"sigma_f_MPa", 480}});
   std::vector<const double*> columns = states.columns();
   const std::vector<double> temperature = {0, 50};
   columns[3] = temperature.data();
   std::vector<double> tau(2, -1);
-  CompiledTarget(target(), asked, target().generate(asked), target().variants(asked)[0])
+  codegen::CompiledTarget(target(), asked, target().generate(asked), target().variants(asked)[0])
       .drive(2, columns, tau);
   EXPECT_EQ(tau[0], -1);
   EXPECT_GT(tau[1], 0);
@@ -135,7 +139,7 @@ TEST_F(Calculix, GivesNaNForNaNInAnyArgumentItUses) {
 }
 
 TEST_F(Calculix, ShipsTheScriptThatPutsItsCallsIntoTheSource) {
-  const SourceBundle bundle = target().generate(request(table()));
+  const codegen::SourceBundle bundle = target().generate(request(table()));
   EXPECT_THAT(bundle.at("frictab_hook.sh"), HasSubstr("call usrmu(um,dfnl/springarea(1)"));
   EXPECT_THAT(bundle.at("recipe.json"), HasSubstr("frictab_hook.sh"));
 }

@@ -18,6 +18,12 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using codegen::ExportRequest;
+using codegen::Library;
+using table::Table;
+using table::TableFunction;
+
 namespace {
 
 using calls::Ufhcom;
@@ -34,8 +40,8 @@ constexpr double bound = 1e-13; // the order of operations only
 constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
-const Exporter& deform() {
-  return *find_exporter("deform_usrbcc");
+const codegen::Exporter& deform() {
+  return *codegen::find_exporter("deform_usrbcc");
 }
 
 ExportRequest request(const Table& table, const std::string& friction = "coulomb",
@@ -49,7 +55,7 @@ ExportRequest request(const Table& table, const std::string& friction = "coulomb
 // 100 degC in `call`.
 struct SlowDeform : testing::Test {
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   void use(const std::string& key, const ExportRequest& asked) {
@@ -230,7 +236,7 @@ TEST_F(SlowDeform, IsNotAskedForAPeakBelowThePresentPressure) {
   const double p[] = {700, 700, 700}, work[] = {200, 200, 200}, peak[] = {900, 600, nan};
   const std::vector<const double*> columns = {p, work, peak};
   std::vector<double> result(3, -1);
-  CompiledTarget(deform(), asked, deform().generate(asked), deform().variants(asked)[0])
+  codegen::CompiledTarget(deform(), asked, deform().generate(asked), deform().variants(asked)[0])
       .drive(3, columns, result);
   const double state[] = {700, 200, 900};
   EXPECT_CLOSE(result[0], TableFunction(table)(state));
@@ -282,13 +288,13 @@ TEST_F(SlowDeform, TakesWorkAndPeakPressureOfTheNodesInTheSolversUnits) {
 TEST_F(SlowDeform, StopsWithAnErrorCodeBeyondAnErrorSideAndNamesStateAndValue) {
   const Table table = test::sides_table();
   const ExportRequest asked = request(table);
-  BuildVariant variant{
+  codegen::BuildVariant variant{
       "double",
       {"gfortran", "-shared", "-fPIC", "-std=legacy", "-o", "@{out}", "@{dir}/frictab_usrbcc.f"},
       {},
       0};
-  const TemporaryDirectory work;
-  const Library own(compile_library(deform().generate(asked), variant, work.path()));
+  const codegen::TemporaryDirectory work;
+  const Library own(codegen::compile_library(deform().generate(asked), variant, work.path()));
   void* function = Library::address(own.handle(), "usrbcc_");
   *own.find<Ufhcom>("ufhcom_") = {20, 20, 50, 1000};
   *own.find<Ufhcom2>("ufhcom2_") = {psi, flow, 1};

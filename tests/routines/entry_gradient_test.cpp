@@ -12,6 +12,10 @@
 #include "table/direct.h"
 
 namespace frictab {
+
+using codegen::InputArgument;
+using table::Table;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -40,13 +44,14 @@ const Target targets[] = {
 class Functions {
 public:
   Functions(const Table& table, const std::string& units, const Target& target)
-      : table_(table), request_{table_, units, {}}, arguments_(entry_arguments(table_, units)) {
-    const Exporter& exporter = *find_exporter(target.name);
-    BuildVariant build = exporter.variants(request_)[0];
+      : table_(table), request_{table_, units, {}},
+        arguments_(codegen::entry_arguments(table_, units)) {
+    const codegen::Exporter& exporter = *codegen::find_exporter(target.name);
+    codegen::BuildVariant build = exporter.variants(request_)[0];
     build.command[0] = target.compiler;
     build.command.insert(build.command.begin() + 1, target.flags.begin(), target.flags.end());
-    library_ = std::make_unique<Library>(
-        compile_library(exporter.generate(request_), build, directory_.path()));
+    library_ = std::make_unique<codegen::Library>(
+        codegen::compile_library(exporter.generate(request_), build, directory_.path()));
   }
 
   const std::vector<InputArgument>& arguments() const { return arguments_; }
@@ -70,7 +75,7 @@ public:
     return call("frictab_tau_R_gradient", x, slopes.data());
   }
 
-  const Library& library() const { return *library_; }
+  const codegen::Library& library() const { return *library_; }
 
 private:
   template <std::size_t> using Number = double;
@@ -92,18 +97,19 @@ private:
   }
 
   Table table_;
-  ExportRequest request_;
+  codegen::ExportRequest request_;
   std::vector<InputArgument> arguments_;
-  TemporaryDirectory directory_;
-  std::unique_ptr<Library> library_;
+  codegen::TemporaryDirectory directory_;
+  std::unique_ptr<codegen::Library> library_;
 };
 
 bool same_bits(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-void expect_gradient(const Functions& entry, const Table& table, const TableFunction& function,
-                     const std::string& units, const Row& state) {
+void expect_gradient(const Functions& entry, const Table& table,
+                     const table::TableFunction& function, const std::string& units,
+                     const Row& state) {
   Row slopes, by_state(state.size());
   const Row x = entry.arguments_of(state);
   const double tau = function.gradient(state, by_state);
@@ -135,7 +141,8 @@ Row row(const test::States& states, std::size_t i) {
 class SlowEntryGradient : public testing::TestWithParam<Target> {
 protected:
   void SetUp() override {
-    if (!have_program(GetParam().compiler)) GTEST_SKIP() << GetParam().compiler << " is missing";
+    if (!codegen::have_program(GetParam().compiler))
+      GTEST_SKIP() << GetParam().compiler << " is missing";
   }
 };
 
@@ -145,7 +152,7 @@ TEST_P(SlowEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits)
       if (units == "m-kg-s" && GetParam().compiler == "clang") continue; // only warnings to see
       SCOPED_TRACE(sample.name + " " + units);
       const Functions entry(sample.table, units, GetParam());
-      const TableFunction function(sample.table);
+      const table::TableFunction function(sample.table);
       const test::States states(sample.table, 5000, 23, 0.2);
       for (std::size_t i = 0; i < states.rows(); ++i)
         ASSERT_NO_FATAL_FAILURE(
@@ -155,9 +162,9 @@ TEST_P(SlowEntryGradient, IsThatOfTheTableInBothUnitSystemsWithTheValuesOwnBits)
 
 TEST_P(SlowEntryGradient, OfALargerNetworkIsItsFormulas) {
   Table table = test::direct_network();
-  add_extension(table, AssembledLaw(test::network_model(20, 8)));
+  table::add_extension(table, models::AssembledLaw(test::network_model(20, 8)));
   const Functions entry(table, "mm-t-s", GetParam());
-  const TableFunction function(table);
+  const table::TableFunction function(table);
   const test::States states(table, 2000, 31, 0.2);
   for (std::size_t i = 0; i < states.rows(); ++i)
     ASSERT_NO_FATAL_FAILURE(expect_gradient(entry, table, function, "mm-t-s", row(states, i)));

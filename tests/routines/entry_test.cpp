@@ -24,17 +24,17 @@ using Batch = void(std::size_t, Array, Array, Array, Array, Array, Array, double
 class SlowEntryOf : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    static const Table table = test::four_axis_table();
-    const ExportRequest request{table, "mm-t-s", {}};
-    const Exporter& exporter = *find_exporter(GetParam());
+    static const table::Table table = test::four_axis_table();
+    const codegen::ExportRequest request{table, "mm-t-s", {}};
+    const codegen::Exporter& exporter = *codegen::find_exporter(GetParam());
     const std::string variant = exporter.variants(request)[0].name;
     library_ = test::compiled("four_axes", exporter, request, variant);
     if (!library_) GTEST_SKIP() << "the compiler is missing";
   }
-  const Library& library() const { return *library_; }
+  const codegen::Library& library() const { return *library_; }
 
 private:
-  const Library* library_ = nullptr;
+  const codegen::Library* library_ = nullptr;
 };
 
 TEST_P(SlowEntryOf, TellsByBitsWhichAxesAreLeft) {
@@ -50,7 +50,7 @@ TEST_P(SlowEntryOf, TellsByBitsWhichAxesAreLeft) {
 }
 
 TEST_P(SlowEntryOf, GivesTheSameBitsInBatchAndTakesNullForWhatItDoesNotUse) {
-  const Table table = test::four_axis_table();
+  const table::Table table = test::four_axis_table();
   const test::States states(table, 1000, 5);
   const auto& c = states.columns();
   std::vector<double> tau(1000);

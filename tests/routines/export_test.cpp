@@ -11,6 +11,14 @@
 
 namespace frictab {
 
+using codegen::all_exporters;
+using codegen::BuildVariant;
+using codegen::Exporter;
+using codegen::ExportRequest;
+using codegen::find_exporter;
+using codegen::have_program;
+using table::Table;
+
 namespace {
 
 using testing::HasSubstr;
@@ -167,10 +175,10 @@ TEST(Export, EveryTargetDescribesItself) {
 
 TEST(Compile, GivesTheCompilersWordsWhereItFails) {
   if (!have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
-  const TemporaryDirectory work;
+  const codegen::TemporaryDirectory work;
   const BuildVariant build{"x", {"gcc", "-shared", "-o", "@{out}", "@{dir}/a.c"}, {}, 0};
   try {
-    compile_library({{"a.c", "int f(void) { return missing; }\n"}}, build, work.path());
+    codegen::compile_library({{"a.c", "int f(void) { return missing; }\n"}}, build, work.path());
     FAIL() << "compiled";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("gcc"), HasSubstr("missing")));
@@ -178,19 +186,19 @@ TEST(Compile, GivesTheCompilersWordsWhereItFails) {
 }
 
 TEST(Compile, UsesNoShell) {
-  const TemporaryDirectory work;
+  const codegen::TemporaryDirectory work;
   const BuildVariant build{"x", {"echo", "$(touch hacked)", ";", "touch hacked"}, {}, 0};
-  compile_library({}, build, work.path());
+  codegen::compile_library({}, build, work.path());
   EXPECT_FALSE(std::filesystem::exists("hacked"));
 }
 
 TEST(Compile, TellsAMissingProgram) {
   EXPECT_FALSE(have_program("no-such-compiler-here"));
   EXPECT_TRUE(have_program("sh"));
-  const TemporaryDirectory work;
+  const codegen::TemporaryDirectory work;
   const BuildVariant build{"x", {"no-such-compiler-here"}, {}, 0};
-  EXPECT_THROW(compile_library({}, build, work.path()), std::runtime_error);
-  EXPECT_THROW(Library("/nowhere/lib.so"), std::runtime_error);
+  EXPECT_THROW(codegen::compile_library({}, build, work.path()), std::runtime_error);
+  EXPECT_THROW(codegen::Library("/nowhere/lib.so"), std::runtime_error);
 }
 
 } // namespace

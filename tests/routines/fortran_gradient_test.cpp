@@ -16,6 +16,11 @@
 #include "table/direct.h"
 
 namespace frictab {
+
+using table::Table;
+using table::TableFunction;
+namespace fortran = codegen::fortran;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -26,12 +31,13 @@ constexpr double bound = 1e-12;
 class Core {
 public:
   explicit Core(const Table& table) : inputs_(table.inputs().size()) {
-    BuildVariant build;
+    codegen::BuildVariant build;
     build.name = "core";
     build.command = fortran::library_command(test::strict);
     build.command.push_back("@{dir}/core.f");
     text = fortran::core({.table = table}, {.gradient = true}).text + "\n";
-    library_ = std::make_unique<Library>(compile_library({{"core.f", text}}, build, work_.path()));
+    library_ = std::make_unique<codegen::Library>(
+        codegen::compile_library({{"core.f", text}}, build, work_.path()));
     gradient_ = library_->find<void(const double*, double*, double*)>("ftgrad_");
     value_ = library_->find<double(const double*)>("fttau_");
   }
@@ -50,8 +56,8 @@ public:
 
 private:
   std::size_t inputs_;
-  TemporaryDirectory work_;
-  std::unique_ptr<Library> library_;
+  codegen::TemporaryDirectory work_;
+  std::unique_ptr<codegen::Library> library_;
   void (*gradient_)(const double*, double*, double*);
   double (*value_)(const double*);
 };
@@ -86,7 +92,7 @@ std::vector<double> row(const test::States& states, std::size_t i) {
 class SlowFortranGradient : public testing::TestWithParam<std::size_t> {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   const Table& table() const { return test::sample_tables()[GetParam()].table; }
 };
@@ -104,7 +110,7 @@ TEST_P(SlowFortranGradient, TakesTheTablesSideAtNodesAndEnds) {
   const TableFunction function(table());
   const test::States states(table(), 50, 29, 0);
   const std::vector<std::string> inputs = table().inputs();
-  for (const TableAxis& axis : table().axes) {
+  for (const table::TableAxis& axis : table().axes) {
     const auto at = std::find(inputs.begin(), inputs.end(), axis.name) - inputs.begin();
     for (std::size_t i = 0; i < states.rows(); ++i)
       for (const double node : axis.nodes) {
@@ -130,8 +136,9 @@ TEST_P(SlowFortranGradient, IsNaNByEveryInputWhereOneIsNaN) {
 // What a resting contact or an empty field gives: no division by zero, no logarithm of it.
 TEST_P(SlowFortranGradient, IsFiniteAtZero) {
   const std::vector<std::string> inputs = table().inputs();
-  const bool refuses = std::any_of(table().axes.begin(), table().axes.end(),
-                                   [](const auto& axis) { return axis.below == Outside::error; });
+  const bool refuses = std::any_of(table().axes.begin(), table().axes.end(), [](const auto& axis) {
+    return axis.below == table::Outside::error;
+  });
   if (refuses || inputs.empty()) GTEST_SKIP() << "nothing to ask";
   const Core core(table());
   const test::States states(table(), 1, 3, 0);
@@ -149,11 +156,11 @@ TEST_P(SlowFortranGradient, IsFiniteAtZero) {
 TEST_P(SlowFortranGradient, OfTheInterpolationHasTheSameBits) {
   if (table().is_direct()) GTEST_SKIP() << "nothing is interpolated";
   Table bare = table();
-  bare.combine = Expr::symbol("value");
+  bare.combine = expr::Expr::symbol("value");
   bare.constants.clear();
   bare.extension.reset();
-  for (TableAxis& axis : bare.axes)
-    axis.below = axis.above = Outside::clamp;
+  for (table::TableAxis& axis : bare.axes)
+    axis.below = axis.above = table::Outside::clamp;
   const Core core(bare);
   const TableFunction function(bare);
   const test::States states(bare, 20000, 37, 0.2);
@@ -180,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, SlowFortranGradient, testing::ValuesIn(sample_
                          });
 
 TEST(SlowFortranGradientUnit, IsNaNWhereASideRefusesAndTauIsWhatFttauSays) {
-  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Core core(test::sides_table()); // temperature below 20: error
   std::vector<double> slopes;
   const std::vector<double> x = {1000, 50, 10, 480};
@@ -190,10 +197,10 @@ TEST(SlowFortranGradientUnit, IsNaNWhereASideRefusesAndTauIsWhatFttauSays) {
 }
 
 TEST(SlowFortranGradientUnit, OfALargerNetworkIsItsFormulas) {
-  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  const Model model = test::network_model(20, 8);
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const models::Model model = test::network_model(20, 8);
   Table table = test::direct_network();
-  add_extension(table, AssembledLaw(model));
+  table::add_extension(table, models::AssembledLaw(model));
   const Core core(table);
   const TableFunction function(table);
   const test::States states(table, 2000, 31, 0.2);

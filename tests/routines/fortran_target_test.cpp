@@ -15,9 +15,9 @@ namespace {
 class FortranTarget : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
-  static const Exporter& fortran() { return *find_exporter("fortran"); }
+  static const codegen::Exporter& fortran() { return *codegen::find_exporter("fortran"); }
 };
 
 using SlowFortranTarget = FortranTarget;
@@ -26,14 +26,14 @@ TEST_F(SlowFortranTarget, CompilesByTheStandardWithoutAWarningAndAgreesWithTraps
   for (const test::NamedTable& sample : test::sample_tables())
     for (const std::string standard : {"-std=f2008", "-std=f2018"}) {
       SCOPED_TRACE(sample.name + standard);
-      const ExportRequest request{sample.table, "m-kg-s", {}};
-      BuildVariant build = fortran().variants(request)[0];
+      const codegen::ExportRequest request{sample.table, "m-kg-s", {}};
+      codegen::BuildVariant build = fortran().variants(request)[0];
       for (const std::string flag : {"-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fcheck=all"})
         build.command.insert(build.command.begin() + 1, flag);
       build.command.push_back(standard); // the last one counts
       const test::States states(sample.table, 5000, 3);
       std::vector<double> tau(states.rows());
-      const CompiledTarget target(fortran(), request, fortran().generate(request), build);
+      const codegen::CompiledTarget target(fortran(), request, fortran().generate(request), build);
       {
         const test::FloatTraps traps;
         target.drive(states.rows(), states.columns(), tau);
@@ -62,19 +62,19 @@ end subroutine use_arrays
 )";
 
 TEST_F(FortranTarget, IsUsedFromFortranForArraysAndConcurrently) {
-  const Table table = test::four_axis_table();
-  const ExportRequest request{table, "mm-t-s", {}};
-  SourceBundle bundle = fortran().generate(request);
+  const table::Table table = test::four_axis_table();
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  codegen::SourceBundle bundle = fortran().generate(request);
   bundle["use_arrays.f90"] = caller;
-  BuildVariant build = fortran().variants(request)[0];
+  codegen::BuildVariant build = fortran().variants(request)[0];
   for (const char* argument : {"-Wall", "-Werror", "@{dir}/use_arrays.f90"})
     build.command.push_back(argument);
-  const TemporaryDirectory work;
-  const Library library(compile_library(bundle, build, work.path()));
+  const codegen::TemporaryDirectory work;
+  const codegen::Library library(codegen::compile_library(bundle, build, work.path()));
   const double pressure[] = {600, 900, 1200, 1500, 1800, 2100};
   double tau[12], slope = -1;
   library.find<void(const double*, double*, double*)>("use_arrays")(pressure, tau, &slope);
-  const TableFunction function(table);
+  const table::TableFunction function(table);
   for (std::size_t i = 0; i < 6; ++i) {
     const double state[] = {pressure[i], 2, 50, 100, 480};
     double by[5];
@@ -89,7 +89,7 @@ TEST_F(FortranTarget, IsUsedFromFortranForArraysAndConcurrently) {
 
 TEST_F(FortranTarget, KeepsItsSourceInOneFileWithoutStateOrOutput) {
   for (const test::NamedTable& sample : test::sample_tables()) {
-    const SourceBundle bundle = fortran().generate({sample.table, "mm-t-s", {}});
+    const codegen::SourceBundle bundle = fortran().generate({sample.table, "mm-t-s", {}});
     EXPECT_EQ(bundle.size(), 2u);
     EXPECT_THAT(bundle.at("frictab_tau_R.f90"),
                 testing::Not(testing::ContainsRegex("write|print|common|equivalence|allocat")));

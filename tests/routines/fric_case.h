@@ -25,16 +25,17 @@ inline constexpr double critical = 0x1p-7; // mm, the elastic slip at which stic
 class FricCase : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
-  static void* routine(const std::string& key, const ExportRequest& request) {
-    return Library::address(
-        compiled(key, *find_exporter("abaqus_fric"), request, "double", strict)->handle(), "fric_");
+  static void* routine(const std::string& key, const codegen::ExportRequest& request) {
+    return codegen::Library::address(
+        compiled(key, *codegen::find_exporter("abaqus_fric"), request, "double", strict)->handle(),
+        "fric_");
   }
   static void* four_axes() { return routine("four_axes", {four_axis(), "mm-t-s", {}}); }
-  static const Table& slipping() { // by speed and sliding distance
-    static const Table table = branching_table();
+  static const table::Table& slipping() { // by speed and sliding distance
+    static const table::Table table = branching_table();
     return table;
   }
   static void* branching() { return routine("branching", {slipping(), "mm-t-s", {}}); }
@@ -73,12 +74,12 @@ protected:
   }
 
   static double tau(double pressure, double speed, double temperature) {
-    static const TableFunction table(four_axis());
+    static const table::TableFunction table(four_axis());
     const double state[] = {pressure, psi, speed, temperature, flow};
     return table(state);
   }
   static double slip_tau(double pressure, double speed, double slip) {
-    static const TableFunction table(slipping());
+    static const table::TableFunction table(slipping());
     const double state[] = {pressure, speed, slip, flow};
     return table(state);
   }

@@ -12,6 +12,8 @@
 
 namespace frictab {
 
+using table::Table;
+
 namespace {
 
 using namespace test;
@@ -21,13 +23,14 @@ using calls::CoefCall;
 class FricCoef2024 : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
-  static void* routine(const std::string& key, const ExportRequest& request) {
-    return Library::address(
-        compiled("states " + key, *find_exporter("abaqus_fric_coef"), request, "double", strict)
-            ->handle(),
-        "fric_coef_");
+  static void* routine(const std::string& key, const codegen::ExportRequest& request) {
+    return codegen::Library::address(compiled("states " + key,
+                                              *codegen::find_exporter("abaqus_fric_coef"), request,
+                                              "double", strict)
+                                         ->handle(),
+                                     "fric_coef_");
   }
   static CoefCall call(std::vector<double> properties) {
     CoefCall c;
@@ -48,7 +51,7 @@ protected:
 
 TEST_F(FricCoef2024, TakesTheEquivalentSlipAndGivesItsDerivative) {
   static const Table table = branching_table();
-  static const TableFunction function(table);
+  static const table::TableFunction function(table);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     const double length = units == "m-kg-s" ? 1e-3 : 1, stress = units == "m-kg-s" ? 1e6 : 1;
     void* const compiled = routine("branching " + units, {table, units, {}});
@@ -80,7 +83,7 @@ TEST_F(FricCoef2024, GivesTheDerivativeOfALawThatTakesTheSlipByBothOfItsNames) {
 
 TEST_F(FricCoef2024, KeepsPeakAndWorkOncePerIncrementWhateverTheIterations) {
   static const Table table = peak_and_work_table();
-  static const TableFunction function(table);
+  static const table::TableFunction function(table);
   void* const compiled = routine("peaks", {table, "mm-t-s", {}});
   const std::vector<std::string> inputs = table.inputs();
   const auto wanted = [&](double pressure, double peak, double work) {
@@ -146,7 +149,7 @@ TEST_F(FricCoef2024, CountsIncrementsOutsideTheRangeOnce) {
 TEST_F(FricCoef2024, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
   void* const compiled = routine(
       "frozen", {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
-  static const TableFunction function(four_axis());
+  static const table::TableFunction function(four_axis());
   const auto mu = [](double pressure, double speed) {
     const double state[] = {pressure, psi, speed, 100, flow};
     return function(state) / pressure;

@@ -15,6 +15,8 @@
 
 namespace frictab {
 
+using table::TableFunction;
+
 namespace {
 
 using calls::CoefCall;
@@ -25,17 +27,18 @@ using namespace test;
 class SlowFricCoef : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static bool newer() { return GetParam() == "2024"; }
-  static void* routine(const std::string& key, ExportRequest request,
+  static void* routine(const std::string& key, codegen::ExportRequest request,
                        const std::vector<std::string>& flags = strict) {
     request.options["abaqus_release"] = GetParam();
-    return Library::address(
-        compiled(key + GetParam(), *find_exporter("abaqus_fric_coef"), request, "double", flags)
-            ->handle(),
-        "fric_coef_");
+    return codegen::Library::address(compiled(key + GetParam(),
+                                              *codegen::find_exporter("abaqus_fric_coef"), request,
+                                              "double", flags)
+                                         ->handle(),
+                                     "fric_coef_");
   }
   static void* four_axes() { return routine("four_axes", {four_axis(), "mm-t-s", {}}); }
 
@@ -133,7 +136,7 @@ TEST_P(SlowFricCoef, GivesTheShearLimitAsACoefficientThatFallsWithPressure) {
 }
 
 TEST_P(SlowFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
-  const Table table = one_axis_table(); // tau_R by psi alone: tau_R/p has no limit
+  const table::Table table = one_axis_table(); // tau_R by psi alone: tau_R/p has no limit
   static const TableFunction function(table);
   const double state[] = {psi};
   for (const double pressure : {0.5, 0.0, -50.0}) {
@@ -147,8 +150,8 @@ TEST_P(SlowFricCoef, HoldsTheCoefficientBelowTheSmallestPressureAndWithoutAny) {
 }
 
 TEST_P(SlowFricCoef, DoesNotStopForAPointThatDoesNotPress) {
-  Table table = sides_table();
-  table.axes[0].below = Outside::error; // pressure
+  table::Table table = sides_table();
+  table.axes[0].below = table::Outside::error; // pressure
   auto c = call(2);
   c.properties = {60, flow};
   c.pressure[0] = 0;
@@ -268,13 +271,15 @@ TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
 }
 
 TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
-  const Exporter& exporter = *find_exporter("abaqus_fric_coef");
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric_coef");
   for (const NamedTable& sample : sample_tables()) {
     SCOPED_TRACE(sample.name);
-    const ExportRequest request{sample.table, "mm-t-s", {}, {{"abaqus_release", GetParam()}}};
+    const codegen::ExportRequest request{
+        sample.table, "mm-t-s", {}, {{"abaqus_release", GetParam()}}};
     const States states(request.table, 2000, 12, 0.1);
     std::vector<double> found(states.rows(), -1);
-    CompiledTarget(exporter, request, exporter.generate(request), exporter.variants(request)[0])
+    codegen::CompiledTarget(exporter, request, exporter.generate(request),
+                            exporter.variants(request)[0])
         .drive(states.rows(), states.columns(), found);
     EXPECT_LE(worst_relative(found, expected(request.table, states)), 1e-13);
   }
@@ -309,10 +314,10 @@ INSTANTIATE_TEST_SUITE_P(Releases, SlowFricCoef, testing::Values("2024", "2020")
                          [](const auto& given) { return given.param; });
 
 TEST(FricCoefRecipe, SaysTheReleaseAndRefusesToKeepACoefficientWithoutStateVariables) {
-  const Exporter& exporter = *find_exporter("abaqus_fric_coef");
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric_coef");
   for (const std::string release : {"2024", "2020"}) {
-    const ExportRequest request{four_axis(), "mm-t-s", {}, {{"abaqus_release", release}}};
-    const SourceBundle files = exporter.generate(request);
+    const codegen::ExportRequest request{four_axis(), "mm-t-s", {}, {{"abaqus_release", release}}};
+    const codegen::SourceBundle files = exporter.generate(request);
     const auto out = nlohmann::json::parse(files.at("recipe.json"));
     EXPECT_EQ(out["options"]["abaqus_release"], release);
     EXPECT_EQ(out["state_variables"].size(), release == "2024" ? 11U : 0U);

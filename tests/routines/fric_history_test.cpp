@@ -115,8 +115,8 @@ TEST_F(FricHistory, WorksWithoutStateVariablesFromTheStressOfTheIncrementsStart)
 }
 
 TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInBothUnitSystems) {
-  static const Table table = peak_and_work_table();
-  static const TableFunction function(table);
+  static const table::Table table = peak_and_work_table();
+  static const table::TableFunction function(table);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     SCOPED_TRACE(units);
     const bool metre = units == "m-kg-s";
@@ -150,7 +150,7 @@ TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInBothUnitSystems) {
 }
 
 TEST_F(FricHistory, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
-  static const ExportRequest request{
+  static const codegen::ExportRequest request{
       four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}};
   void* const frozen = routine("frozen", request);
   auto c = call(2);

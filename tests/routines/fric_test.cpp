@@ -10,6 +10,8 @@
 
 namespace frictab {
 
+using codegen::Library;
+
 namespace {
 
 using namespace test;
@@ -130,8 +132,8 @@ TEST_F(Fric, GivesNoStressWithoutPressureAndKeepsTheHistory) {
 }
 
 TEST_F(Fric, BeginsWithThePressureWhereTheLawsStressDoesNot) {
-  const Table table = one_axis_table(); // tau_R by psi alone
-  static const TableFunction function(table);
+  const table::Table table = one_axis_table(); // tau_R by psi alone
+  static const table::TableFunction function(table);
   void* const routine_of_table = routine("one_axis", {table, "mm-t-s", {}});
   const double state[] = {psi};
   for (const auto& [pressure, share] : {std::pair{1000.0, 1.0}, {1.0, 1.0}, {0.25, 0.25}}) {
@@ -279,7 +281,7 @@ TEST_F(Fric, WritesNothingBeyondItsStateVariables) {
 }
 
 TEST_F(Fric, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
-  static const TableFunction table(four_axis());
+  static const table::TableFunction table(four_axis());
   void* const function =
       routine("fields",
               {four_axis(),
@@ -302,7 +304,7 @@ TEST_F(Fric, TakesStatesFromFieldsAndConstantsAsTheJobSays) {
 }
 
 TEST_F(Fric, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
-  static const TableFunction table(four_axis());
+  static const table::TableFunction table(four_axis());
   auto c = call(1);
   c.properties.clear();
   move(c, 50);
@@ -312,9 +314,9 @@ TEST_F(Fric, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
 }
 
 TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
-  const ExportRequest request{sides_table(), "mm-t-s", {}};
-  const Exporter& exporter = *find_exporter("abaqus_fric");
-  BuildVariant variant = exporter.variants(request)[0];
+  const codegen::ExportRequest request{sides_table(), "mm-t-s", {}};
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric");
+  codegen::BuildVariant variant = exporter.variants(request)[0];
   variant.extra["solver.f"] = "      subroutine stdb_abqerr(lop, text, intv, realv, charv)\n"
                               "      include 'aba_param.inc'\n"
                               "      character*(*) text, charv(*)\n"
@@ -330,8 +332,8 @@ TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
     int calls, kind;
     char said[500];
   };
-  TemporaryDirectory work;
-  const Library library(compile_library(exporter.generate(request), variant, work.path()));
+  codegen::TemporaryDirectory work;
+  const Library library(codegen::compile_library(exporter.generate(request), variant, work.path()));
   const Seen& seen = *library.find<Seen>("ftseen_");
   auto c = call(1);
   c.properties = {flow, critical};
@@ -357,10 +359,11 @@ TEST_F(SlowFric, CompilesWithoutAWarningForEveryTableAndChoice) {
 
 TEST_F(Fric, MayRunInThreadsAtOnce) {
   // Not with -fcheck=recursion: its own flag is shared by all threads.
-  void* const function = Library::address(compiled("threads", *find_exporter("abaqus_fric"),
-                                                   {four_axis(), "mm-t-s", {}}, "double", {"-O2"})
-                                              ->handle(),
-                                          "fric_");
+  void* const function =
+      Library::address(compiled("threads", *codegen::find_exporter("abaqus_fric"),
+                                {four_axis(), "mm-t-s", {}}, "double", {"-O2"})
+                           ->handle(),
+                       "fric_");
   const auto history = [function](double angle) {
     auto c = call(2);
     for (int increment = 1; increment <= 300; ++increment) {
@@ -381,9 +384,9 @@ TEST_F(Fric, MayRunInThreadsAtOnce) {
 }
 
 TEST(FricRecipe, TellsDepvarPropertiesAndTheUnsymmetricSolver) {
-  const ExportRequest request{four_axis(), "m-kg-s", {}};
-  const auto out =
-      nlohmann::json::parse(find_exporter("abaqus_fric")->generate(request).at("recipe.json"));
+  const codegen::ExportRequest request{four_axis(), "m-kg-s", {}};
+  const auto out = nlohmann::json::parse(
+      codegen::find_exporter("abaqus_fric")->generate(request).at("recipe.json"));
   EXPECT_EQ(out["entry"], "fric");
   EXPECT_THAT(std::string(out["input_deck"]),
               testing::AllOf(testing::HasSubstr("*Friction, user, depvar=15, properties=3\n"

@@ -17,6 +17,13 @@
 #include "support/generated.h"
 
 namespace frictab {
+
+using codegen::find_exporter;
+using codegen::have_program;
+using codegen::Library;
+using expr::Expr;
+using table::Table;
+
 namespace {
 
 using test::further_histories_table;
@@ -56,7 +63,7 @@ public:
       : table_(table == "way" ? way_table() : further_histories_table()) {}
 
   double tau(const Increment& now) const {
-    const TableFunction function(table_);
+    const table::TableFunction function(table_);
     const auto mean = [&](double sum, double value) { return time > 0 ? sum / time : value; };
     const std::map<std::string, double> values = {
         {"sigma_n_MPa", now.pressure},

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 const fs::path root = fs::path(FRICTAB_SOURCE_DIR) / "examples/generated";
 
 // By path below the root.
-SourceBundle examples() {
-  SourceBundle all;
-  for (const Exporter& exporter : all_exporters()) {
+codegen::SourceBundle examples() {
+  codegen::SourceBundle all;
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     const test::SampleRequest request(exporter, test::example_table(), "mm-t-s");
     for (auto& [path, content] : exporter.generate(request.get()))
       all[exporter.name + "/" + path] = content;
@@ -43,12 +43,12 @@ TEST(GeneratedExamples, AreWhatEveryTargetWrites) {
       std::ofstream(root / path, std::ios::binary) << content;
     }
     ASSERT_TRUE(fs::exists(root / path)) << path << " is not there; UPDATE_EXAMPLES=1 writes it";
-    EXPECT_EQ(content, read_file(root / path)) << path;
+    EXPECT_EQ(content, io::read_file(root / path)) << path;
   }
 }
 
 TEST(GeneratedExamples, HoldNothingElse) {
-  const SourceBundle all = examples();
+  const codegen::SourceBundle all = examples();
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     const std::string path = fs::relative(entry.path(), root).generic_string();
     if (!entry.is_regular_file() || path == "README.md") continue;
@@ -59,7 +59,7 @@ TEST(GeneratedExamples, HoldNothingElse) {
 
 TEST(SlowGeneratedText, KeepsToItsColumns) {
   for (const test::NamedTable& sample : test::sample_tables())
-    for (const Exporter& exporter : all_exporters())
+    for (const codegen::Exporter& exporter : codegen::all_exporters())
       for (const auto& [path, content] :
            exporter.generate(test::SampleRequest(exporter, sample.table, "m-kg-s").get())) {
         const bool wide = path.ends_with(".json") || path.ends_with(".key"); // a line per axis

@@ -14,6 +14,9 @@
 
 namespace frictab {
 
+using expr::Expr;
+using table::Table;
+
 namespace {
 
 // mu over sliding distance, friction work and peak pressure, as a traced law has them.
@@ -22,9 +25,9 @@ Table history_table() {
   table.model = "traced histories";
   for (const auto& [name, high] :
        {std::pair{"sliding_distance", 40.0}, {"friction_work", 3000.0}, {"peak_sigma_n", 2000.0}}) {
-    TableAxis axis;
+    table::TableAxis axis;
     axis.name = name;
-    axis.unit = find_derived(name)->unit;
+    axis.unit = data::find_derived(name)->unit;
     axis.nodes = {0, 0.3 * high, high};
     table.axes.push_back(axis);
   }
@@ -73,15 +76,15 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13;
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const Table& table, const std::string& units) {
-    return Library::address(test::compiled(key + units, *find_exporter(Point::target),
-                                           {table, units, {}}, single ? "single" : "double",
-                                           test::strict)
-                                ->handle(),
-                            Point::entry);
+    return codegen::Library::address(
+        test::compiled(key + units, *codegen::find_exporter(Point::target), {table, units, {}},
+                       single ? "single" : "double", test::strict)
+            ->handle(),
+        Point::entry);
   }
 
   static Call call(unsigned states = 6) {
@@ -113,7 +116,7 @@ TYPED_TEST_SUITE(SlowHistories, Kinds, KindName);
 TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
   using Number = typename TypeParam::Real;
   static const Table table = history_table();
-  static const TableFunction function(table);
+  static const table::TableFunction function(table);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
     const double stress = units == "mm-t-s" ? 1 : 1e6, length = units == "mm-t-s" ? 1 : 1e-3;
     void* routine = this->routine("path", table, units);
@@ -144,7 +147,7 @@ TYPED_TEST(SlowHistories, FollowAPathOfIncrementsAsTheDefinitionSays) {
 
 TYPED_TEST(SlowHistories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
   static const Table table = history_table();
-  static const TableFunction function(table);
+  static const table::TableFunction function(table);
   auto c = this->call(0);
   for (int increment = 0; increment < 2; ++increment) {
     c.normal[0] = 4 * 500;
@@ -204,15 +207,15 @@ TYPED_TEST(SlowHistories, OfSmallIncrementsDoNotStandStillInSinglePrecision) {
 
 TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
   static const Table table = history_table();
-  static const TableFunction function(table);
+  static const table::TableFunction function(table);
   const std::vector<double> slip = {5, 20, 30, 12}, work = {100, 2000, 700, 5};
   const std::vector<double> peak = {900, 1500, 400, 600}, pressure = {700, 1500, 500, 600};
-  const Exporter& exporter = *find_exporter(TestFixture::Point::target);
+  const codegen::Exporter& exporter = *codegen::find_exporter(TestFixture::Point::target);
   for (const std::string units : {"mm-t-s", "m-kg-s"}) {
-    const ExportRequest request{table, units, {}};
-    const BuildVariant variant = exporter.variants(request)[TestFixture::single ? 1 : 0];
+    const codegen::ExportRequest request{table, units, {}};
+    const codegen::BuildVariant variant = exporter.variants(request)[TestFixture::single ? 1 : 0];
     std::vector<double> tau(4, -1);
-    CompiledTarget(exporter, request, exporter.generate(request), variant)
+    codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
         .drive(4,
                std::vector<const double*>{pressure.data(), work.data(), peak.data(), slip.data()},
                tau);

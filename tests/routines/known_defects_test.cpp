@@ -15,6 +15,10 @@
 
 namespace frictab {
 
+using codegen::find_exporter;
+using expr::Expr;
+using table::Table;
+
 namespace {
 
 using calls::VfricCall;
@@ -26,7 +30,7 @@ using testing::Not;
 const std::vector<std::string> targets = {"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"};
 
 std::string source(const std::string& target, const Table& table) {
-  const SourceBundle files = find_exporter(target)->generate({table, "mm-t-s", {}});
+  const codegen::SourceBundle files = find_exporter(target)->generate({table, "mm-t-s", {}});
   return files.at("frictab_" + target.substr(7) + ".f");
 }
 
@@ -42,11 +46,11 @@ std::string code(const std::string& target, const Table& table) {
 template <class Real>
 void* routine(const std::string& target, const std::string& key, const Table& table,
               const std::vector<std::string>& flags = test::run_checks) {
-  return Library::address(test::compiled("defects " + key, *find_exporter(target),
-                                         {table, "mm-t-s", {}},
-                                         sizeof(Real) == 4 ? "single" : "double", flags)
-                              ->handle(),
-                          target.substr(7) + "_");
+  return codegen::Library::address(test::compiled("defects " + key, *find_exporter(target),
+                                                  {table, "mm-t-s", {}},
+                                                  sizeof(Real) == 4 ? "single" : "double", flags)
+                                       ->handle(),
+                                   target.substr(7) + "_");
 }
 
 // mu = 0.08 at 1000 MPa on an area of 1.
@@ -64,7 +68,7 @@ template <class Call> Call pressed(int points) {
 class KnownDefects : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   const Table constant = test::constant_table();
 };
@@ -296,7 +300,7 @@ TEST_F(KnownDefects, ARigidSurfaceHasOneTemperature) {
   c.slip[0] = c.slip[3] = c.slip[6] = 50;
   c.run(routine<double>("abaqus_vfriction", "rigid", table));
   const double state[] = {1000, 2.5, 50, 100, 480};
-  const double wanted = TableFunction(table)(state);
+  const double wanted = table::TableFunction(table)(state);
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(c.tangential[2 * k], -wanted, 1e-12 * wanted);
 }
@@ -339,7 +343,7 @@ TEST_F(KnownDefects, BothEndsOfEveryAxisAreHeldAndCounted) {
   c.run(routine<double>("abaqus_vfriction", "rigid", table));
   for (std::size_t k = 0; k < 2; ++k) {
     const double state[] = {1000, 2.5, 50, k == 0 ? 20.0 : 200.0, 480};
-    const double wanted = TableFunction(table)(state);
+    const double wanted = table::TableFunction(table)(state);
     EXPECT_NEAR(c.tangential[2 * k], -wanted, 1e-12 * wanted);
     EXPECT_EQ(c.state[6 * k + 3], 1);
   }

@@ -16,6 +16,11 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using codegen::Library;
+using table::Table;
+using table::TableFunction;
+
 namespace {
 
 using testing::HasSubstr;
@@ -24,8 +29,8 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double psi = 2.5, flow = 480;
 
-const Exporter& lsdyna() {
-  return *find_exporter("lsdyna_usrfrc");
+const codegen::Exporter& lsdyna() {
+  return *codegen::find_exporter("lsdyna_usrfrc");
 }
 
 template <class Real> struct SlowLsDyna : testing::Test {
@@ -37,7 +42,7 @@ template <class Real> struct SlowLsDyna : testing::Test {
   static constexpr const char* variant = single ? "single" : "double";
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static const Library& library(const std::string& key, const Table& table,
@@ -95,7 +100,7 @@ TYPED_TEST(SlowLsDyna, AgreesWithFrictabForEveryTableAndUnit) {
   for (const test::NamedTable& sample : test::sample_tables())
     for (const std::string units : {"mm-t-s", "m-kg-s"}) {
       SCOPED_TRACE(sample.name + " " + units);
-      const ExportRequest asked{sample.table, units, {}};
+      const codegen::ExportRequest asked{sample.table, units, {}};
       EXPECT_LE(
           test::worst_driven(lsdyna(), asked, TestFixture::single ? "single" : "double",
                              test::strict_declared,
@@ -410,8 +415,8 @@ TYPED_TEST(SlowLsDyna, ConvertsUnitsOfMetreKilogramSecond) {
 
 TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
   const Table table = test::sides_table();
-  const ExportRequest asked{table, "mm-t-s", {}};
-  BuildVariant build = lsdyna().variants(asked)[TestFixture::single ? 1 : 0];
+  const codegen::ExportRequest asked{table, "mm-t-s", {}};
+  codegen::BuildVariant build = lsdyna().variants(asked)[TestFixture::single ? 1 : 0];
   std::erase(build.command, "@{dir}/ftquit.f"); // the bundle's own
   build.extra["cstop.f"] = "      subroutine cstop(text)\n"
                            "      character*(*) text\n"
@@ -419,8 +424,8 @@ TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
                            "      common /ftseen/ calls\n"
                            "      calls = calls + 1\n"
                            "      end\n";
-  const TemporaryDirectory work;
-  const Library own(compile_library(lsdyna().generate(asked), build, work.path()));
+  const codegen::TemporaryDirectory work;
+  const Library own(codegen::compile_library(lsdyna().generate(asked), build, work.path()));
   const auto* calls = own.find<std::int32_t>("ftseen_");
   auto c = this->call(2);
   c.constants = {TypeParam(100), TypeParam(flow)};

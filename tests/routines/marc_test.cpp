@@ -12,6 +12,11 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using codegen::ExportRequest;
+using codegen::Library;
+using table::Table;
+
 namespace {
 
 using calls::UfricCall;
@@ -24,8 +29,8 @@ constexpr double bound = 1e-13; // the order of operations only
 constexpr double psi = 2.5, flow = 480;
 const double k = flow / std::sqrt(3.0);
 
-const Exporter& marc() {
-  return *find_exporter("marc_ufric");
+const codegen::Exporter& marc() {
+  return *codegen::find_exporter("marc_ufric");
 }
 
 ExportRequest request(const Table& table, const Options& options = {},
@@ -38,7 +43,7 @@ ExportRequest request(const Table& table, const Options& options = {},
 class SlowMarc : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const ExportRequest& request) {
@@ -72,7 +77,7 @@ protected:
     return c.run(function);
   }
   static double tau(double pressure, double speed, double temperature) {
-    static const TableFunction table(four_axis());
+    static const table::TableFunction table(four_axis());
     const double state[] = {pressure, psi, speed, temperature, flow};
     return table(state);
   }
@@ -175,7 +180,7 @@ TEST_F(SlowMarc, ConvertsUnitsOfMetreKilogramSecond) {
 TEST_F(SlowMarc, KeepsWhatMarcDoesNotGiveAsConstantsOfTheSource) {
   ExportRequest asked = request(four_axis());
   asked.inputs = {{"psi", "constant:7"}, {"sigma_f_MPa", "constant:300"}};
-  static const TableFunction table(four_axis());
+  static const table::TableFunction table(four_axis());
   const double state[] = {1000, 7, 50, 100, 300};
   EXPECT_CLOSE(run(call(), routine("constants", asked)), table(state) / 1000);
   EXPECT_THAT(marc().generate(asked).at("recipe.json"), HasSubstr("\"constant\": 7.0"));
@@ -191,7 +196,7 @@ TEST_F(SlowMarc, RefusesAForceWhereTheCoefficientDependsOnThePressure) {
     }
   };
   Table limited = test::constant_table();
-  limited.combine = minimum(limited.combine, Expr::symbol("sigma_f_MPa") / 2);
+  limited.combine = minimum(limited.combine, expr::Expr::symbol("sigma_f_MPa") / 2);
   for (const char* friction : {"coulomb", "shear"})
     EXPECT_THAT(refusal(limited, friction), HasSubstr("UFRIC gives no area"));
   EXPECT_THAT(refusal(four_axis(), "coulomb"), HasSubstr("marc_normal = \"stress\""));
@@ -216,17 +221,17 @@ TEST_F(SlowMarc, GivesTheSameMuForEveryForceWhereTheLawHasNoShearLimit) {
 TEST_F(SlowMarc, EndsTheAnalysisThroughQUITBeyondAnErrorSideAndNamesStateAndValue) {
   const Table table = test::sides_table();
   const ExportRequest asked = request(table);
-  BuildVariant variant{"double",
-                       {"gfortran", "-shared", "-fPIC", "-std=legacy", "-fcheck=all", "-o",
-                        "@{out}", "@{dir}/frictab_ufric.f", "@{dir}/quit.f"},
-                       {{"quit.f", "      subroutine quit(number)\n"
-                                   "      integer number, seen\n"
-                                   "      common /ftseen/ seen\n"
-                                   "      seen = number\n"
-                                   "      end\n"}},
-                       0};
-  const TemporaryDirectory work;
-  const Library library(compile_library(marc().generate(asked), variant, work.path()));
+  codegen::BuildVariant variant{"double",
+                                {"gfortran", "-shared", "-fPIC", "-std=legacy", "-fcheck=all", "-o",
+                                 "@{out}", "@{dir}/frictab_ufric.f", "@{dir}/quit.f"},
+                                {{"quit.f", "      subroutine quit(number)\n"
+                                            "      integer number, seen\n"
+                                            "      common /ftseen/ seen\n"
+                                            "      seen = number\n"
+                                            "      end\n"}},
+                                0};
+  const codegen::TemporaryDirectory work;
+  const Library library(codegen::compile_library(marc().generate(asked), variant, work.path()));
   const int* seen = library.find<int>("ftseen_");
   void* function = Library::address(library.handle(), "ufric_");
   UfricCall c = call();

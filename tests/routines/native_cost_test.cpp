@@ -13,37 +13,47 @@
 #include "verify/verify.h"
 
 namespace frictab {
+
+using codegen::Exporter;
+using codegen::find_exporter;
+using models::AssembledLaw;
+using verify::DriftRecord;
+
 namespace {
 
 struct Case {
   explicit Case(const std::string& law)
-      : model(test::plausible_model(*find_law(law))), data(test::sample_data(model)) {
-    table = build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {});
-    direct = direct_form(AssembledLaw(model), table); // as the run hands it to these targets
+      : model(test::plausible_model(*models::find_law(law))), data(test::sample_data(model)) {
+    table = table::build_table(AssembledLaw(model),
+                               table::state_ranges(AssembledLaw(model), data, {}), {});
+    direct = table::direct_form(AssembledLaw(model), table); // as the run hands it to these targets
     direct.record.tolerance_MPa = 0.5;
   }
 
-  ExportRequest request() const {
+  codegen::ExportRequest request() const {
     return {direct, "mm-t-s", {{"sigma_f_MPa", "constant:480"}}, {}};
   }
 
   DriftRecord verified(const std::string& target) const {
     const Exporter& exporter = *find_exporter(target);
-    const std::vector<GeneratedSource> sources = {
+    const std::vector<verify::GeneratedSource> sources = {
         {&exporter, request(), exporter.generate(request())}};
     return compared(sources);
   }
 
   // The table itself is compared once.
-  DriftRecord compared(const std::vector<GeneratedSource>& sources, double allowed = 0.5) const {
-    if (!own) own = verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, {}).front();
-    return verify({AssembledLaw(model), table, "table", &data, allowed, 20000, &*own}, sources)
+  DriftRecord compared(const std::vector<verify::GeneratedSource>& sources,
+                       double allowed = 0.5) const {
+    if (!own)
+      own = verify::verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, {}).front();
+    return verify::verify({AssembledLaw(model), table, "table", &data, allowed, 20000, &*own},
+                          sources)
         .back();
   }
 
-  Model model;
-  Dataset data;
-  Table table, direct;
+  models::Model model;
+  data::Dataset data;
+  table::Table table, direct;
   mutable std::optional<DriftRecord> own = {};
 };
 
@@ -54,10 +64,10 @@ std::pair<double, double> cost(const Case& c, const std::string& target) {
   for (const std::string& name : c.direct.inputs())
     columns.push_back(c.data.values(name).data());
   std::vector<double> tau(c.data.rows());
-  CompiledTarget(exporter, c.request(), exporter.generate(c.request()),
-                 exporter.variants(c.request())[0])
+  codegen::CompiledTarget(exporter, c.request(), exporter.generate(c.request()),
+                          exporter.variants(c.request())[0])
       .drive(tau.size(), columns, tau);
-  const std::vector<double> law = predict(c.model, c.data);
+  const std::vector<double> law = calibrate::predict(c.model, c.data);
   double sum = 0, largest = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
     sum += std::abs(tau[i] - law[i]);
@@ -68,7 +78,7 @@ std::pair<double, double> cost(const Case& c, const std::string& target) {
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -112,9 +122,10 @@ TEST(SlowNativeCost, IsTheDriftWhereTheLawNeedsNothingThatIsHeld) {
   const Case c("coulomb");
   Case unlimited = c;
   unlimited.model.conventions.shear_limit = false;
-  unlimited.table = build_table(AssembledLaw(unlimited.model),
-                                state_ranges(AssembledLaw(unlimited.model), c.data, {}), {});
-  unlimited.direct = direct_form(AssembledLaw(unlimited.model), unlimited.table);
+  unlimited.table =
+      table::build_table(AssembledLaw(unlimited.model),
+                         table::state_ranges(AssembledLaw(unlimited.model), c.data, {}), {});
+  unlimited.direct = table::direct_form(AssembledLaw(unlimited.model), unlimited.table);
   for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
     const DriftRecord record = unlimited.verified(target);
     EXPECT_TRUE(record.held->empty()) << target;
@@ -127,7 +138,7 @@ TEST(SlowNativeCost, IsTheDriftWhereTheLawNeedsNothingThatIsHeld) {
 TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldStress) {
   const Case c("shear");
   const Exporter& exporter = *find_exporter("deform_table");
-  ExportRequest request = c.request();
+  codegen::ExportRequest request = c.request();
   request.options["deform_friction"] = "shear";
   const DriftRecord record = c.compared({{&exporter, request, exporter.generate(request)}});
   EXPECT_LE(record.cost_max_abs_MPa, 1e-6);
@@ -136,13 +147,15 @@ TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldSt
 
 TEST(NativeCost, IsWrittenAndReadBackAndTold) {
   const Case c("orowan");
-  Verification verification{0.5, {c.verified("abaqus_table")}};
-  const Verification read = parse_verification(verification_json(verification), "verify.json");
+  verify::Verification verification{0.5, {c.verified("abaqus_table")}};
+  const verify::Verification read =
+      verify::parse_verification(verify::verification_json(verification), "verify.json");
   const DriftRecord &a = verification.records[0], &b = read.records[0];
   EXPECT_EQ(b.held, a.held);
   EXPECT_EQ(b.cost_mean_abs_MPa, a.cost_mean_abs_MPa);
   EXPECT_EQ(b.cost_max_abs_MPa, a.cost_max_abs_MPa);
-  EXPECT_THAT(cost_text(b), testing::HasSubstr("abaqus_table holds sigma_f_MPa = 480: mean "));
+  EXPECT_THAT(verify::cost_text(b),
+              testing::HasSubstr("abaqus_table holds sigma_f_MPa = 480: mean "));
 }
 
 TEST(NativeCost, FailsWhereLessIsAllowedThanTheGridWasMadeTo) {

@@ -7,6 +7,11 @@
 #include "core/random.h"
 
 namespace frictab {
+
+using codegen::make_native_grid;
+using codegen::NativeGrid;
+using codegen::NativeProblem;
+
 namespace {
 
 constexpr double k_MPa = 277; // shear limit of the law below
@@ -73,7 +78,7 @@ TEST(NativeGrid, LeavesOutAColumnThatDoesNotMatterUnlessTheFormNeedsIt) {
   EXPECT_TRUE(grid.values.nodes[0].empty());
   EXPECT_TRUE(grid.values.nodes[1].empty());
   EXPECT_EQ(grid.values.value, std::vector<double>{0.08});
-  for (NativeAxis& axis : coulomb.axes)
+  for (codegen::NativeAxis& axis : coulomb.axes)
     axis.fewest = 2;
   grid = make_native_grid(coulomb, {0.5});
   EXPECT_EQ(grid.values.nodes[0], (std::vector<double>{500, 2750}));
@@ -104,13 +109,13 @@ TEST(NativeGrid, NodesAreInTheSolversUnitAndShortToWrite) {
   EXPECT_EQ(grid.values.nodes[1].back(), 0.5);
   for (const auto& nodes : grid.values.nodes)
     for (const double x : nodes)
-      EXPECT_EQ(as_written(x), x);
+      EXPECT_EQ(codegen::as_written(x), x);
   for (const double x : grid.values.value)
-    EXPECT_EQ(as_written(x), x);
+    EXPECT_EQ(codegen::as_written(x), x);
 }
 
 TEST(NativeValues, AreLinearBetweenNodesConstantBeyondTheEndsAndNaNForNaN) {
-  const NativeValues values{{{1, 3}, {}, {10, 20, 40}}, {1, 2, 3, 4, 5, 6}, std::nullopt};
+  const codegen::NativeValues values{{{1, 3}, {}, {10, 20, 40}}, {1, 2, 3, 4, 5, 6}, std::nullopt};
   const auto at = [&](double a, double b, double c) {
     const double x[] = {a, b, c};
     return values.at(x);

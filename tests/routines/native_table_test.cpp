@@ -14,6 +14,11 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using codegen::ExportRequest;
+using codegen::find_exporter;
+using table::Table;
+
 namespace {
 
 using testing::HasSubstr;
@@ -69,7 +74,7 @@ std::vector<std::vector<std::string>> lines_of(const std::string& text, const st
 
 // tau_R of the four-axis table, sigma_f 480 and psi at the middle of their ranges unless given.
 double tau(double p, double v, double T, double psi = std::sqrt(20.0), double sigma_f = 480) {
-  static const TableFunction table(test::four_axis_table());
+  static const table::TableFunction table(test::four_axis_table());
   const double typical = std::sqrt(240.0) * std::sqrt(960.0);
   const double state[] = {p, psi, v, T, sigma_f == 480 ? typical : sigma_f};
   return table(state);
@@ -247,7 +252,7 @@ TEST(NativeTables, RecipeAndHeldAgreeWithTheComments) {
       {"deform_table", {"sigma_f_MPa", "v_rel_mm_s"}}};
   for (const std::string& target : natives) {
     const ExportRequest request{table, "mm-t-s", {}};
-    const Exporter& exporter = *find_exporter(target);
+    const codegen::Exporter& exporter = *find_exporter(target);
     const auto recipe = nlohmann::json::parse(exporter.generate(request).at("recipe.json"));
     std::vector<std::string> names;
     for (const auto& [name, value] : exporter.held(request)) {
@@ -265,11 +270,11 @@ TEST(NativeTables, RecipeAndHeldAgreeWithTheComments) {
 // tau_R by the target's driver from this text.
 std::vector<double> driven(const std::string& target, const ExportRequest& request,
                            const std::string& text, const test::States& states) {
-  const Exporter& exporter = *find_exporter(target);
-  SourceBundle bundle;
+  const codegen::Exporter& exporter = *find_exporter(target);
+  codegen::SourceBundle bundle;
   bundle[files.at(target)] = text;
   std::vector<double> out(states.rows());
-  CompiledTarget(exporter, request, bundle, exporter.variants(request)[0])
+  codegen::CompiledTarget(exporter, request, bundle, exporter.variants(request)[0])
       .drive(states.rows(), states.columns(), out);
   return out;
 }
@@ -324,7 +329,8 @@ TEST(NativeTables, NaNInAColumnGivesNaN) {
 TEST(NativeTables, SayByHowMuchTheyMissATolerance) {
   Table table = test::four_axis_table(); // rough values: 0.5 MPa needs millions of lines
   table.record.tolerance_MPa = 0.5;
-  const SourceBundle bundle = find_exporter("abaqus_table")->generate({table, "mm-t-s", {}});
+  const codegen::SourceBundle bundle =
+      find_exporter("abaqus_table")->generate({table, "mm-t-s", {}});
   const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
   EXPECT_FALSE(recipe["grid"]["met"]);
   EXPECT_LE(recipe["grid"]["values"].get<int>(), 20000);

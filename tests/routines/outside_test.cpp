@@ -15,6 +15,14 @@
 #include "table/drift.h"
 
 namespace frictab {
+
+using codegen::Library;
+using expr::Expr;
+using table::Outside;
+using table::outside_name;
+using table::Table;
+using table::TableFunction;
+
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -29,7 +37,7 @@ Table temperature_table(Outside below, Outside above) {
   Table table;
   table.model = "temperature";
   table.quantity = "tau_R";
-  TableAxis axis;
+  table::TableAxis axis;
   axis.name = "T_contact_C";
   axis.unit = "degC";
   axis.nodes = {20, 200};
@@ -54,12 +62,13 @@ void expect_everywhere(const Table& table, const std::vector<double>& pressure,
   std::vector<double> tau(wanted.size());
   TableFunction(table).evaluate(tau.size(), columns, tau);
   EXPECT_EQ(test::worst_relative(tau, wanted), 0) << "C++";
-  for (const Exporter& exporter : all_exporters()) {
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.whole()) continue; // a solver's own table has no rule of ours beyond its ends
-    const ExportRequest request{table, "mm-t-s", {}};
-    const BuildVariant variant = exporter.variants(request)[0];
-    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
-    CompiledTarget(exporter, request, exporter.generate(request), variant)
+    const codegen::ExportRequest request{table, "mm-t-s", {}};
+    const codegen::BuildVariant variant = exporter.variants(request)[0];
+    if (!codegen::have_program(variant.program()))
+      GTEST_SKIP() << variant.program() << " is missing";
+    codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
         .drive(tau.size(), columns, tau);
     EXPECT_LE(test::worst_relative(tau, wanted), 1e-14) << exporter.name;
   }
@@ -87,7 +96,7 @@ TEST(SlowOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
     for (const Outside above : kinds) {
       SCOPED_TRACE(std::string(outside_name(below)) + ", " + outside_name(above));
       Table direct = temperature_table(below, above);
-      direct.interpolation = Interpolation::none;
+      direct.interpolation = table::Interpolation::none;
       direct.value.clear();
       std::vector<double> wanted;
       for (std::size_t i = 0; i < T.size(); ++i)
@@ -102,7 +111,7 @@ TEST(SlowOutsideTheRange, AxesThatClampAreHeldWhereAnotherGoesOnByTheLaw) {
   const Table table = test::sides_table(); // sigma_n below: law, v below: clamp
   const TableFunction function(table);
   Table reference = test::direct_table();
-  for (TableAxis& axis : reference.axes)
+  for (table::TableAxis& axis : reference.axes)
     axis.below = axis.above = Outside::law;
   const TableFunction law(reference);
   unsigned bits = 0;
@@ -129,18 +138,18 @@ TEST(SlowOutsideTheRange, TheLawsGradientHoldsBeyondItsSideAndIsZeroByHeldAxes) 
 
 TEST(SlowOutsideTheRange, ALawThatGoesOnLeavesTheEdgeByNoMoreThanTheDrift) {
   for (const char* name : {"log_coulomb", "exp_coulomb", "wzl", "wanheim_bay"}) {
-    const Model model = test::plausible_model(*find_law(name));
-    const Dataset data = test::sample_data(model);
-    TableOptions options;
+    const models::Model model = test::plausible_model(*models::find_law(name));
+    const data::Dataset data = test::sample_data(model);
+    table::TableOptions options;
     for (const char* state : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "sigma_f_MPa"})
       options.axes[state].outside = {"law"};
-    const auto ranges = state_ranges(AssembledLaw(model), data, options);
-    const TableFunction table(build_table(AssembledLaw(model), ranges, options));
-    const LawFunction law(AssembledLaw(model), table.inputs());
+    const auto ranges = table::state_ranges(models::AssembledLaw(model), data, options);
+    const TableFunction table(table::build_table(models::AssembledLaw(model), ranges, options));
+    const table::LawFunction law(models::AssembledLaw(model), table.inputs());
     Random random(4);
     for (int i = 0; i < 200; ++i) {
       std::vector<double> at;
-      for (const StateRange& range : ranges)
+      for (const table::StateRange& range : ranges)
         at.push_back(random.uniform(range.low, range.high));
       const std::size_t d = random.below(ranges.size());
       const bool up = random.below(2) == 1;
@@ -158,8 +167,8 @@ TEST(SlowOutsideTheRange, ALawThatGoesOnLeavesTheEdgeByNoMoreThanTheDrift) {
 
 const Library& sides_in_c(bool direct) {
   static const Table table = test::sides_table(), law = test::direct_table();
-  const ExportRequest request{direct ? law : table, "mm-t-s", {}};
-  return *test::compiled(direct ? "direct" : "sides", *find_exporter("c"), request, "c99");
+  const codegen::ExportRequest request{direct ? law : table, "mm-t-s", {}};
+  return *test::compiled(direct ? "direct" : "sides", *codegen::find_exporter("c"), request, "c99");
 }
 
 TEST(SlowOutsideTheRange, CTellsBitsAndCountsByAxisAndSideIntoTheCallersOwnCounts) {
@@ -225,14 +234,14 @@ struct Seen {
 template <class Real> class Stopping : public testing::Test {
 protected:
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-    const Exporter& exporter = *find_exporter("abaqus_vfric");
-    const ExportRequest request{table, "mm-t-s", {}};
-    BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
+    const codegen::ExportRequest request{table, "mm-t-s", {}};
+    codegen::BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
     variant.extra["solver.f"] = keeper;
     test::add_flags(variant, test::run_checks);
     library = std::make_unique<Library>(
-        compile_library(exporter.generate(request), variant, work.path()));
+        codegen::compile_library(exporter.generate(request), variant, work.path()));
     seen = library->find<Seen>("ftseen_");
   }
 
@@ -256,7 +265,7 @@ protected:
   }
 
   const Table table = test::sides_table();
-  TemporaryDirectory work;
+  codegen::TemporaryDirectory work;
   std::unique_ptr<Library> library;
   Seen* seen = nullptr;
 };

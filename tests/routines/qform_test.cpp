@@ -13,27 +13,34 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using expr::Expr;
+using table::Table;
+using table::TableFunction;
+
 namespace {
 
 using testing::HasSubstr;
 
 std::string source(const Table& table, const std::map<std::string, std::string>& inputs = {},
                    const std::string& units = "mm-t-s") {
-  return find_exporter("qform_lua")->generate({table, units, inputs}).at("frictab_qform.lua");
+  return codegen::find_exporter("qform_lua")
+      ->generate({table, units, inputs})
+      .at("frictab_qform.lua");
 }
 
 // What a script prints that is run behind the generated source.
 std::string printed(const std::string& program, const std::string& lua, const std::string& script) {
-  const TemporaryDirectory work;
+  const codegen::TemporaryDirectory work;
   std::ofstream(work.path() / "a.lua") << lua << script;
-  run_program({program, (work.path() / "a.lua").string()}, work.path() / "log");
-  return read_file(work.path() / "log");
+  codegen::run_program({program, (work.path() / "a.lua").string()}, work.path() / "log");
+  return io::read_file(work.path() / "log");
 }
 
 class QFormLua : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!have_program(GetParam())) GTEST_SKIP() << GetParam() << " is not installed";
+    if (!codegen::have_program(GetParam())) GTEST_SKIP() << GetParam() << " is not installed";
   }
   std::string run(const std::string& lua, const std::string& script) {
     return printed(GetParam(), lua, script);
@@ -91,7 +98,7 @@ TEST_P(QFormLua, ANaNInsideTheFormulaIsNotHidden) {
                               where_le(bad, 5, 1, 2), where_le(5, bad, 1, 2)}) {
     table.combine = formula;
     EXPECT_EQ(run(source(table), "local x = frictab_tau_R(7)\nprint(x ~= x)\n"), "true\n")
-        << to_text(formula);
+        << expr::to_text(formula);
   }
 }
 
@@ -127,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Interpreters, QFormLua, testing::Values("luajit", "lua5
 TEST(QFormSource, MarksTheWrapperAsRecalled) {
   const std::string lua = source(test::four_axis_table());
   EXPECT_THAT(lua, HasSubstr("-- RECALLED, check against your release"));
-  EXPECT_THAT(find_exporter("qform_lua")->signature_source,
+  EXPECT_THAT(codegen::find_exporter("qform_lua")->signature_source,
               testing::AllOf(HasSubstr("verified:"), HasSubstr("recalled, check")));
 }
 
@@ -136,7 +143,7 @@ TEST(QFormSource, KeepsTextsFromOutsideInComments) {
   table.model = "a\nos.exit(1) --[[";
   table.record.data_origin = "]]\nos.exit(1)";
   for (const char* program : {"luajit", "lua5.4"})
-    if (have_program(program)) {
+    if (codegen::have_program(program)) {
       EXPECT_EQ(printed(program, source(table), "print('here')\n"), "here\n");
     }
 }

@@ -24,6 +24,14 @@
 #include "verify/verify.h"
 
 namespace frictab {
+
+using calibrate::predict;
+using codegen::find_exporter;
+using models::AssembledLaw;
+using models::Model;
+using table::Table;
+using verify::DriftRecord;
+
 namespace {
 
 using testing::HasSubstr;
@@ -32,11 +40,12 @@ const std::vector<std::string> all_effects_here = {"humidity", "work", "tool", "
 
 struct Case {
   Model model;
-  Dataset data;
+  data::Dataset data;
   Table table;
   explicit Case(Model of)
       : model(std::move(of)), data(test::traced_data(model)),
-        table(build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, {}), {})) {
+        table(table::build_table(AssembledLaw(model),
+                                 table::state_ranges(AssembledLaw(model), data, {}), {})) {
     table.record.tolerance_MPa = 0.5;
   }
   explicit Case(const std::vector<std::string>& effects) : Case(test::traced_model(effects)) {}
@@ -63,13 +72,14 @@ TEST(TracedLaw, TableNeedsNoFurtherAxisAndSaysWhatItsInputsAre) {
 TEST(TracedLaw, TableFileReadsBackToTheSameBits) {
   const Table& table = with_all_effects().table;
   const test::TemporaryDirectory directory;
-  write_table(table, directory.path("t.h5"));
-  const Table again = read_table(directory.path("t.h5"));
+  table::write_table(table, directory.path("t.h5"));
+  const Table again = table::read_table(directory.path("t.h5"));
   EXPECT_EQ(again.inputs(), table.inputs());
   EXPECT_EQ(again.value, table.value);
-  EXPECT_EQ(to_text(again.combine), to_text(table.combine));
+  EXPECT_EQ(expr::to_text(again.combine), expr::to_text(table.combine));
   EXPECT_TRUE(again.record == table.record);
-  const std::string info = info_text(read_description(directory.path("t.h5")), "t.h5");
+  const std::string info =
+      table::info_text(table::read_description(directory.path("t.h5")), "t.h5");
   EXPECT_THAT(info, HasSubstr("tool          no axis, verified from 0 to 2; 0 = A, 1 = B, 2 = C"));
   EXPECT_THAT(info, HasSubstr("friction_work no axis, verified from 0 to "));
 }
@@ -80,31 +90,32 @@ TEST(SlowTracedLaw, OthersRebuildTauFromTheAttributesAlone) {
 
 TEST(TracedLaw, ModelFileReadsBackToTheSameBits) {
   const Case& c = with_all_effects();
-  Calibration calibration;
-  ModelFit fit;
+  calibrate::Calibration calibration;
+  calibrate::ModelFit fit;
   fit.model = c.model;
   fit.std_error.assign(c.model.parameters.size(), 0.001);
   calibration.fits.push_back(fit);
-  const std::string text = model_json(fit, calibration);
-  const Model again = parse_model(text, "m.json");
+  const std::string text = calibrate::model_json(fit, calibration);
+  const Model again = calibrate::parse_model(text, "m.json");
   EXPECT_EQ(again.name(), "log_coulomb_traced");
   EXPECT_EQ(again.law->base, "log_coulomb");
   EXPECT_EQ(again.law->levels, c.model.law->levels);
   EXPECT_EQ(again.law->formula, c.model.law->formula);
-  EXPECT_EQ(parameter_names(*again.law), parameter_names(*c.model.law));
+  EXPECT_EQ(models::parameter_names(*again.law), models::parameter_names(*c.model.law));
   EXPECT_EQ(again.law->parameters.back().upper, c.model.law->parameters.back().upper);
   EXPECT_EQ(predict(again, c.data), predict(c.model, c.data));
-  ModelFit fit_again = fit;
+  calibrate::ModelFit fit_again = fit;
   fit_again.model = again;
-  EXPECT_EQ(model_json(fit_again, calibration), text);
-  const Calibration all = parse_calibration(calibration_json(calibration), "calibration.json");
+  EXPECT_EQ(calibrate::model_json(fit_again, calibration), text);
+  const calibrate::Calibration all =
+      calibrate::parse_calibration(calibrate::calibration_json(calibration), "calibration.json");
   EXPECT_EQ(predict(all.fits[0].model, c.data), predict(c.model, c.data));
 }
 
 TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
   const auto refusal = [](const std::string& text) -> std::string {
     try {
-      parse_model(text, "m.json");
+      calibrate::parse_model(text, "m.json");
     } catch (const InputError& error) {
       return error.what();
     }
@@ -118,12 +129,12 @@ TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
                         "  hint: did you mean 'log_coulomb'?"));
 }
 
-std::vector<DriftRecord> verified(const Case& c, const Exporter& exporter, const Table& form,
-                                  const std::string& units = "mm-t-s",
+std::vector<DriftRecord> verified(const Case& c, const codegen::Exporter& exporter,
+                                  const Table& form, const std::string& units = "mm-t-s",
                                   const std::map<std::string, std::string>& inputs = {}) {
-  const ExportRequest request{form, units, inputs};
-  return verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000},
-                {{&exporter, request, exporter.generate(request)}});
+  const codegen::ExportRequest request{form, units, inputs};
+  return verify::verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000},
+                        {{&exporter, request, exporter.generate(request)}});
 }
 
 TEST(TracedLaw, TableIsProvenLikeAnyOther) {
@@ -131,7 +142,7 @@ TEST(TracedLaw, TableIsProvenLikeAnyOther) {
        {"humidity", "work", "tool", "peak", "curve", "surface", "curve_by_tool"}) {
     const Case c({effect});
     const DriftRecord record =
-        verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000}, {})[0];
+        verify::verify({AssembledLaw(c.model), c.table, "table", &c.data, 0.5, 2000}, {})[0];
     EXPECT_TRUE(record.passed) << effect;
     EXPECT_EQ(record.not_proven, "") << effect;
     ASSERT_TRUE(record.proven_MPa) << effect;
@@ -145,8 +156,8 @@ protected:
 };
 
 void SlowTracedLawOf::expect_verified(const Case& c) {
-  const Exporter& exporter = *find_exporter(GetParam());
-  const Table direct = direct_form(AssembledLaw(c.model), c.table);
+  const codegen::Exporter& exporter = *find_exporter(GetParam());
+  const Table direct = table::direct_form(AssembledLaw(c.model), c.table);
   std::map<std::string, std::string> held;
   if (!exporter.whole()) held = {{"sigma_f_MPa", "constant:480"}};
   for (const Table* form : {&c.table, &direct})
@@ -165,7 +176,7 @@ void SlowTracedLawOf::expect_verified(const Case& c) {
 
 std::vector<std::string> all_targets() {
   std::vector<std::string> names;
-  for (const Exporter& exporter : all_exporters())
+  for (const codegen::Exporter& exporter : codegen::all_exporters())
     names.push_back(exporter.name);
   return names;
 }
@@ -194,14 +205,14 @@ INSTANTIATE_TEST_SUITE_P(Targets, SlowTracedLawOf, testing::ValuesIn(all_targets
                          [](const auto& given) { return given.param; });
 
 // An effect on mu, one on the limit, one added, in every law that knows them.
-std::vector<PlacedEffect> everywhere(const Law& law) {
-  std::vector<PlacedEffect> effects = {test::traced_effect("humidity")};
-  if (has_limit(law, {})) {
+std::vector<effects::PlacedEffect> everywhere(const models::Law& law) {
+  std::vector<effects::PlacedEffect> effects = {test::traced_effect("humidity")};
+  if (effects::has_limit(law, {})) {
     effects.push_back(test::traced_effect("work"));
-    effects.back().acts_on = ActsOn::m;
+    effects.back().acts_on = effects::ActsOn::m;
   }
   effects.push_back(test::traced_effect("tool_heat"));
-  effects.back().acts_on = ActsOn::tau;
+  effects.back().acts_on = effects::ActsOn::tau;
   effects.back().tau_scale_MPa = 20;
   return effects;
 }
@@ -209,14 +220,15 @@ std::vector<PlacedEffect> everywhere(const Law& law) {
 class SlowTracedLawFrom : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
-  const Law& law = *find_law(GetParam());
-  const Model base =
-      law.calibrated == Calibrated::train ? test::network_model(1) : test::plausible_model(law);
+  const models::Law& law = *models::find_law(GetParam());
+  const Model base = law.calibrated == models::Calibrated::train ? test::network_model(1)
+                                                                 : test::plausible_model(law);
   const Case c(test::traced_model(base, everywhere(law)));
-  ModelFit fit;
+  calibrate::ModelFit fit;
   fit.model = c.model;
   fit.std_error.assign(c.model.parameters.size(), 0);
-  EXPECT_EQ(predict(parse_model(model_json(fit, {}), "m.json"), c.data), predict(c.model, c.data));
+  EXPECT_EQ(predict(calibrate::parse_model(calibrate::model_json(fit, {}), "m.json"), c.data),
+            predict(c.model, c.data));
   for (const char* target : {"c", "abaqus_vfric", "qform_lua"})
     for (const DriftRecord& record : verified(c, *find_exporter(target), c.table)) {
       if (!record.ran) GTEST_SKIP() << record.why_not;
@@ -228,7 +240,7 @@ TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
 
 std::vector<std::string> all_law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -242,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(all_law_
 
 TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
   const Case& c = with_all_effects();
-  const SourceBundle bundle = find_exporter("c")->generate({c.table, "m-kg-s", {}});
+  const codegen::SourceBundle bundle = find_exporter("c")->generate({c.table, "m-kg-s", {}});
   const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
   std::vector<std::string> names, units;
   for (const auto& argument : recipe.at("arguments")) {
@@ -259,7 +271,7 @@ TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
 
 TEST(TracedLaw, InputsOfARoutineAreChosenByTheJob) {
   const Case& c = with_all_effects();
-  const ExportRequest request{
+  const codegen::ExportRequest request{
       c.table, "mm-t-s", {{"humidity_pct", "field:1"}, {"tool", "constant:2"}}};
   const std::string source = find_exporter("abaqus_vfric")->generate(request).at("frictab_vfric.f");
   EXPECT_THAT(source, HasSubstr("preDefSec(k,1)"));
@@ -270,7 +282,7 @@ TEST(TracedLaw, InputsOfARoutineAreChosenByTheJob) {
 }
 
 TEST(TracedLaw, OfATextColumnStandsForItsFirstLevelWhereNothingIsSaid) {
-  EXPECT_EQ(typical_value(with_all_effects().table, "tool"), 0.0);
+  EXPECT_EQ(codegen::typical_value(with_all_effects().table, "tool"), 0.0);
 }
 
 // VFRIC along one experiment, increment by increment: what it integrates is what predict() takes,
@@ -281,8 +293,8 @@ protected:
   static double pressure(double way) { return 900 + 60 * way - 12 * way * way; }
   static double temperature(double way) { return 60 + 7 * way + way * way; }
 
-  static Dataset path(int increments) {
-    Dataset data;
+  static data::Dataset path(int increments) {
+    data::Dataset data;
     for (const char* name : {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm",
                              "sigma_f_MPa", "time_s", "humidity_pct"})
       data.columns.push_back({name, "", {}, {}});
@@ -300,11 +312,11 @@ protected:
 
   // tau_R at the end of the path.
   static double routine(const std::string& key, const Case& c, int increments) {
-    const ExportRequest request{
+    const codegen::ExportRequest request{
         c.table,
         "mm-t-s",
         {{"psi", "constant:3"}, {"sigma_f_MPa", "constant:480"}, {"humidity_pct", "constant:52"}}};
-    void* vfric = Library::address(
+    void* vfric = codegen::Library::address(
         test::compiled("traced path " + key, *find_exporter("abaqus_vfric"), request, "double")
             ->handle(),
         "vfric_");
@@ -327,7 +339,7 @@ protected:
 };
 
 TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
-  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Case c({"humidity", GetParam()});
   const Case without({"humidity"});
   const double exact = predict(c.model, path(4000)).back();
@@ -345,7 +357,7 @@ TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
 class TurningHistory : public HistoryOnAPath {};
 
 TEST_P(TurningHistory, OfVfricComesCloseToThatOfTheLaw) {
-  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Case c({"humidity", GetParam()});
   const Case without({"humidity"});
   const double exact = predict(c.model, path(4000)).back();

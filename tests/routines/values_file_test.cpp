@@ -19,20 +19,30 @@
 
 namespace frictab {
 
+using codegen::BuildVariant;
+using codegen::Exporter;
+using codegen::ExportRequest;
+using codegen::find_exporter;
+using codegen::have_program;
+using codegen::SourceBundle;
+using codegen::values_file_name;
+using table::Table;
+
 namespace {
 
 using testing::HasSubstr;
 
 std::vector<const Exporter*> with_values_option() {
   std::vector<const Exporter*> out;
-  for (const Exporter& exporter : all_exporters())
-    for (const ExportOption& option : exporter.options)
-      if (option.name == values_option().name) out.push_back(&exporter);
+  for (const Exporter& exporter : codegen::all_exporters())
+    for (const codegen::ExportOption& option : exporter.options)
+      if (option.name == codegen::values_option().name) out.push_back(&exporter);
   return out;
 }
 
 ExportRequest request_of(const Exporter& exporter, const Table& table, const std::string& values) {
-  return {table, "mm-t-s", test::sample_inputs(exporter), {{values_option().name, values}}};
+  return {
+      table, "mm-t-s", test::sample_inputs(exporter), {{codegen::values_option().name, values}}};
 }
 
 // Tables with axes: the others have no values to put away.
@@ -45,10 +55,11 @@ std::vector<test::NamedTable> samples() {
 
 TEST(ValuesFile, EveryRoutineOfEverySolverReadsItButLua) {
   std::vector<std::string> others;
-  for (const Exporter& exporter : all_exporters())
-    if (exporter.whole() &&
-        std::none_of(exporter.options.begin(), exporter.options.end(),
-                     [](const ExportOption& o) { return o.name == values_option().name; }))
+  for (const Exporter& exporter : codegen::all_exporters())
+    if (exporter.whole() && std::none_of(exporter.options.begin(), exporter.options.end(),
+                                         [](const codegen::ExportOption& o) {
+                                           return o.name == codegen::values_option().name;
+                                         }))
       others.push_back(exporter.name);
   EXPECT_EQ(others, (std::vector<std::string>{"qform_lua"}));
 }
@@ -63,7 +74,7 @@ protected:
     bundle.erase(values_file_name);
     if (bytes) bundle[values_file_name] = *bytes;
     std::vector<double> tau(states.rows(), -1);
-    CompiledTarget(exporter(), request, bundle, variant)
+    codegen::CompiledTarget(exporter(), request, bundle, variant)
         .drive(states.rows(), states.columns(), tau);
     return tau;
   }
@@ -78,11 +89,11 @@ TEST_P(SlowValuesFileOf, GivesTheBitsThatTheSourceGives) {
     for (const BuildVariant& variant : exporter().variants(source)) {
       if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
       std::vector<double> expected(states.rows(), -1), tau(states.rows(), -1);
-      CompiledTarget(exporter(), source, exporter().generate(source), variant)
+      codegen::CompiledTarget(exporter(), source, exporter().generate(source), variant)
           .drive(states.rows(), states.columns(), expected);
       for (const BuildVariant& own : exporter().variants(file))
         if (own.name == variant.name)
-          CompiledTarget(exporter(), file, exporter().generate(file), own)
+          codegen::CompiledTarget(exporter(), file, exporter().generate(file), own)
               .drive(states.rows(), states.columns(), tau);
       ASSERT_EQ(tau.size(), expected.size());
       for (std::size_t i = 0; i < tau.size(); ++i)
@@ -121,8 +132,8 @@ TEST_P(SlowValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
   const nlohmann::json& file = recipe["values_file"];
   EXPECT_EQ(file["name"], values_file_name);
   EXPECT_EQ(file["numbers"], table.nodes());
-  const std::vector<double> values = baked_values(table);
-  EXPECT_EQ(file["crc32"], fmt::format("{:08x}", values_crc32(values)));
+  const std::vector<double> values = codegen::baked_values(table);
+  EXPECT_EQ(file["crc32"], fmt::format("{:08x}", codegen::values_crc32(values)));
   EXPECT_EQ(bundle.at(values_file_name).size(), sizeof(double) * values.size());
 }
 
@@ -165,15 +176,15 @@ TEST(ValuesFile, IsReadOnceByThreadsThatCallTogether) {
     const test::States states(table, 200, 31);
     const std::vector<double> truth = test::expected(table, states);
     for (int round = 0; round < 20; ++round) {
-      const TemporaryDirectory work;
+      const codegen::TemporaryDirectory work;
       const SourceBundle bundle = exporter.generate(request);
       static std::map<std::string, std::filesystem::path> made; // compiled once, loaded anew
       const std::filesystem::path own = work.path() / "own.so";
-      static const TemporaryDirectory kept;
+      static const codegen::TemporaryDirectory kept;
       if (!made.count(target))
-        made[target] = compile_library(bundle, variant, kept.path() / target);
+        made[target] = codegen::compile_library(bundle, variant, kept.path() / target);
       std::filesystem::copy_file(made[target], own);
-      const Library library(own);
+      const codegen::Library library(own);
       library.tell_directory(kept.path() / target);
       std::atomic<int> waiting = 0, wrong = 0;
       std::vector<std::thread> threads;

@@ -13,6 +13,9 @@
 
 namespace frictab {
 
+using table::Table;
+using table::TableFunction;
+
 namespace {
 
 using calls::VfricCoefCall;
@@ -31,18 +34,19 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13;
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const Table& table,
                        const std::map<std::string, std::string>& inputs = {},
                        const std::string& units = "mm-t-s",
                        const std::vector<std::string>& flags = test::strict) {
-    const ExportRequest request{table, units, inputs};
-    return Library::address(test::compiled(key, *find_exporter("abaqus_vfric_coef"), request,
-                                           single ? "single" : "double", flags)
-                                ->handle(),
-                            "vfric_coef_");
+    const codegen::ExportRequest request{table, units, inputs};
+    return codegen::Library::address(test::compiled(key,
+                                                    *codegen::find_exporter("abaqus_vfric_coef"),
+                                                    request, single ? "single" : "double", flags)
+                                         ->handle(),
+                                     "vfric_coef_");
   }
   static void* four_axes() { return routine("four_axes", four_axis()); }
   static const Table& four_axis() {
@@ -257,8 +261,8 @@ TYPED_TEST(SlowVfricCoef, RefusesNothingOutOfContact) {
 }
 
 TYPED_TEST(SlowVfricCoef, SaysThatItsArgumentListIsRecalled) {
-  const SourceBundle files =
-      find_exporter("abaqus_vfric_coef")->generate({this->four_axis(), "mm-t-s", {}});
+  const codegen::SourceBundle files =
+      codegen::find_exporter("abaqus_vfric_coef")->generate({this->four_axis(), "mm-t-s", {}});
   for (const auto& [name, text] : files)
     EXPECT_THAT(text, testing::AllOf(testing::HasSubstr("recalled:"),
                                      testing::HasSubstr("check against your release")))

@@ -13,6 +13,8 @@
 
 namespace frictab {
 
+using table::TableFunction;
+
 namespace {
 
 using calls::VfricCall;
@@ -30,22 +32,23 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13;
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
-  static void* routine(const std::string& key, const Table& table,
+  static void* routine(const std::string& key, const table::Table& table,
                        const std::map<std::string, std::string>& inputs = {},
                        const std::string& units = "mm-t-s") {
-    const ExportRequest request{table, units, inputs};
-    return Library::address(test::compiled(key, *find_exporter("abaqus_vfric"), request,
-                                           single ? "single" : "double", test::strict)
-                                ->handle(),
-                            "vfric_");
+    const codegen::ExportRequest request{table, units, inputs};
+    return codegen::Library::address(test::compiled(key, *codegen::find_exporter("abaqus_vfric"),
+                                                    request, single ? "single" : "double",
+                                                    test::strict)
+                                         ->handle(),
+                                     "vfric_");
   }
   static void* four_axes() { return routine("four_axes", four_axis()); }
   static void* branching() { return routine("branching", test::branching_table()); }
-  static const Table& four_axis() {
-    static const Table table = test::four_axis_table();
+  static const table::Table& four_axis() {
+    static const table::Table table = test::four_axis_table();
     return table;
   }
 
@@ -356,12 +359,12 @@ TYPED_TEST(Vfric, ConvertsUnitsOfMetreKilogramSecond) {
 
 TYPED_TEST(Vfric, MayRunInThreadsAtOnce) {
   // Not with -fcheck=recursion: its own flag is shared by all threads.
-  const ExportRequest request{this->four_axis(), "mm-t-s", {}};
-  void* function =
-      Library::address(test::compiled("threads", *find_exporter("abaqus_vfric"), request,
-                                      TestFixture::single ? "single" : "double", {"-O2"})
-                           ->handle(),
-                       "vfric_");
+  const codegen::ExportRequest request{this->four_axis(), "mm-t-s", {}};
+  void* function = codegen::Library::address(
+      test::compiled("threads", *codegen::find_exporter("abaqus_vfric"), request,
+                     TestFixture::single ? "single" : "double", {"-O2"})
+          ->handle(),
+      "vfric_");
   auto reference = this->call(136);
   for (std::size_t k = 0; k < 136; ++k)
     this->set(reference, k, 600 + 10 * double(k), 10 + double(k), 50);

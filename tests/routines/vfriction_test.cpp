@@ -12,6 +12,8 @@
 
 namespace frictab {
 
+using table::TableFunction;
+
 namespace {
 
 using calls::VfrictionCall;
@@ -29,23 +31,24 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13;
 
   void SetUp() override {
-    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
-  static void* routine(const std::string& key, const Table& table,
+  static void* routine(const std::string& key, const table::Table& table,
                        const std::map<std::string, std::string>& inputs = {},
                        const std::string& units = "mm-t-s",
                        const std::vector<std::string>& flags = test::strict) {
-    const ExportRequest request{table, units, inputs};
-    return Library::address(test::compiled(key, *find_exporter("abaqus_vfriction"), request,
-                                           single ? "single" : "double", flags)
-                                ->handle(),
-                            "vfriction_");
+    const codegen::ExportRequest request{table, units, inputs};
+    return codegen::Library::address(test::compiled(key,
+                                                    *codegen::find_exporter("abaqus_vfriction"),
+                                                    request, single ? "single" : "double", flags)
+                                         ->handle(),
+                                     "vfriction_");
   }
   static void* four_axes() { return routine("four_axes", four_axis()); }
   static void* branching() { return routine("branching", test::branching_table()); }
-  static const Table& four_axis() {
-    static const Table table = test::four_axis_table();
+  static const table::Table& four_axis() {
+    static const table::Table table = test::four_axis_table();
     return table;
   }
 

@@ -7,13 +7,13 @@
 
 namespace frictab::test {
 
-inline Blocks blocks_of(const std::vector<std::size_t>& rows) {
-  Dataset data;
+inline trace::Blocks blocks_of(const std::vector<std::size_t>& rows) {
+  data::Dataset data;
   for (const std::size_t count : rows) {
     data.experiments.push_back(fmt::format("{}", data.experiments.size()));
     data.first_row.push_back(data.first_row.back() + count);
   }
-  return make_blocks(data);
+  return trace::make_blocks(data);
 }
 
 } // namespace frictab::test

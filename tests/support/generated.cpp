@@ -17,6 +17,10 @@
 
 namespace frictab::test {
 
+using codegen::BuildVariant;
+using codegen::Library;
+using codegen::SourceBundle;
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -34,12 +38,12 @@ fs::path kept_library(const SourceBundle& bundle, const BuildVariant& build) {
 
 // A file of values lies in a directory of the library's name.
 void keep_values(const SourceBundle& bundle, const fs::path& directory) {
-  const auto values = bundle.find(values_file_name);
-  if (values == bundle.end() || fs::exists(directory / values_file_name)) return;
+  const auto values = bundle.find(codegen::values_file_name);
+  if (values == bundle.end() || fs::exists(directory / codegen::values_file_name)) return;
   fs::create_directories(directory);
   const fs::path own = directory / std::to_string(getpid());
   std::ofstream(own, std::ios::binary) << values->second;
-  fs::rename(own, directory / values_file_name);
+  fs::rename(own, directory / codegen::values_file_name);
 }
 
 std::vector<std::string> both(std::vector<std::string> a, const std::vector<std::string>& b) {
@@ -47,7 +51,7 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
   return a;
 }
 
-BuildVariant variant_of(const Exporter& exporter, const ExportRequest& request,
+BuildVariant variant_of(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                         const std::string& name, const std::vector<std::string>& flags) {
   for (BuildVariant& build : exporter.variants(request)) {
     if (build.name != name) continue;
@@ -61,8 +65,8 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
   const fs::path kept = kept_library(bundle, build);
   keep_values(bundle, fs::path(kept).replace_extension());
   if (!fs::exists(kept)) {
-    const TemporaryDirectory work;
-    const fs::path made = compile_library(bundle, build, work.path());
+    const codegen::TemporaryDirectory work;
+    const fs::path made = codegen::compile_library(bundle, build, work.path());
     const fs::path own = kept.string() + "." + std::to_string(getpid());
     fs::create_directories(kept.parent_path());
     fs::copy_file(made, own);
@@ -82,24 +86,24 @@ void add_flags(BuildVariant& variant, const std::vector<std::string>& flags) {
   variant.command.insert(variant.command.begin() + 1, flags.begin(), flags.end());
 }
 
-const Library* compiled(const std::string& key, const Exporter& exporter,
-                        const ExportRequest& request, const std::string& variant,
+const Library* compiled(const std::string& key, const codegen::Exporter& exporter,
+                        const codegen::ExportRequest& request, const std::string& variant,
                         const std::vector<std::string>& flags) {
   static std::map<std::string, std::unique_ptr<Library>> libraries;
   const std::string name = exporter.name + "/" + variant + "/" + key;
   if (const auto found = libraries.find(name); found != libraries.end()) return found->second.get();
   const BuildVariant build = variant_of(exporter, request, variant, flags);
-  if (!have_program(build.command[0])) return nullptr;
+  if (!codegen::have_program(build.command[0])) return nullptr;
   return libraries.emplace(name, library_of(exporter.generate(request), build)).first->second.get();
 }
 
-double worst_driven(const Exporter& exporter, const ExportRequest& request,
+double worst_driven(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                     const std::string& variant, const std::vector<std::string>& flags,
                     const std::map<std::string, double>& fixed) {
   const States states(request.table, 20000, 11, 0.1, fixed);
   std::vector<double> tau(states.rows(), -1);
-  CompiledTarget(exporter, request, exporter.generate(request),
-                 variant_of(exporter, request, variant, flags))
+  codegen::CompiledTarget(exporter, request, exporter.generate(request),
+                          variant_of(exporter, request, variant, flags))
       .drive(tau.size(), states.columns(), tau);
   return worst_relative(tau, expected(request.table, states));
 }

@@ -23,17 +23,17 @@ inline const std::vector<std::string> run_checks = {"-fcheck=all", "-g",
 extern const std::vector<std::string> strict, strict_declared;
 
 // Behind the compiler's name.
-void add_flags(BuildVariant& variant, const std::vector<std::string>& flags);
+void add_flags(codegen::BuildVariant& variant, const std::vector<std::string>& flags);
 
 // The named variant of a target with further compiler flags; nullptr where the compiler is missing.
-const Library* compiled(const std::string& key, const Exporter& exporter,
-                        const ExportRequest& request, const std::string& variant,
-                        const std::vector<std::string>& flags = {});
+const codegen::Library* compiled(const std::string& key, const codegen::Exporter& exporter,
+                                 const codegen::ExportRequest& request, const std::string& variant,
+                                 const std::vector<std::string>& flags = {});
 
 // Drives the named variant, with further compiler flags, over 20,000 rows of the request's table,
 // 10 % beyond the ends of its axes (`fixed` as in States): the largest relative difference from
 // frictab.
-double worst_driven(const Exporter& exporter, const ExportRequest& request,
+double worst_driven(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                     const std::string& variant, const std::vector<std::string>& flags,
                     const std::map<std::string, double>& fixed = {});
 

@@ -4,9 +4,12 @@
 
 namespace frictab::test {
 
+using expr::Expr;
+namespace state = models::state;
+
 namespace {
 
-Formula build(const Conventions&) {
+models::Formula build(const models::Conventions&) {
   const Expr mu = Expr::symbol("mu0") * pow(state::sigma_n() / 1000, Expr::symbol("a")) *
                   pow(state::psi(), Expr::symbol("b")) *
                   (1 - Expr::symbol("c") * log(state::v_rel())) *
@@ -17,8 +20,8 @@ Formula build(const Conventions&) {
 
 } // namespace
 
-Model kinked_model() {
-  Law law;
+models::Model kinked_model() {
+  models::Law law;
   law.name = "kinked";
   law.title = "product of powers, cut off";
   law.formula =
@@ -28,14 +31,14 @@ Model kinked_model() {
     law.parameters.push_back({name, "1", "of the test law", 0.1, -1, 1, "nothing"});
   law.log_value = true;
   law.build = build;
-  Model model;
-  model.law = unregistered_law(law);
+  models::Model model;
+  model.law = models::unregistered_law(law);
   model.conventions = {"flow_stress", 1, false};
   model.parameters = {0.12, -0.2, 0.1, 0.03, 0.001, 0.8};
   return model;
 }
 
-std::vector<StateRange> kinked_ranges() {
+std::vector<table::StateRange> kinked_ranges() {
   return {{"sigma_n_MPa", 10, 2000, "test"},
           {"psi", 1, 10, "test"},
           {"v_rel_mm_s", 1, 1000, "test"},

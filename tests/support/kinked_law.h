@@ -11,8 +11,8 @@ namespace frictab::test {
 
 // tau = min(0.12 sigma (sigma/1000)^-0.2 psi^0.1 (1 - 0.03 ln v) exp(-0.001 (T - 20)), 0.8 k),
 // k = sigma_f: MPa, mm/s, degC.
-Model kinked_model();
+models::Model kinked_model();
 // sigma 10-2000, psi 1-10, v 1-1000, T 20-600, k 50-500.
-std::vector<StateRange> kinked_ranges();
+std::vector<table::StateRange> kinked_ranges();
 
 } // namespace frictab::test

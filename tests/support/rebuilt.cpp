@@ -10,13 +10,13 @@
 
 namespace frictab::test {
 
-std::string rebuilt_by_python(const Table& table) {
+std::string rebuilt_by_python(const table::Table& table) {
   const TemporaryDirectory directory;
-  write_table(table, directory.path("table.h5"));
-  const TableFunction function(table);
+  table::write_table(table, directory.path("table.h5"));
+  const table::TableFunction function(table);
   auto states = random_states(function.inputs(), 500, 17);
   for (std::size_t c = 0; c < states.size(); ++c) // what an effect brought in
-    if (const std::string& name = function.inputs()[c]; !find_quantity(name))
+    if (const std::string& name = function.inputs()[c]; !data::find_quantity(name))
       if (const auto range = table.range(name))
         for (double& x : states[c])
           x = range->first + x * (range->second - range->first);

@@ -11,6 +11,8 @@
 
 namespace frictab::test {
 
+using models::Model;
+
 namespace {
 
 struct Range {
@@ -40,10 +42,10 @@ double draw(const Range& r, Random& random) {
 
 } // namespace
 
-Dataset sample_data(const Model& truth, const SampleOptions& options) {
-  Dataset data;
+data::Dataset sample_data(const Model& truth, const SampleOptions& options) {
+  data::Dataset data;
   for (const auto& [name, range] : ranges)
-    data.columns.push_back({name, find_quantity(name)->unit, {}, {}});
+    data.columns.push_back({name, data::find_quantity(name)->unit, {}, {}});
   Random random(options.seed);
   std::vector<double> factor;
   for (std::size_t e = 0; e < options.experiments; ++e) {
@@ -52,7 +54,7 @@ Dataset sample_data(const Model& truth, const SampleOptions& options) {
       path[name] = {draw(range, random), draw(range, random)};
     for (std::size_t i = 0; i < options.rows; ++i) {
       const double x = static_cast<double>(i) / static_cast<double>(options.rows - 1);
-      for (Column& column : data.columns) {
+      for (data::Column& column : data.columns) {
         const auto [a, b] = path[column.name];
         column.values.push_back(a + x * (b - a));
       }
@@ -61,7 +63,7 @@ Dataset sample_data(const Model& truth, const SampleOptions& options) {
     data.experiments.push_back("E" + std::to_string(e));
     data.first_row.push_back(data.first_row.back() + options.rows);
   }
-  std::vector<double> tau = predict(truth, data);
+  std::vector<double> tau = calibrate::predict(truth, data);
   for (std::size_t e = 0; e < options.experiments; ++e)
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       tau[i] = tau[i] * factor[e] + options.noise_MPa * random.normal();
@@ -70,7 +72,7 @@ Dataset sample_data(const Model& truth, const SampleOptions& options) {
   return data;
 }
 
-Model plausible_model(const Law& law) {
+Model plausible_model(const models::Law& law) {
   static const std::map<std::string, std::vector<double>> truth = {
       {"coulomb", {0.07}},
       {"shear", {0.25}},
@@ -82,17 +84,17 @@ Model plausible_model(const Law& law) {
       {"exp_coulomb", {0.08, -0.3, -0.001}},
       {"wzl", {0.4, -0.15, -0.06, -0.05}}};
   Model model;
-  model.law = registered_law(law);
+  model.law = models::registered_law(law);
   if (const auto found = truth.find(law.name); found != truth.end())
     model.parameters = found->second;
   else
-    for (const Parameter& parameter : law.parameters)
+    for (const models::Parameter& parameter : law.parameters)
       model.parameters.push_back(parameter.start);
   return model;
 }
 
 Model network_model(std::size_t members, std::size_t hidden) {
-  Network network;
+  models::Network network;
   network.inputs = {{"sigma_n_MPa", false, 0, 0, 1600, 600},
                     {"psi", true, 1, 0, 1.5, 0.9},
                     {"v_rel_mm_s", true, 0.1, 1, 4, 1.2},
@@ -102,11 +104,11 @@ Model network_model(std::size_t members, std::size_t hidden) {
   Random random(12);
   for (std::size_t m = 0; m < members; ++m) {
     network.members.emplace_back();
-    for (std::size_t w = 0; w < Network::weights(5, network.hidden); ++w)
+    for (std::size_t w = 0; w < models::Network::weights(5, network.hidden); ++w)
       network.members.back().push_back(0.2 * random.normal());
   }
   Model model;
-  model.law = unregistered_law(neural_network(network));
+  model.law = models::unregistered_law(models::neural_network(network));
   model.parameters = {0.08};
   return model;
 }

@@ -17,14 +17,14 @@ struct SampleOptions {
 };
 
 // tau_R_MPa = the model's tau_R, times the experiment's factor, plus noise.
-Dataset sample_data(const Model& truth, const SampleOptions& options = {});
+data::Dataset sample_data(const models::Model& truth, const SampleOptions& options = {});
 
 // A model with plausible parameters: fixed and mean laws at their start values, others away from
 // theirs.
-Model plausible_model(const Law& law);
+models::Model plausible_model(const models::Law& law);
 
 // An ensemble that bends in all five states, as trained ones do, with random weights.
-Model network_model(std::size_t members = 3, std::size_t hidden = 4);
+models::Model network_model(std::size_t members = 3, std::size_t hidden = 4);
 
 // Random states in the order of `names`, in Table 1 (and s 0..20 mm, sigma_f 300..900 MPa; others
 // 0..1).

@@ -11,6 +11,12 @@
 
 namespace frictab::test {
 
+using expr::Expr;
+using table::Interpolation;
+using table::Outside;
+using table::Table;
+using table::TableAxis;
+
 namespace {
 
 TableAxis axis(const std::string& name, bool log, std::vector<double> nodes) {
@@ -18,7 +24,7 @@ TableAxis axis(const std::string& name, bool log, std::vector<double> nodes) {
   out.name = name;
   out.log = log;
   out.nodes = std::move(nodes);
-  const Quantity* known = find_quantity(name);
+  const data::Quantity* known = data::find_quantity(name);
   out.unit = known ? known->unit : "1";
   out.long_name = known ? known->meaning : "a recorded column";
   return out;
@@ -206,7 +212,7 @@ Table direct_table() {
 }
 
 Table direct_network() {
-  const AssembledLaw law(test::network_model(3, 4));
+  const models::AssembledLaw law(test::network_model(3, 4));
   Table table;
   table.model = "network";
   table.interpolation = Interpolation::none;
@@ -214,7 +220,7 @@ Table direct_network() {
                 axis("v_rel_mm_s", true, {5, 500}), axis("T_contact_C", false, {20, 200}),
                 axis("s_mm", false, {0, 40})};
   table.axes[3].above = Outside::law;
-  add_extension(table, law);
+  table::add_extension(table, law);
   table.combine = law.combine;
   return table;
 }
@@ -264,13 +270,14 @@ const std::vector<NamedTable>& sample_tables() {
   return tables;
 }
 
-std::map<std::string, std::string> sample_inputs(const Exporter& exporter) {
+std::map<std::string, std::string> sample_inputs(const codegen::Exporter& exporter) {
   const bool knows_flow_stress = exporter.whole() && exporter.name != "calculix_usrmu";
   if (knows_flow_stress) return {};
   return {{"sigma_f_MPa", "constant:480"}};
 }
 
-SampleRequest::SampleRequest(const Exporter& exporter, const Table& table, const std::string& units)
+SampleRequest::SampleRequest(const codegen::Exporter& exporter, const Table& table,
+                             const std::string& units)
     : table_(table), units_(units), inputs_(sample_inputs(exporter)) {
   if (exporter.whole()) return;
   table_.record.tolerance_MPa = 40;
@@ -300,7 +307,7 @@ States::States(const Table& table, std::size_t rows, std::uint64_t seed, double 
 
 std::vector<double> expected(const Table& table, const States& states) {
   std::vector<double> tau(states.rows());
-  TableFunction(table).evaluate(states.rows(), states.columns(), tau);
+  table::TableFunction(table).evaluate(states.rows(), states.columns(), tau);
   return tau;
 }
 

@@ -11,46 +11,48 @@
 
 namespace frictab::test {
 
-Table constant_table();  // no axis: mu = 0.08, tau = mu sigma_N
-Table one_axis_table();  // psi, even nodes; the table is tau_R itself
-Table four_axis_table(); // log and linear, even and uneven nodes; ln value; shear limit
-Table branching_table(); // sliding distance; where, minimum, maximum, power, exp, constants
-Table traced_table();    // six axes, one of them a column that is not canonical
+table::Table constant_table();  // no axis: mu = 0.08, tau = mu sigma_N
+table::Table one_axis_table();  // psi, even nodes; the table is tau_R itself
+table::Table four_axis_table(); // log and linear, even and uneven nodes; ln value; shear limit
+table::Table branching_table(); // sliding distance; where, minimum, maximum, power, exp, constants
+table::Table traced_table();    // six axes, one of them a column that is not canonical
 // Every history that needs a state variable of its own, one of them an axis; neither speed nor
 // temperature is a state.
-Table further_histories_table();
-Table spline_table(); // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
-Table spline_axis_table(); // cubic, one axis
+table::Table further_histories_table();
+table::Table
+spline_table(); // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
+table::Table spline_axis_table(); // cubic, one axis
 
-Table sides_table();    // each way to go on beyond an end; uneven nodes; ln value
-Table direct_table();   // no values: a closed form, on some sides held at its range
-Table direct_network(); // no values: three nets of four units
+table::Table sides_table();    // each way to go on beyond an end; uneven nodes; ln value
+table::Table direct_table();   // no values: a closed form, on some sides held at its range
+table::Table direct_network(); // no values: three nets of four units
 
 // Of plain numbers, for people to read: what every target writes of it lies in examples/generated.
-Table example_table();
+table::Table example_table();
 
 // Axes friction_work and peak_sigma_n, as traced effects add them; not among sample_tables().
-Table history_table();
+table::Table history_table();
 
 struct NamedTable {
   std::string name;
-  Table table;
+  table::Table table;
 };
 const std::vector<NamedTable>& sample_tables();
 
 // The job's [export.inputs] for a sample: a flow stress for targets whose solver knows none and
 // takes a constant, or holds it. The samples have no range of it to take one from.
-std::map<std::string, std::string> sample_inputs(const Exporter& exporter);
+std::map<std::string, std::string> sample_inputs(const codegen::Exporter& exporter);
 
 // What a target is asked for of a sample: sample_inputs(); a solver's own table gets a tolerance
 // that keeps its text short (the samples' values are rough).
 class SampleRequest {
 public:
-  SampleRequest(const Exporter& exporter, const Table& table, const std::string& units);
-  ExportRequest get() const { return {table_, units_, inputs_}; }
+  SampleRequest(const codegen::Exporter& exporter, const table::Table& table,
+                const std::string& units);
+  codegen::ExportRequest get() const { return {table_, units_, inputs_}; }
 
 private:
-  Table table_;
+  table::Table table_;
   std::string units_;
   std::map<std::string, std::string> inputs_;
 };
@@ -60,7 +62,7 @@ private:
 // that value.
 class States {
 public:
-  States(const Table& table, std::size_t rows, std::uint64_t seed, double spread = 0.1,
+  States(const table::Table& table, std::size_t rows, std::uint64_t seed, double spread = 0.1,
          const std::map<std::string, double>& fixed = {});
   std::size_t rows() const { return rows_; }
   const std::vector<const double*>& columns() const { return pointers_; }
@@ -73,7 +75,7 @@ private:
 };
 
 // tau_R by frictab itself, through the shared kernel.
-std::vector<double> expected(const Table& table, const States& states);
+std::vector<double> expected(const table::Table& table, const States& states);
 
 // Largest |a-b| / max(|b|, floor); infinite where one is NaN and the other is not.
 double worst_relative(const std::vector<double>& a, const std::vector<double>& b,

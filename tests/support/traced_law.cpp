@@ -9,11 +9,16 @@
 
 namespace frictab::test {
 
+using data::Column;
+using data::Dataset;
+using effects::PlacedEffect;
+using models::Model;
+
 PlacedEffect traced_effect(const std::string& which) {
   PlacedEffect effect;
   const auto put = [&](const char* form, const char* column, std::vector<double> parameters,
                        double low, double high) {
-    effect.form = find_effect(form);
+    effect.form = effects::find_effect(form);
     effect.inputs = {{column, {}, low, high}};
     effect.parameters = std::move(parameters);
   };
@@ -55,14 +60,14 @@ Model traced_model(const std::vector<std::string>& which) {
   std::vector<PlacedEffect> effects;
   for (const std::string& one : which)
     effects.push_back(traced_effect(one));
-  return traced_model(plausible_model(*find_law("log_coulomb")), effects);
+  return traced_model(plausible_model(*models::find_law("log_coulomb")), effects);
 }
 
 Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects) {
   Model model;
-  model.law = unregistered_law(extended_law(*base.law, model.conventions, base.parameters, effects,
-                                            traced_name(base.law->name)));
-  for (const Parameter& parameter : model.law->parameters)
+  model.law = models::unregistered_law(effects::extended_law(
+      *base.law, model.conventions, base.parameters, effects, models::traced_name(base.law->name)));
+  for (const models::Parameter& parameter : model.law->parameters)
     model.parameters.push_back(parameter.start);
   return model;
 }
@@ -98,7 +103,7 @@ Dataset traced_data(const Model& truth) {
   SampleOptions options;
   options.experiments = 12;
   options.rows = 40;
-  Dataset data = sample_data(plausible_model(*find_law("log_coulomb")), options);
+  Dataset data = sample_data(plausible_model(*models::find_law("log_coulomb")), options);
   std::erase_if(data.columns, [](const Column& column) { return column.name == "tau_R_MPa"; });
   for (Column& column : data.columns)
     for (std::size_t i = 0; column.name == "s_mm" && i < data.rows(); ++i)
@@ -107,8 +112,8 @@ Dataset traced_data(const Model& truth) {
   data.columns.push_back(scattered(data, "T_tool_C", 20, 120));
   data.columns.push_back(scattered(data, "humidity_pct", 30, 60));
   data.columns.push_back(tool(data));
-  data.columns.push_back({"tau_R_MPa", "MPa", predict(truth, data), {}});
-  fingerprint(data);
+  data.columns.push_back({"tau_R_MPa", "MPa", calibrate::predict(truth, data), {}});
+  data::fingerprint(data);
   return data;
 }
 

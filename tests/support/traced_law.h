@@ -17,19 +17,20 @@ namespace frictab::test {
 // "lag", "flash": linear in temperature_rise, temperature_lag, flash_heating | "curve": a spline of
 // s_mm | "surface": one of humidity_pct and T_tool_C | "curve_by_tool": a spline of T_tool_C per
 // tool. All act on mu.
-PlacedEffect traced_effect(const std::string& which);
+effects::PlacedEffect traced_effect(const std::string& which);
 
 // log_coulomb_traced with these effects.
-Model traced_model(const std::vector<std::string>& which);
+models::Model traced_model(const std::vector<std::string>& which);
 
 // Any law with any effects, named as its base with _traced.
-Model traced_model(const Model& base, const std::vector<PlacedEffect>& effects);
+models::Model traced_model(const models::Model& base,
+                           const std::vector<effects::PlacedEffect>& effects);
 
 // 12 experiments of 40 rows: canonical states, time_s, T_tool_C, humidity_pct and tool (A, B, C in
 // turn); s_mm from 0 to 20; tau_R_MPa of the model.
-Dataset traced_data(const Model& truth);
+data::Dataset traced_data(const models::Model& truth);
 
 // The campaign as a file with text for its text columns.
-std::string csv_of(const Dataset& data);
+std::string csv_of(const data::Dataset& data);
 
 } // namespace frictab::test

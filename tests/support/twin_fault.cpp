@@ -4,9 +4,9 @@
 
 namespace frictab::test {
 
-std::string fault_of(const TwinOptions& options) {
+std::string fault_of(const twin::TwinOptions& options) {
   try {
-    make_twin(options);
+    twin::make_twin(options);
   } catch (const InputError& error) {
     return error.what();
   }

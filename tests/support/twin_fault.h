@@ -8,6 +8,6 @@
 namespace frictab::test {
 
 // "no fault" where it can.
-std::string fault_of(const TwinOptions& options);
+std::string fault_of(const twin::TwinOptions& options);
 
 } // namespace frictab::test

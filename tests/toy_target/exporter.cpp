@@ -15,34 +15,36 @@ namespace frictab {
 
 namespace {
 
-SourceBundle generate(const ExportRequest& request) {
+codegen::SourceBundle generate(const codegen::ExportRequest& request) {
   if (!request.table.axes.empty())
     throw InputError({}, "the toy target knows no axes", "a law of one coefficient");
-  std::map<std::string, Expr> numbers = {{"value", request.table.value.at(0)}};
+  std::map<std::string, expr::Expr> numbers = {{"value", request.table.value.at(0)}};
   for (const auto& [name, number] : request.table.constants)
     numbers[name] = number;
-  SourceBundle files;
-  files["toy.txt"] = to_text(substitute(request.table.combine, numbers)) + "\n";
-  files["recipe.json"] = json_text(recipe_head(*find_exporter("toy"), request, "toy.txt", files));
+  codegen::SourceBundle files;
+  files["toy.txt"] = expr::to_text(substitute(request.table.combine, numbers)) + "\n";
+  files["recipe.json"] = io::json_text(
+      codegen::recipe_head(*codegen::find_exporter("toy"), request, "toy.txt", files));
   return files;
 }
 
-std::vector<BuildVariant> variants(const ExportRequest&) {
-  BuildVariant text;
+std::vector<codegen::BuildVariant> variants(const codegen::ExportRequest&) {
+  codegen::BuildVariant text;
   text.name = "text";
   text.eps = 0x1p-53;
   return {text};
 }
 
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+void drive(const codegen::Built& built, const codegen::ExportRequest& request, std::size_t rows,
            std::span<const double* const> columns, std::span<double> tau) {
-  std::string text = read_file(built.directory / "toy.txt");
+  std::string text = io::read_file(built.directory / "toy.txt");
   text.pop_back();
-  Program(parse_expr(text), request.table.inputs(), {}).evaluate(rows, columns, {}, tau.data());
+  expr::Program(expr::parse_expr(text), request.table.inputs(), {})
+      .evaluate(rows, columns, {}, tau.data());
 }
 
-const Registered<Exporter> registered{[] {
-  Exporter out;
+const Registered<codegen::Exporter> registered{[] {
+  codegen::Exporter out;
   out.name = "toy";
   out.order = 1000;
   out.title = "A toy";

@@ -9,6 +9,10 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::at_quantile;
+using models::Model;
+
 namespace {
 
 std::vector<double> lognormal(std::size_t count, double sd, Random& random) {
@@ -24,8 +28,8 @@ TEST(Band, AShareOfNewExperimentsLiesBelowItsQuantile) {
     constexpr int draws = 4000;
     double below = 0; // of the distribution that the factors are drawn from
     for (int draw = 0; draw < draws; ++draw) {
-      const double gain =
-          *gain_at_quantile(gains_of_new_experiments(lognormal(39, 0.1, random), 0), quantile);
+      const double gain = *calibrate::gain_at_quantile(
+          calibrate::gains_of_new_experiments(lognormal(39, 0.1, random), 0), quantile);
       below += 0.5 * std::erfc(-std::log(gain) / 0.1 / std::sqrt(2.0)) / draws;
     }
     EXPECT_NEAR(below, quantile, 0.004) << "3.5 standard deviations of the mean of the draws";
@@ -45,14 +49,14 @@ TEST(Band, FactorsOfFittedExperimentsAreSpreadToThoseOfNewOnes) {
       g = std::exp(std::log(g) - mean);
     for (const double g : gains)
       fitted += std::pow(std::log(g), 2);
-    for (const double g : gains_of_new_experiments(gains, 1))
+    for (const double g : calibrate::gains_of_new_experiments(gains, 1))
       widened += std::pow(std::log(g), 2);
   }
   EXPECT_NEAR(widened / fitted, 10.0 / 9.0, 0.01);
 }
 
 TEST(Band, SaysWhichQuantilesSoManyExperimentsGive) {
-  Model model = test::plausible_model(*find_law("coulomb"));
+  Model model = test::plausible_model(*models::find_law("coulomb"));
   model.experiment_gains = {0.8, 0.9, 1.0, 1.1};
   EXPECT_EQ(at_quantile(model, 0.2, {}).gain, 0.8);
   EXPECT_EQ(at_quantile(model, 0.8, {}).gain, 1.1);
@@ -68,13 +72,13 @@ TEST(Band, SaysWhichQuantilesSoManyExperimentsGive) {
 }
 
 TEST(Band, MultipliesTheLawBelowTheShearLimit) {
-  const Model law = test::plausible_model(*find_law("log_coulomb"));
-  Dataset data = test::sample_data(law);
-  const std::vector<double> tau = predict(law, data);
+  const Model law = test::plausible_model(*models::find_law("log_coulomb"));
+  data::Dataset data = test::sample_data(law);
+  const std::vector<double> tau = calibrate::predict(law, data);
   Model end = law;
   end.quantile = 0.95;
   end.gain = 3;
-  const std::vector<double> high = predict(end, data);
+  const std::vector<double> high = calibrate::predict(end, data);
   std::size_t limited = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
     const double k = law.conventions.k_over_sigma_f * data.values("sigma_f_MPa")[i];
@@ -89,15 +93,15 @@ TEST(Band, OfACampaignCoversItsExperiments) {
   test::SampleOptions options;
   options.experiments = 80;
   options.experiment_scatter = 0.1;
-  const Model truth = test::plausible_model(*find_law("coulomb"));
-  const Dataset training = test::sample_data(truth, options);
+  const Model truth = test::plausible_model(*models::find_law("coulomb"));
+  const data::Dataset training = test::sample_data(truth, options);
   options.seed = 2;
   options.experiments = 400;
-  const Dataset validation = test::sample_data(truth, options);
-  CalibrationInput input{training, validation, {}, {}};
+  const data::Dataset validation = test::sample_data(truth, options);
+  calibrate::CalibrationInput input{training, validation, {}, {}};
   input.models.use = {"coulomb"};
   input.models.shear_limit = false;
-  const BandCheck band = calibrate(input).fits.front().band;
+  const calibrate::BandCheck band = calibrate::calibrate(input).fits.front().band;
   EXPECT_NEAR(*band.low, std::exp(-1.645 * 0.1), 0.04);
   EXPECT_NEAR(*band.high, std::exp(1.645 * 0.1), 0.06);
   EXPECT_EQ(band.experiments, 400U);

@@ -11,6 +11,11 @@
 #include "trace/between_search.h"
 
 namespace frictab {
+
+using trace::BetweenResult;
+using trace::Cause;
+using trace::log_p_of;
+
 namespace {
 
 using Eigen::Index;
@@ -21,8 +26,8 @@ using Eigen::VectorXd;
 struct Campaign {
   Random random;
   Index tests;
-  Candidates candidates;
-  TestGains gains;
+  trace::Candidates candidates;
+  trace::TestGains gains;
   double alpha = 0.01;
 
   Campaign(std::size_t count, double scatter, std::uint64_t seed)
@@ -40,7 +45,7 @@ struct Campaign {
 
   // Its number among the columns.
   std::size_t add(const VectorXd& values, const std::vector<std::string>& levels = {}) {
-    CandidateColumn column;
+    trace::CandidateColumn column;
     column.name = fmt::format("column_{}", candidates.columns.size());
     column.values = values;
     column.levels = levels;
@@ -73,17 +78,18 @@ struct Campaign {
   }
 
   BetweenResult run() const {
-    const Blocks blocks =
+    const trace::Blocks blocks =
         test::blocks_of(std::vector<std::size_t>(static_cast<std::size_t>(tests), 1));
-    const std::vector<TestShape> shapes = test_shapes(candidates, blocks);
+    const std::vector<trace::TestShape> shapes = trace::test_shapes(candidates, blocks);
     const MatrixXd none(tests, 0);
-    return search_between({gains, none, shapes, candidates, alpha, 299, 1});
+    return trace::search_between({gains, none, shapes, candidates, alpha, 299, 1});
   }
 };
 
 bool names(const BetweenResult& result, std::size_t column) {
-  return std::any_of(result.found.begin(), result.found.end(),
-                     [&](const BetweenFinding& f) { return f.shape.cause == Cause{{column}}; });
+  return std::any_of(result.found.begin(), result.found.end(), [&](const trace::BetweenFinding& f) {
+    return f.shape.cause == Cause{{column}};
+  });
 }
 
 TEST(Between, ThreeColumnsThatHideEachOtherAreNamedTogether) {
@@ -181,7 +187,7 @@ TEST(Between, ADecoyIsNamedBesideTheTruth) {
   c.add_bystanders(6, 0);
   const BetweenResult result = c.run();
   ASSERT_EQ(result.found.size(), 1u);
-  const BetweenFinding& finding = result.found.front();
+  const trace::BetweenFinding& finding = result.found.front();
   std::vector<Cause> named = finding.as_good;
   named.push_back(finding.shape.cause);
   EXPECT_NE(std::find(named.begin(), named.end(), Cause{{truth}}), named.end());
@@ -196,12 +202,13 @@ TEST(Between, WhatIsKnownIsNotFoundAgain) {
   c.add(x);
   c.add_bystanders(6, 0);
   ASSERT_EQ(c.run().found.size(), 1u);
-  const std::vector<TestShape> shapes =
-      test_shapes(c.candidates, test::blocks_of(std::vector<std::size_t>(24, 1)));
+  const std::vector<trace::TestShape> shapes =
+      trace::test_shapes(c.candidates, test::blocks_of(std::vector<std::size_t>(24, 1)));
   const MatrixXd known = x;
-  EXPECT_TRUE(search_between({c.gains, known, shapes, c.candidates, 0.01, 299, 1}).found.empty());
-  EXPECT_EQ(p_beside(c.gains, known, shapes.front()), 1);
-  EXPECT_LT(p_beside(c.gains, MatrixXd(24, 0), shapes.front()), 1e-9);
+  EXPECT_TRUE(
+      trace::search_between({c.gains, known, shapes, c.candidates, 0.01, 299, 1}).found.empty());
+  EXPECT_EQ(trace::p_beside(c.gains, known, shapes.front()), 1);
+  EXPECT_LT(trace::p_beside(c.gains, MatrixXd(24, 0), shapes.front()), 1e-9);
 }
 
 TEST(SlowBetween, TheSmallestDifferenceItCouldHaveSeenIsSeenInFourOfFive) {
@@ -255,7 +262,7 @@ TEST(PathSearch, LogPIsFiniteAndFallsWhereDoublesEnd) {
 TEST(PathSearch, IsTheSameForShapesInAnotherOrderAndAnyScale) {
   Random random(3, 4);
   VectorXd response(24);
-  std::vector<PathShape> shapes;
+  std::vector<trace::PathShape> shapes;
   for (std::size_t s = 0; s < 9; ++s) {
     MatrixXd x(24, 1);
     for (double& v : x.reshaped())
@@ -265,14 +272,14 @@ TEST(PathSearch, IsTheSameForShapesInAnotherOrderAndAnyScale) {
   for (Index i = 0; i < 24; ++i)
     response(i) = 0.05 * random.normal() + 0.3 * shapes[2].columns(i) - 0.3 * shapes[7].columns(i);
   const MatrixXd known = MatrixXd::Ones(24, 1);
-  const PathResult one = search_path({response, known, shapes, 0.01, 3, 199, 1});
+  const trace::PathResult one = trace::search_path({response, known, shapes, 0.01, 3, 199, 1});
   EXPECT_EQ(one.p_value, 1.0 / 200);
   ASSERT_FALSE(one.chosen.empty());
   std::reverse(shapes.begin(), shapes.end());
-  for (PathShape& shape : shapes)
+  for (trace::PathShape& shape : shapes)
     shape.columns *= 1e6;
   const VectorXd scaled = 1e-6 * response;
-  const PathResult other = search_path({scaled, known, shapes, 0.01, 3, 199, 1});
+  const trace::PathResult other = trace::search_path({scaled, known, shapes, 0.01, 3, 199, 1});
   EXPECT_EQ(other.p_value, one.p_value);
   EXPECT_NEAR(other.critical_log_p, one.critical_log_p, 1e-9);
   ASSERT_EQ(other.chosen.size(), one.chosen.size());
@@ -292,7 +299,7 @@ TEST(TestGains, AreMeansOfLogarithmsWithTheirVariance) {
     }
     first.push_back(measured.size());
   }
-  const TestGains gains = test_gains(measured, predicted, first);
+  const trace::TestGains gains = trace::test_gains(measured, predicted, first);
   double sum = 0;
   for (std::size_t i = 0; i < 6; ++i)
     sum += std::log(measured[i] / predicted[i]) / 6;
@@ -314,7 +321,7 @@ TEST(TestGains, ScatterBetweenIsWhatTheirVarianceLeavesOver) {
       c.gains.variance(i) = i % 2 ? 0.04 : 1e-4;
       c.gains.gain(i) += std::sqrt(c.gains.variance(i)) * c.random.normal();
     }
-    sum += scatter_between(c.gains.gain, c.gains.variance, MatrixXd::Ones(40, 1)) / 20;
+    sum += trace::scatter_between(c.gains.gain, c.gains.variance, MatrixXd::Ones(40, 1)) / 20;
   }
   // A variance from 20 times 20 tests that count: 3 standard errors are 21 %, Paule and Mandel's
   // weights lose a little.

@@ -12,7 +12,7 @@ namespace frictab {
 namespace {
 
 bool reads(const std::string& text, char decimal, double& value) {
-  return scan_number(text.data(), text.data() + text.size(), decimal, value) ==
+  return io::scan_number(text.data(), text.data() + text.size(), decimal, value) ==
          text.data() + text.size();
 }
 

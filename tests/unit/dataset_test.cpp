@@ -8,6 +8,10 @@
 #include "data/dataset.h"
 
 namespace frictab {
+
+using data::Dataset;
+using data::hold_out;
+
 namespace {
 
 Dataset campaign(std::size_t experiments) {
@@ -19,7 +23,7 @@ Dataset campaign(std::size_t experiments) {
     data.experiments.push_back("E" + std::to_string(e));
     data.first_row.push_back(data.columns[0].values.size());
   }
-  fingerprint(data);
+  data::fingerprint(data);
   return data;
 }
 
@@ -32,7 +36,7 @@ TEST(DatasetTest, SubsetKeepsWholeExperiments) {
 
 TEST(DatasetTest, HoldOutSharesExperimentsWithoutOverlapAndRepeatsBySeed) {
   const Dataset data = campaign(20);
-  const Split split = hold_out(data, 0.25, 7);
+  const data::Split split = hold_out(data, 0.25, 7);
   EXPECT_EQ(split.validation.experiments.size(), 5u);
   std::set<std::string> all(split.training.experiments.begin(), split.training.experiments.end());
   all.insert(split.validation.experiments.begin(), split.validation.experiments.end());
@@ -52,11 +56,11 @@ TEST(DatasetTest, FingerprintSeesEveryValueAndName) {
   Dataset data = campaign(3);
   const auto before = data.hash;
   data.columns[0].values[1] += 1e-9;
-  fingerprint(data);
+  data::fingerprint(data);
   EXPECT_NE(data.hash, before);
   data = campaign(3);
   data.experiments[2] = "other";
-  fingerprint(data);
+  data::fingerprint(data);
   EXPECT_NE(data.hash, before);
 }
 

@@ -11,6 +11,10 @@
 #include "table/drift.h"
 
 namespace frictab {
+
+using expr::Expr;
+using expr::Program;
+
 namespace {
 
 double value_at(const Expr& formula, double x, double y) {
@@ -45,7 +49,7 @@ const char* const formulas[] = {"-x + y",
 
 TEST(Derivative, OfEveryOperationIsThatOfTheSweepAndOfDifferences) {
   for (const char* text : formulas) {
-    const Expr formula = parse_expr(text);
+    const Expr formula = expr::parse_expr(text);
     for (const auto& [x, y] : {std::pair{0.7, 1.3}, {1.9, 1.1}, {2.2, 0.9}}) {
       const double h = 1e-5;
       const double by[] = {(value_at(formula, x + h, y) - value_at(formula, x - h, y)) / (2 * h),
@@ -63,7 +67,7 @@ TEST(Derivative, OfEveryOperationIsThatOfTheSweepAndOfDifferences) {
 TEST(Derivative, AtAKinkIsTheSideThatTheSweepTakes) {
   for (const char* text : {"minimum(2*x, x + 1)", "maximum(2*x, x + 1)", "minimum(x + 1, 2*x)",
                            "where(x <= 1, 3*x, x + 2)", "where(1 <= x, 3*x, x + 2)"}) {
-    const Expr formula = parse_expr(text);
+    const Expr formula = expr::parse_expr(text);
     EXPECT_EQ(value_at(derivative(formula, "x"), 1, 0), swept_at(formula, 1, 0, 0)) << text;
   }
 }
@@ -81,14 +85,14 @@ TEST(Derivative, IsFreeOfWhatABranchNotTakenHolds) {
 }
 
 TEST(Derivative, OfWhatDoesNotDependOnTheSymbolIsTheConstantZero) {
-  const Expr formula = parse_expr("minimum(y, 3)*exp(y)/sqrt(y) - y**y");
+  const Expr formula = expr::parse_expr("minimum(y, 3)*exp(y)/sqrt(y) - y**y");
   EXPECT_TRUE(derivative(formula, "x").is_constant(0));
 }
 
 // The two of every law: its piece and what makes tau_R of it, under the shear limit.
 TEST(Derivative, OfEveryLawIsThatOfTheSweep) {
-  for (const Law& law : all_laws()) {
-    const AssembledLaw assembled(test::plausible_model(law));
+  for (const models::Law& law : models::all_laws()) {
+    const models::AssembledLaw assembled(test::plausible_model(law));
     const Expr& tau = assembled.tau_R;
     const std::vector<std::string>& states = assembled.inputs;
     const Program program(tau, states, assembled.parameters);
@@ -112,7 +116,7 @@ TEST(Derivative, OfEveryLawIsThatOfTheSweep) {
 TEST(SeveralFormulas, ComputeWhatTheyShareOnce) {
   const Expr x = Expr::symbol("x");
   const std::vector<Expr> several = {exp(x) * 2.0, exp(Expr::symbol("x")) + x, 3.0, exp(x) * 2.0};
-  const SeveralStatements code = to_statements(several, Language::c);
+  const expr::SeveralStatements code = to_statements(several, expr::Language::c);
   EXPECT_EQ(code.lines, (std::vector<std::string>{"t1 = exp(x)", "t2 = t1*2.0", "t3 = t1 + x"}));
   EXPECT_EQ(code.results, (std::vector<std::string>{"t2", "t3", "3.0", "t2"}));
   EXPECT_EQ(code.first_lines, (std::vector<std::size_t>{2, 3, 3, 3}));

@@ -6,6 +6,9 @@
 #include "data/derived.h"
 
 namespace frictab {
+
+using data::Dataset;
+
 namespace {
 
 // Two experiments of the same rows.
@@ -25,7 +28,7 @@ Dataset twice(const std::vector<std::pair<std::string, std::vector<double>>>& co
 // Of the first experiment; the second one starts anew.
 std::vector<double> derived(const char* name, const Dataset& data,
                             const std::vector<double>& tau = {}) {
-  const std::vector<double> all = derive(*find_derived(name), data, tau);
+  const std::vector<double> all = data::derive(*data::find_derived(name), data, tau);
   const auto half = static_cast<long>(all.size() / 2);
   EXPECT_EQ(std::vector<double>(all.begin() + half, all.end()),
             std::vector<double>(all.begin(), all.begin() + half));
@@ -64,8 +67,8 @@ TEST(Derived, FlashHeatingGrowsWithTheRootOfTheSpeed) {
 }
 
 TEST(Derived, QuantitiesWithoutAContinuationAreThoseOfAnExperiment) {
-  for (const DerivedQuantity& quantity : derived_quantities()) {
-    const bool none = quantity.continuation.rule == Continuation::none;
+  for (const data::DerivedQuantity& quantity : data::derived_quantities()) {
+    const bool none = quantity.continuation.rule == data::Continuation::none;
     const bool expected = quantity.name == "test_order" || quantity.name == "expansion_work" ||
                           quantity.name == "temperature_above_tool";
     EXPECT_EQ(none, expected) << quantity.name;

@@ -14,6 +14,11 @@
 #include "trace/trace_text.h"
 
 namespace frictab {
+
+using data::Dataset;
+using trace::settings_of;
+using trace::trace_text;
+
 namespace {
 
 using testing::ElementsAre;
@@ -77,7 +82,7 @@ TEST(CandidateTests, WhatFollowsFromOthersIsSetThroughThem) {
   const Dataset data = campaign_of(three_tests());
   const auto names = [&](const char* column) {
     std::vector<std::string> found;
-    for (const Setting& setting : settings_of(data, {column}))
+    for (const trace::Setting& setting : settings_of(data, {column}))
       found.push_back(setting.column);
     return found;
   };
@@ -95,8 +100,8 @@ TEST(CandidateTests, WhatNeverDifferedCannotBeSet) {
 
 TEST(CandidateTests, StatesKeepTheirShapeAndWhatDependsOnThemFollows) {
   const Dataset data = campaign_of(three_tests());
-  const CandidateTests made =
-      candidate_tests(data, settings_of(data, {"v_rel_mm_s", "sigma_n_MPa", "T_tool_C"}));
+  const trace::CandidateTests made =
+      trace::candidate_tests(data, settings_of(data, {"v_rel_mm_s", "sigma_n_MPa", "T_tool_C"}));
   EXPECT_EQ(made.like, "T01") << "the one in the middle";
   EXPECT_EQ(made.data.experiments.size(), 27u);
   for (std::size_t e = 0; e < made.at.size(); ++e) {
@@ -113,14 +118,15 @@ TEST(CandidateTests, StatesKeepTheirShapeAndWhatDependsOnThemFollows) {
 // --- what is advised
 // ------------------------------------------------------------------------------
 
-Trace traced(const Dataset& training, const Dataset& validation) {
-  ModelOptions models;
+trace::Trace traced(const Dataset& training, const Dataset& validation) {
+  calibrate::ModelOptions models;
   models.use = {"coulomb"};
   models.shear_limit = false;
-  CalibrationOptions calibration;
+  calibrate::CalibrationOptions calibration;
   calibration.bootstrap = 100;
-  const Calibration calibrated = calibrate({training, validation, models, calibration});
-  return trace({training, validation, calibrated.fits.front(), {}, 100, 1});
+  const calibrate::Calibration calibrated =
+      calibrate::calibrate({training, validation, models, calibration});
+  return trace::trace({training, validation, calibrated.fits.front(), {}, 100, 1});
 }
 
 // Friction follows the film; the humidity went with it in all tests but for a little.
@@ -148,9 +154,9 @@ Dataset confounded(std::size_t count, std::uint64_t seed) {
 }
 
 TEST(Design, TwoColumnsThatWentTogetherAreSetAgainstEachOther) {
-  const Trace t = traced(confounded(24, 3), confounded(12, 77));
+  const trace::Trace t = traced(confounded(24, 3), confounded(12, 77));
   ASSERT_EQ(t.effects.size(), 1u) << trace_text(t);
-  const Design& design = t.effects.front().design;
+  const trace::Design& design = t.effects.front().design;
   ASSERT_GE(design.tests.size(), 3u) << trace_text(t);
   EXPECT_LE(design.tests.size(), 6u);
   EXPECT_GT(design.probability, 0.8);
@@ -185,9 +191,9 @@ TEST(Design, AVelocityStepIsALeadWithItsChangePerEFold) {
                                     (1 + 0.0005 * random.normal());
     }
   }
-  const Trace t = traced(data, data);
+  const trace::Trace t = traced(data, data);
   EXPECT_TRUE(t.effects.empty()) << "two tests prove nothing";
-  const auto speed = std::find_if(t.leads.begin(), t.leads.end(), [](const Lead& lead) {
+  const auto speed = std::find_if(t.leads.begin(), t.leads.end(), [](const trace::Lead& lead) {
     return lead.columns == std::vector<std::string>{"v_rel_mm_s"};
   });
   ASSERT_NE(speed, t.leads.end()) << trace_text(t);

@@ -11,6 +11,14 @@
 #include "expr/taylor_model.h"
 
 namespace frictab {
+
+using expr::Bounds;
+using expr::Expr;
+using expr::Monomials;
+using expr::Op;
+using expr::parse_expr;
+using expr::TaylorProgram;
+
 namespace {
 
 const std::vector<std::string> xy{"x", "y"};
@@ -33,7 +41,7 @@ const char* const formulas[] = {
 };
 
 double value(const Expr& formula, double x, double y) {
-  return Program(formula, xy, {})(std::vector<double>{x, y}, {});
+  return expr::Program(formula, xy, {})(std::vector<double>{x, y}, {});
 }
 
 struct Box {
@@ -88,7 +96,7 @@ TEST_P(SlowEncloseFormula, TaylorModelsHoldEveryValueInTheBox) {
 TEST_P(SlowEncloseFormula, BoundsAndSlopesHoldBetweenAnyTwoValues) {
   const Expr formula = parse_expr(GetParam());
   if (formula.op() == Op::where_le) return; // it jumps, and says so: below
-  const Sensitivity sensitivity(formula, xy, "x");
+  const expr::Sensitivity sensitivity(formula, xy, "x");
   Random random(6);
   for (int i = 0; i < 300; ++i) {
     const Box box = random_box(random);
@@ -140,7 +148,7 @@ TEST(Enclosure, WhatHasNoBoundSaysSo) {
   const TaylorProgram program(parse_expr("where(y <= 3, y, log(x))"), xy, monomials);
   TaylorProgram::Work work(program);
   EXPECT_LT(program(box, work, c), 1e-12);
-  const Sensitivity jumps(parse_expr("where(x <= 0, 0, 1)"), xy, "x");
+  const expr::Sensitivity jumps(parse_expr("where(x <= 0, 0, 1)"), xy, "x");
   EXPECT_TRUE(std::isinf(jumps(box).slope.magnitude()));
 }
 
@@ -165,7 +173,7 @@ TEST(Enclosure, ChebyshevFitsStayWithinTheirError) {
                                                                              : random.uniform(2, 6);
       const double radius = random.uniform(0, 0.9);
       double c[6];
-      const double error = chebyshev_fit(op, centre, radius, c);
+      const double error = expr::chebyshev_fit(op, centre, radius, c);
       for (int k = 0; k <= 50; ++k) {
         const double y = -1 + k / 25.0, x = centre + radius * y;
         const double truth = op == Op::exp    ? std::exp(x)

@@ -7,10 +7,16 @@
 #include "expr/program.h"
 
 namespace frictab {
+
+using expr::BoundProgram;
+using expr::Expr;
+using expr::parse_expr;
+using expr::to_text;
+
 namespace {
 
 double at(const std::string& text, double x, double y = 0) {
-  const Program program(parse_expr(text), {"x", "y"}, {});
+  const expr::Program program(parse_expr(text), {"x", "y"}, {});
   const std::vector<double> row{x, y};
   return program(row, {});
 }
@@ -76,7 +82,7 @@ TEST(Expr, NaNGoesThroughMinimumMaximumAndWhere) {
 
 TEST(Program, SweepGivesTheSameBitsAsSingleRows) {
   const Expr formula = parse_expr("minimum(a*exp(-x/b), c)*where(y <= 1, y, log(y) + 1)");
-  const Program program(formula, {"x", "y"}, {"a", "b", "c"});
+  const expr::Program program(formula, {"x", "y"}, {"a", "b", "c"});
   std::vector<double> x, y;
   for (int i = 0; i < 1000; ++i) {
     x.push_back(0.01 * i);
@@ -116,7 +122,7 @@ TEST(Program, DerivativesOfEveryOperationAgreeWithCentralDifferences) {
   const std::vector<double> x{0.3, 0.7, 1.4, 2.1};
   const std::vector<const double*> columns{x.data()};
   for (const char* text : formulas) {
-    const Program program(parse_expr(text), {"x"}, {"a", "b"});
+    const expr::Program program(parse_expr(text), {"x"}, {"a", "b"});
     const BoundProgram bound(program, x.size(), columns);
     const std::vector<double> p{0.8, 1.3};
     bound.sweep(p, true, [&](const BoundProgram::Block& block) {
@@ -136,10 +142,11 @@ TEST(Program, DerivativesOfEveryOperationAgreeWithCentralDifferences) {
 TEST(Expr, StatementsShareSubformulas) {
   const Expr x = Expr::symbol("x");
   const Expr shared = exp(x);
-  const Statements c = to_statements(shared * shared + 1.0, Language::c);
+  const expr::Statements c = to_statements(shared * shared + 1.0, expr::Language::c);
   EXPECT_EQ(c.lines, (std::vector<std::string>{"t1 = exp(x)", "t2 = t1*t1", "t3 = t2 + 1.0"}));
   EXPECT_EQ(c.result, "t3");
-  const Statements f = to_statements(pow(x, 0.5) * 1e-7, Language::fortran, {{"x", "p"}}, "w");
+  const expr::Statements f =
+      to_statements(pow(x, 0.5) * 1e-7, expr::Language::fortran, {{"x", "p"}}, "w");
   EXPECT_EQ(f.lines, (std::vector<std::string>{"w1 = p**0.5D0", "w2 = w1*9.9999999999999995D-08"}));
 }
 

@@ -9,6 +9,14 @@
 #include "expr/program.h"
 
 namespace frictab {
+
+using effects::ActsOn;
+using effects::extended_law;
+using effects::PlacedEffect;
+using effects::symbol_of;
+using models::find_law;
+using models::Law;
+
 namespace {
 
 const std::vector<std::string> states = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
@@ -16,24 +24,24 @@ const std::vector<std::string> states = {"sigma_n_MPa", "psi",  "v_rel_mm_s",
 
 PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
   PlacedEffect effect;
-  effect.form = find_effect(form);
+  effect.form = effects::find_effect(form);
   effect.acts_on = acts_on;
-  const std::vector<EffectInput> numbers = {
+  const std::vector<effects::EffectInput> numbers = {
       {"humidity_pct", {}, 30, 60}, {"Ra_um", {}, 0.1, 0.5}, {"film_um", {}, 1, 9}};
-  const std::vector<Spread> spreads = {
+  const std::vector<effects::Spread> spreads = {
       {30, 35, 45, 55, 60}, {0.1, 0.2, 0.3, 0.4, 0.5}, {1, 2, 5, 8, 9}};
   if (effect.form->categorical) effect.inputs = {{"tool", {"A", "B", "C"}}};
   for (std::size_t i = 0; effect.inputs.size() < effect.form->columns; ++i)
     effect.inputs.push_back(numbers[i]);
   std::vector<std::vector<double>> values;
-  for (const EffectInput& input : effect.inputs)
+  for (const effects::EffectInput& input : effect.inputs)
     values.push_back({input.low, 0.5 * (input.low + input.high), input.high});
-  set_knots(effect, {values.begin(), values.end()});
+  effects::set_knots(effect, {values.begin(), values.end()});
   if (effect.form->parameters_of)
-    for (std::size_t p = parameters_of(effect).size(); p > 0; --p)
+    for (std::size_t p = effects::parameters_of(effect).size(); p > 0; --p)
       effect.parameters.push_back((static_cast<double>(effect.parameters.size()) + 1) * amplitude);
   else {
-    effect.parameters = start_values(*effect.form, spreads);
+    effect.parameters = effects::start_values(*effect.form, spreads);
     effect.parameters[0] = amplitude;
   }
   effect.tau_scale_MPa = 100;
@@ -42,14 +50,14 @@ PlacedEffect effect(const char* form, ActsOn acts_on, double amplitude) {
 
 std::vector<double> starts_of(const Law& law) {
   std::vector<double> starts;
-  for (const Parameter& p : law.parameters)
+  for (const models::Parameter& p : law.parameters)
     starts.push_back(p.start);
   return starts;
 }
 
 // tau_R at one state; `column` is the effect's first column.
 double tau(const Law& law, double sigma, double column, double second = 0.25) {
-  const auto names = inputs(law, {});
+  const auto names = models::inputs(law, {});
   std::vector<double> row;
   for (const std::string& name : names)
     row.push_back(name == "sigma_n_MPa"                      ? sigma
@@ -60,19 +68,20 @@ double tau(const Law& law, double sigma, double column, double second = 0.25) {
                   : name == "sigma_f_MPa"                    ? 400
                   : name == "humidity_pct" || name == "tool" ? column
                                                              : second);
-  return Program(tau_formula(law, {}), names, parameter_names(law))(row, starts_of(law));
+  return expr::Program(models::tau_formula(law, {}), names,
+                       models::parameter_names(law))(row, starts_of(law));
 }
 
 TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
-  for (const Law& law : all_laws())
-    for (const EffectForm& form : all_effects())
+  for (const Law& law : models::all_laws())
+    for (const effects::EffectForm& form : effects::all_effects())
       for (const ActsOn place : {ActsOn::mu, ActsOn::m, ActsOn::mu_m, ActsOn::tau}) {
         const PlacedEffect neutral[] = {effect(form.name.c_str(), place, 0)};
         const Law extended = extended_law(law, {}, starts_of(law), neutral, "extended");
         for (const double sigma : {0.0, 300.0, 900.0, 2700.0})
           for (const double column : {0.0, 1.0, 37.3, 90.0})
             EXPECT_EQ(tau(extended, sigma, column), tau(law, sigma, column))
-                << law.name << ' ' << form.name << ' ' << acts_on_name(place);
+                << law.name << ' ' << form.name << ' ' << effects::acts_on_name(place);
       }
 }
 
@@ -80,7 +89,7 @@ TEST(ExtendedLaw, AnEffectWithoutAllItsParametersIsRefused) {
   for (const char* form : {"hinge", "category"}) {
     PlacedEffect short_one = effect(form, ActsOn::mu, 0.1);
     short_one.parameters.pop_back();
-    EXPECT_THROW(factor_of(short_one, "e_"), std::logic_error) << form;
+    EXPECT_THROW(effects::factor_of(short_one, "e_"), std::logic_error) << form;
   }
 }
 
@@ -128,13 +137,14 @@ TEST(ExtendedLaw, AnAddedEffectFadesWithThePressure) {
     EXPECT_NEAR(added(200), 25, 1e-10) << name;
     EXPECT_NEAR(added(50), 6.25, 1e-10) << name;
     EXPECT_EQ(added(0), 0) << name;
-    EXPECT_EQ(formula_text(half[0]), "tau_R + 100 MPa min(1, sigma_n_MPa/200) (a (x - x0)/w)");
+    EXPECT_EQ(effects::formula_text(half[0]),
+              "tau_R + 100 MPa min(1, sigma_n_MPa/200) (a (x - x0)/w)");
   }
 }
 
 TEST(ExtendedLaw, HoldsAnEffectAtTheEndsOfWhereItWasLearned) {
   const Law& coulomb = *find_law("coulomb");
-  for (const EffectForm& form : all_effects()) {
+  for (const effects::EffectForm& form : effects::all_effects()) {
     if (form.categorical) continue;
     const PlacedEffect some[] = {effect(form.name.c_str(), ActsOn::mu, 0.3)};
     const Law extended = extended_law(coulomb, {}, starts_of(coulomb), some, "extended");
@@ -158,9 +168,9 @@ TEST(ExtendedLaw, ListsFittedParametersOfEveryEffectBehindTheLawsOwn) {
   const PlacedEffect two[] = {effect("saturation", ActsOn::mu, 0.1),
                               effect("hinge", ActsOn::m, 0.2)};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), two, "extended");
-  EXPECT_EQ(parameter_names(extended),
+  EXPECT_EQ(models::parameter_names(extended),
             (std::vector<std::string>{"mu", "e1_a", "e1_x0", "e2_a", "e2_x0", "m_limit"}));
-  EXPECT_EQ(inputs(extended, {}),
+  EXPECT_EQ(models::inputs(extended, {}),
             (std::vector<std::string>{"sigma_n_MPa", "sigma_f_MPa", "humidity_pct"}));
 }
 
@@ -176,14 +186,14 @@ TEST(ExtendedLaw, ParametersHaveTheUnitsOfTheColumnsTheyAreValuesOf) {
   const PlacedEffect all[] = {sliding, work, pair, humid};
   const Law extended = extended_law(coulomb, {}, starts_of(coulomb), all, "extended");
   std::map<std::string, std::string> unit;
-  for (const Parameter& parameter : extended.parameters)
+  for (const models::Parameter& parameter : extended.parameters)
     unit[parameter.name] = parameter.unit;
   EXPECT_EQ(unit.at("e1_a"), "1");
   EXPECT_EQ(unit.at("e1_x0"), "mm");
-  EXPECT_EQ(unit.at("e2_x0"), find_derived("friction_work")->unit);
-  EXPECT_EQ(unit.at("e2_w"), find_derived("friction_work")->unit);
+  EXPECT_EQ(unit.at("e2_x0"), data::find_derived("friction_work")->unit);
+  EXPECT_EQ(unit.at("e2_w"), data::find_derived("friction_work")->unit);
   EXPECT_EQ(unit.at("e3_x0"), "mm/s");
-  EXPECT_EQ(unit.at("e3_t0"), find_quantity("T_contact_C")->unit);
+  EXPECT_EQ(unit.at("e3_t0"), data::find_quantity("T_contact_C")->unit);
   EXPECT_EQ(unit.at("e4_x0"), "") << "of a recorded column nobody says the unit";
 }
 

@@ -13,13 +13,17 @@
 
 namespace frictab {
 
+using codegen::fortran_number;
+using codegen::solver_unit;
+using codegen::typical_value;
+
 namespace {
 
 TEST(Fill, NumbersReadBackToTheSameBitsInBothLanguages) {
   Random random(9);
   for (int i = 0; i < 20000; ++i) {
     const double x = random.normal() * std::pow(10.0, random.uniform(-300, 300));
-    EXPECT_EQ(std::strtod(c_number(x).c_str(), nullptr), x);
+    EXPECT_EQ(std::strtod(codegen::c_number(x).c_str(), nullptr), x);
     std::string fortran = fortran_number(x);
     ASSERT_THAT(fortran, testing::MatchesRegex("-?[0-9]+\\.[0-9]*D-?[0-9]+|-?[0-9]+\\.[0-9]*D0"));
     fortran[fortran.find('D')] = 'e';
@@ -28,8 +32,8 @@ TEST(Fill, NumbersReadBackToTheSameBitsInBothLanguages) {
 }
 
 TEST(Fill, NumbersAreOfDoubleType) {
-  EXPECT_EQ(c_number(1), "1.0");
-  EXPECT_EQ(c_number(-1e300), "-1e+300");
+  EXPECT_EQ(codegen::c_number(1), "1.0");
+  EXPECT_EQ(codegen::c_number(-1e300), "-1e+300");
   EXPECT_EQ(fortran_number(1), "1.0D0");
   EXPECT_EQ(fortran_number(0.5), "0.5D0");
   EXPECT_EQ(fortran_number(1e300), "1.0D300");
@@ -40,7 +44,7 @@ TEST(Fill, FixedFormStaysInItsColumnsAndKeepsTheStatement) {
   std::string statement = "t1 = a";
   for (int i = 0; i < 40; ++i)
     statement += " + ftmin(x(" + std::to_string(i) + "), 1.0D0)";
-  std::istringstream lines(fixed_form(statement));
+  std::istringstream lines(codegen::fixed_form(statement));
   std::string joined;
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line); ++count) {
@@ -53,15 +57,15 @@ TEST(Fill, FixedFormStaysInItsColumnsAndKeepsTheStatement) {
     return text;
   };
   EXPECT_EQ(dense(joined), dense(statement));
-  EXPECT_THROW(fixed_form(std::string(66 * 20 + 1, 'x')), std::logic_error);
-  EXPECT_NO_THROW(fixed_form(std::string(66 * 20, 'x')));
+  EXPECT_THROW(codegen::fixed_form(std::string(66 * 20 + 1, 'x')), std::logic_error);
+  EXPECT_NO_THROW(codegen::fixed_form(std::string(66 * 20, 'x')));
 }
 
 TEST(Fill, DataStatementsHoldEveryNumberOnce) {
   std::vector<double> values;
   for (int i = 0; i < 1000; ++i)
     values.push_back(i % 3 ? i : -i / 7.0);
-  const std::string text = fixed_form_data("tv", values);
+  const std::string text = codegen::fixed_form_data("tv", values);
   std::size_t commas = 0, slashes = 0, continued = 0;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -93,7 +97,7 @@ TEST(Fill, UnitsConvertByOneOperation) {
 }
 
 TEST(Fill, TypicalValueIsTheMiddleOfTheRange) {
-  Table table = test::four_axis_table();
+  table::Table table = test::four_axis_table();
   EXPECT_DOUBLE_EQ(typical_value(table, "sigma_f_MPa").value(), 480);
   EXPECT_EQ(typical_value(table, "T_contact_C"), 110);
   EXPECT_DOUBLE_EQ(typical_value(table, "psi").value(), std::sqrt(20.0));

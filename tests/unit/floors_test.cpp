@@ -1,5 +1,5 @@
 // The folders of the house stand on each other in one order: what a file includes lies on its own
-// floor or below.
+// floor or below. Each is a namespace, so that no name means two things.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -57,6 +57,34 @@ std::vector<std::string> includes_from_above() {
 
 TEST(Floors, NothingIncludesWhatStandsAboveIt) {
   EXPECT_EQ(fmt::format("{}", fmt::join(includes_from_above(), "\n")), "");
+}
+
+// "src/data/load.h:12: opens namespace frictab, not frictab::data"
+std::vector<std::string> foreign_namespaces() {
+  const fs::path source = FRICTAB_SOURCE_DIR;
+  const std::regex opening("namespace (frictab[^ ]*) \\{");
+  std::vector<std::string> faults;
+  for (const auto& entry : fs::recursive_directory_iterator(source / "src")) {
+    const fs::path inside = fs::relative(entry.path(), source / "src");
+    if (!inside.has_parent_path()) continue; // main.cpp and folders
+    const std::string folder = inside.begin()->string();
+    const std::string own = folder == "core" ? "frictab" : "frictab::" + folder;
+    std::ifstream in(entry.path());
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+      std::smatch match;
+      if (std::regex_match(line, match, opening) && match[1] != own &&
+          !match[1].str().starts_with(own + "::"))
+        faults.push_back(fmt::format("src/{}:{}: opens namespace {}, not {}", inside.string(),
+                                     number, match[1].str(), own));
+    }
+  }
+  std::sort(faults.begin(), faults.end());
+  return faults;
+}
+
+TEST(Floors, EveryFolderIsANamespace) {
+  EXPECT_EQ(fmt::format("{}", fmt::join(foreign_namespaces(), "\n")), "");
 }
 
 TEST(Floors, EveryFolderOfSrcIsOneOfThem) {

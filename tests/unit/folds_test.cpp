@@ -7,6 +7,10 @@
 #include "core/error.h"
 
 namespace frictab {
+
+using calibrate::experiment_folds;
+using data::Dataset;
+
 namespace {
 
 Dataset campaign(std::size_t experiments, std::size_t rows) {
@@ -70,7 +74,7 @@ TEST(Folds, PartsMadeFromThemShareNoExperiment) {
 TEST(Folds, HoldOutSharesNoExperimentBetweenItsParts) {
   const Dataset data = campaign(23, 4);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Split split = hold_out(data, 0.3, seed);
+    const data::Split split = data::hold_out(data, 0.3, seed);
     EXPECT_TRUE(in_both(split.training, split.validation).empty());
   }
 }
@@ -78,14 +82,14 @@ TEST(Folds, HoldOutSharesNoExperimentBetweenItsParts) {
 TEST(Folds, EqualRowsInTwoFilesAreToldAndEqualNamesAreNot) {
   const Dataset training = campaign(6, 10);
   Dataset validation = campaign(4, 10); // the first four of the six
-  EXPECT_EQ(leak_note(training, validation),
+  EXPECT_EQ(calibrate::leak_note(training, validation),
             "4 of 4 validation experiments have the rows of a training experiment: errors on them "
             "are not errors of prediction");
   for (double& x : validation.columns[0].values)
     x += 1000; // another rig that also counts from E0
-  EXPECT_EQ(leak_note(training, validation), "");
+  EXPECT_EQ(calibrate::leak_note(training, validation), "");
   validation.columns[0].values[25] = 205; // one row alone is chance
-  EXPECT_EQ(leak_note(training, validation), "");
+  EXPECT_EQ(calibrate::leak_note(training, validation), "");
 }
 
 } // namespace

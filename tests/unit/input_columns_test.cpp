@@ -11,6 +11,12 @@
 #include "support/traced_law.h"
 
 namespace frictab {
+
+using calibrate::predict;
+using data::Column;
+using data::Dataset;
+using models::Model;
+
 namespace {
 
 std::string refusal(const std::function<void()>& body) {
@@ -31,7 +37,7 @@ TEST(InputColumns, AreRecordedOnesWhateverCharactersTheirNamesHave) {
   const Model model = test::traced_model({"humidity"});
   Dataset data = test::traced_data(model);
   column(data, "humidity_pct").name = "humidity pct";
-  const InputColumns columns(*model.law, {"psi", "humidity_pct"}, data);
+  const calibrate::InputColumns columns(*model.law, {"psi", "humidity_pct"}, data);
   EXPECT_EQ(columns.pointers()[0], data.values("psi").data()) << "not copied";
   EXPECT_EQ(columns.pointers()[1], data.values("humidity pct").data());
   EXPECT_EQ(predict(model, data).size(), data.rows());
@@ -51,7 +57,7 @@ TEST(InputColumns, ThatAreMissingAreNamedTogetherWithWhatTheyAreMadeFrom) {
 TEST(InputColumns, OfTestOrderNeedTheOrderOfTests) {
   const Model model = test::traced_model({});
   const Dataset data = test::traced_data(model);
-  EXPECT_EQ(missing_inputs({"test_order", "psi"}, data),
+  EXPECT_EQ(calibrate::missing_inputs({"test_order", "psi"}, data),
             (std::vector<std::string>{"test_order (from run_order)"}));
 }
 
@@ -91,10 +97,10 @@ TEST(InputColumns, RefuseLevelsTheLawDoesNotKnowAndNumbersForText) {
 TEST(InputColumns, FollowTheLawsOwnStressUntilNothingChanges) {
   const Model model = test::traced_model({"work", "peak"});
   Dataset data = test::traced_data(model);
-  const Predicted found =
-      predict_with_columns(AssembledLaw(model), inputs(*model.law, model.conventions), data);
-  const auto work = derive(*find_derived("friction_work"), data, found.tau_MPa);
-  const auto peak = derive(*find_derived("peak_sigma_n"), data, {});
+  const calibrate::Predicted found = calibrate::predict_with_columns(
+      models::AssembledLaw(model), models::inputs(*model.law, model.conventions), data);
+  const auto work = data::derive(*data::find_derived("friction_work"), data, found.tau_MPa);
+  const auto peak = data::derive(*data::find_derived("peak_sigma_n"), data, {});
   const auto& names = found.columns.names();
   for (std::size_t c = 0; c < names.size(); ++c)
     for (std::size_t i = 0; i < data.rows(); ++i) {
@@ -122,14 +128,15 @@ TEST(InputColumns, TakeAHistoryForWhatItIsWhateverIsRecordedUnderItsName) {
 
 // d work/d s = p mu (1 + a work/w): work = (exp(p mu a s/w) - 1) w/a.
 TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
-  PlacedEffect effect = test::traced_effect("work");
-  effect.form = find_effect("linear");
+  effects::PlacedEffect effect = test::traced_effect("work");
+  effect.form = effects::find_effect("linear");
   effect.parameters = {0.4, 0, 1000};
-  const PlacedEffect effects[] = {effect};
+  const effects::PlacedEffect effects[] = {effect};
   const double mu[] = {0.08};
-  const Law& coulomb = *find_law("coulomb");
+  const models::Law& coulomb = *models::find_law("coulomb");
   Model model;
-  model.law = unregistered_law(extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
+  model.law =
+      models::unregistered_law(effects::extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
   model.parameters = {0.08, 0.4};
   Dataset data;
   data.experiments = {"one"};

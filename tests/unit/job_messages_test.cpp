@@ -8,7 +8,7 @@ namespace {
 
 std::string message(const std::string& text, const std::vector<std::string>& set = {}) {
   try {
-    parse_job(text, "job.toml", set);
+    job::parse_job(text, "job.toml", set);
   } catch (const InputError& error) {
     return error.what();
   }

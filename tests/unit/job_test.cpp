@@ -6,6 +6,12 @@
 #include "support/run_command.h"
 
 namespace frictab {
+
+using job::Job;
+using job::key_rules;
+using job::KeyRule;
+using job::parse_job;
+
 namespace {
 
 using testing::ElementsAre;
@@ -89,14 +95,14 @@ TEST(Job, AcceptsEveryKeyOfTheContract) {
   EXPECT_EQ(job.data.drop[0].below, 0.1);
   EXPECT_FALSE(job.data.drop[0].above);
   EXPECT_EQ(job.data.drop[0].place.line, 8u);
-  const ColumnSource& stress = job.data.columns.at("sigma_n_MPa");
+  const data::ColumnSource& stress = job.data.columns.at("sigma_n_MPa");
   EXPECT_THAT(stress.names, ElementsAre("Normal stress"));
   EXPECT_EQ(stress.unit, "Pa");
   EXPECT_EQ(stress.place.line, 10u);
   EXPECT_EQ(job.data.columns.at("tau_R_MPa").times, "sigma_n_MPa");
   EXPECT_EQ(job.data.constants.at("sigma_f_MPa"), 480.0);
   EXPECT_THAT(job.models.use, ElementsAre("coulomb", "orowan"));
-  const AxisOptions& axis = job.table.axes.at("v_rel_mm_s");
+  const table::AxisOptions& axis = job.table.axes.at("v_rel_mm_s");
   EXPECT_EQ(axis.range, std::pair(5.0, 500.0));
   EXPECT_EQ(axis.nodes, 17u);
   EXPECT_EQ(axis.spacing, "log");
@@ -164,7 +170,7 @@ repeatability = 0.03
   EXPECT_EQ(job.data.columns.at("sigma_n_MPa").area_mm2, 78.5);
   EXPECT_TRUE(job.models.use.empty());
   EXPECT_FALSE(job.models.shear_limit);
-  EXPECT_EQ(job.calibration.loss, Loss::huber);
+  EXPECT_EQ(job.calibration.loss, calibrate::Loss::huber);
   EXPECT_EQ(job.calibration.huber_delta_MPa, 5.0);
   EXPECT_EQ(job.calibration.bootstrap, 0u);
   EXPECT_EQ(job.calibration.condition_on_mm, 1.5);
@@ -215,7 +221,7 @@ TEST(Job, TakesOverridesAfterTheFile) {
   EXPECT_EQ(job.table.tolerance_MPa, 0.1);
   EXPECT_THAT(job.table.model, ElementsAre("orowan"));
   EXPECT_THAT(job.models.use, ElementsAre("orowan", "coulomb"));
-  EXPECT_EQ(job.calibration.loss, Loss::l1);
+  EXPECT_EQ(job.calibration.loss, calibrate::Loss::l1);
   EXPECT_THAT(job.data.columns.at("psi").names, ElementsAre("Surface ratio"));
   EXPECT_THAT(job.data.validation, ElementsAre("v.csv"));
   EXPECT_EQ(job.table.axes.at("psi").range, std::pair(1.0, 20.0));
@@ -256,7 +262,7 @@ TEST(Job, RefusesWhatIsNoJobFile) {
   const test::TemporaryDirectory directory;
   const auto message = [](const std::string& file) -> std::string {
     try {
-      read_job(file);
+      job::read_job(file);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -286,7 +292,7 @@ TEST(Job, SurvivesKeysNestedTooDeep) {
 TEST(JobTemplate, IsAJobWithEveryDefault) {
   Job expected;
   expected.data.training = {"training.csv"};
-  EXPECT_EQ(shown(parse_job(job_template(), "job.toml")), shown(expected));
+  EXPECT_EQ(shown(parse_job(job::job_template(), "job.toml")), shown(expected));
 }
 
 // Lines that start with # and no blank are keys.
@@ -301,7 +307,7 @@ std::string uncommented(const std::string& text) {
 }
 
 TEST(JobTemplate, StaysAJobWithEveryKeyUncommented) {
-  const Job job = parse_job(uncommented(job_template()), "job.toml");
+  const Job job = parse_job(uncommented(job::job_template()), "job.toml");
   EXPECT_THAT(job.data.validation, ElementsAre("validation.csv"));
   EXPECT_EQ(job.data.columns.size(), 2u);
   EXPECT_EQ(job.table.axes.at("v_rel_mm_s").nodes, 17u);
@@ -309,7 +315,7 @@ TEST(JobTemplate, StaysAJobWithEveryKeyUncommented) {
 }
 
 TEST(JobTemplate, NamesEveryKey) {
-  const std::string text = job_template();
+  const std::string text = job::job_template();
   for (const KeyRule& rule : key_rules()) {
     if (rule.path.ends_with("*")) continue;
     const std::string leaf = rule.path.substr(rule.path.rfind('.') + 1);
@@ -324,11 +330,11 @@ TEST(JobTemplate, NamesEveryKey) {
 TEST(JobSchema, GivesEveryKeyAMeaningAndADefaultOrWhatItsAbsenceMeans) {
   for (const KeyRule& rule : key_rules()) {
     EXPECT_FALSE(rule.meaning.empty()) << rule.path;
-    EXPECT_FALSE(expected(rule).empty()) << rule.path;
-    const bool has_default = !default_text(rule).empty();
+    EXPECT_FALSE(job::expected(rule).empty()) << rule.path;
+    const bool has_default = !job::default_text(rule).empty();
     EXPECT_NE(has_default, !rule.absent.empty()) << rule.path;
     EXPECT_NE(has_default, !rule.example.empty()) << rule.path;
-    EXPECT_TRUE(find_section(rule.path.substr(0, rule.path.rfind('.')))) << rule.path;
+    EXPECT_TRUE(job::find_section(rule.path.substr(0, rule.path.rfind('.')))) << rule.path;
   }
 }
 
@@ -336,7 +342,7 @@ TEST(JobSchema, GivesEveryKeyAMeaningAndADefaultOrWhatItsAbsenceMeans) {
 TEST(JobSchema, ReadsBackEveryDefaultItShows) {
   const std::string normal = shown(parse_job(minimal, "job.toml"));
   for (const KeyRule& rule : key_rules()) {
-    const std::string text = default_text(rule);
+    const std::string text = job::default_text(rule);
     if (text.empty()) continue;
     EXPECT_EQ(shown(parse_job(minimal, "job.toml", {rule.path + "=" + text})), normal) << rule.path;
   }

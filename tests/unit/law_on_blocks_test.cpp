@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const Blocks blocks = test::blocks_of({20, 20, 20, 20});
+const trace::Blocks blocks = test::blocks_of({20, 20, 20, 20});
 
 // Along each experiment.
 VectorXd between(double first, double last) {
@@ -19,14 +19,14 @@ VectorXd between(double first, double last) {
 }
 
 // tau_R = mu (1 + a (s - 0)/5) sigma_n
-Law falling_along_the_way() {
-  PlacedEffect effect;
-  effect.form = find_effect("linear");
-  effect.acts_on = ActsOn::mu;
+models::Law falling_along_the_way() {
+  effects::PlacedEffect effect;
+  effect.form = effects::find_effect("linear");
+  effect.acts_on = effects::ActsOn::mu;
   effect.inputs = {{"s_mm", {}, 0, 5}};
   effect.parameters = {0, 0, 5};
   const double mu[] = {0.1};
-  return extended_law(*find_law("coulomb"), {}, mu, {&effect, 1}, "falling");
+  return effects::extended_law(*models::find_law("coulomb"), {}, mu, {&effect, 1}, "falling");
 }
 
 class FitOfBlocks : public testing::Test {
@@ -34,19 +34,19 @@ protected:
   // Tests lie up to half too high or too low as a whole; within them noise is small.
   VectorXd fitted(double slope) {
     const VectorXd s = between(0, 5), sigma = between(100, 400);
-    BlockColumns columns;
-    for (const std::string& input : inputs(falling_along_the_way(), {}))
+    trace::BlockColumns columns;
+    for (const std::string& input : models::inputs(falling_along_the_way(), {}))
       columns[input] = input == "s_mm" ? s : sigma;
-    const LawOnBlocks law(falling_along_the_way(), {}, columns);
+    const trace::LawOnBlocks law(falling_along_the_way(), {}, columns);
     measured_ = 0.1 * sigma.array() * (1 + slope * s.array() / 5);
     const std::vector<double> start = {0.1, 0.0};
     const VectorXd tau = law.predict(start);
-    NoiseModel noise;
+    trace::NoiseModel noise;
     noise.gain = 0.5;
     noise.slow = 0;
     noise.white = 0.01;
     noise.scale = tau.mean();
-    return fit_blocks(law, measured_, Whitener(noise, tau, blocks), start).predicted;
+    return trace::fit_blocks(law, measured_, trace::Whitener(noise, tau, blocks), start).predicted;
   }
 
   VectorXd measured_;

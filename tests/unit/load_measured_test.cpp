@@ -10,6 +10,9 @@
 #include "data/load.h"
 
 namespace frictab {
+
+using data::load_dataset;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +35,7 @@ TEST(LoadMeasured, ReadsVelocityStepsWithThreeSpellingsOfTheStress) {
   const fs::path directory = measured() / "rock_velocity_steps" / "data";
   const auto files = files_in(directory);
   if (files.empty()) GTEST_SKIP() << "no measured files here; set FRICTAB_MEASURED";
-  DataOptions options;
+  data::DataOptions options;
   options.base = directory.string();
   options.columns["time_s"].names = {"Time(s)"};
   options.columns["sigma_n_MPa"].names = {"Normal_stress(MPa)", "Effective_Normal_stress(MPa)",
@@ -42,7 +45,7 @@ TEST(LoadMeasured, ReadsVelocityStepsWithThreeSpellingsOfTheStress) {
   options.columns["v_rel_mm_s"].names = {"Displ(microns)"};
   options.columns["v_rel_mm_s"].unit = "um";
   options.columns["v_rel_mm_s"].slope_rows = 51;
-  const Dataset data = load_dataset(files, options);
+  const data::Dataset data = load_dataset(files, options);
   ASSERT_EQ(data.rows(), 23790u + 75220u + 16466u + 5849u + 4508u); // as its README counts
   EXPECT_EQ(data.experiments.size(), 5u);
   EXPECT_DOUBLE_EQ(data.values("tau_R_MPa")[0], 0.536278 * 29.999476);
@@ -55,7 +58,7 @@ TEST(LoadMeasured, ReadsPinOnDiscFilesWithDecimalCommaPreambleAndFooter) {
   const fs::path directory = measured() / "pps_ptfe_pin_on_disc" / "data";
   const auto files = files_in(directory);
   if (files.empty()) GTEST_SKIP() << "no measured files here; set FRICTAB_MEASURED";
-  DataOptions options;
+  data::DataOptions options;
   options.base = directory.string();
   options.decimal = ',';
   options.skip_rows = 15;
@@ -69,12 +72,12 @@ TEST(LoadMeasured, ReadsPinOnDiscFilesWithDecimalCommaPreambleAndFooter) {
   options.columns["sigma_n_MPa"].area_mm2 = 50;
   options.columns["F_R_N"].number = 15;
   options.drop.push_back({"F_R_N", 0.0, {}, {}});
-  const Dataset data = load_dataset({"PPS_60N_1.tsv"}, options);
+  const data::Dataset data = load_dataset({"PPS_60N_1.tsv"}, options);
   EXPECT_EQ(data.rows() + data.dropped[0].rows, 1801u); // 1818 line ends, less preamble and footer
   EXPECT_EQ(data.dropped[0].rows, 1u);
   EXPECT_DOUBLE_EQ(data.values("tau_R_MPa")[0], 1.3 / 59.841 * (59.841 / 50));
   EXPECT_EQ(data.values("time_s")[0], 7);
-  const Dataset all = load_dataset(files, options);
+  const data::Dataset all = load_dataset(files, options);
   EXPECT_EQ(all.experiments.size(), 12u);
 
   options.bystanders.reset(); // then the second 'Friction Force' would be kept as well

@@ -11,6 +11,10 @@
 #include "io/hdf5.h"
 
 namespace frictab {
+
+using data::Dataset;
+using data::load_dataset;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +51,7 @@ protected:
     return {values.begin(), values.end()};
   }
 
-  DataOptions options;
+  data::DataOptions options;
   fs::path directory_;
 };
 
@@ -272,7 +276,7 @@ TEST_F(Load, TellsTheFaultsOfEveryFile) {
 TEST_F(Load, ReadsHdf5ColumnsAndTellsTheirFaults) {
   const std::size_t rows[] = {2};
   const auto write = [&](double stress, std::size_t others) {
-    Hdf5Writer out(directory_ / "a.h5");
+    io::Hdf5Writer out(directory_ / "a.h5");
     out.dataset("sigma_n_MPa", rows, Values{1, stress});
     out.attribute("sigma_n_MPa", "units", "GPa");
     out.dataset("tau_R_MPa", std::span(&others, 1), Values{3, 4, 5});

@@ -15,14 +15,22 @@
 #include "support/sample_data.h"
 
 namespace frictab {
+
+using calibrate::network_tau;
+using calibrate::NetworkBins;
+using calibrate::NetworkShape;
+using calibrate::TrainedNetwork;
+using data::Column;
+using data::Dataset;
+
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const Law& law() {
-  return *find_law("neural_network");
+const models::Law& law() {
+  return *models::find_law("neural_network");
 }
 
 Dataset campaign(double scatter, double noise_MPa, std::uint64_t seed,
@@ -32,19 +40,19 @@ Dataset campaign(double scatter, double noise_MPa, std::uint64_t seed,
   options.experiment_scatter = scatter;
   options.noise_MPa = noise_MPa;
   options.seed = seed;
-  return test::sample_data(test::plausible_model(*find_law("log_coulomb")), options);
+  return test::sample_data(test::plausible_model(*models::find_law("log_coulomb")), options);
 }
 
 TrainedNetwork trained_on(const Dataset& data, std::uint64_t seed = 1) {
-  return train_network(law(), data, conventions_of({}, data), seed);
+  return calibrate::train_network(law(), data, calibrate::conventions_of({}, data), seed);
 }
 
 double mean_error(const TrainedNetwork& network, const Dataset& data) {
-  Model model;
-  model.law = unregistered_law(network.law);
-  model.conventions = conventions_of({}, data);
+  models::Model model;
+  model.law = models::unregistered_law(network.law);
+  model.conventions = calibrate::conventions_of({}, data);
   model.parameters = {network.mu0};
-  const std::vector<double> tau = predict(model, data);
+  const std::vector<double> tau = calibrate::predict(model, data);
   double sum = 0;
   for (std::size_t i = 0; i < tau.size(); ++i)
     sum += std::abs(data.values("tau_R_MPa")[i] - tau[i]);
@@ -96,19 +104,20 @@ TEST(NetworkGradient, AgreesWithCentralDifferencesBelowAndAtTheShearLimit) {
 
 TEST(NetworkFormula, GivesTheStressThatTheTrainingSaw) {
   const NetworkShape shape{2, 3};
-  const Network network{
+  const models::Network network{
       {{"psi", true, 1e-3, 0.5, 1.2, 0.7}, {"T_contact_C", false, 0, 0, 90, 50}}, 3, {}};
-  Network ensemble = network;
+  models::Network ensemble = network;
   Random random(5);
   for (int m = 0; m < 3; ++m) {
-    std::vector<double> weights(Network::weights(2, 3));
+    std::vector<double> weights(models::Network::weights(2, 3));
     for (double& w : weights)
       w = random.normal();
     ensemble.members.push_back(weights);
   }
-  const Law made_law = neural_network(ensemble);
+  const models::Law made_law = models::neural_network(ensemble);
   const std::vector<std::string> names{"sigma_n_MPa", "psi", "T_contact_C"};
-  const Program program(tau_formula(made_law, Conventions{"mises", 0.5, false}), names, {"mu0"});
+  const expr::Program program(
+      models::tau_formula(made_law, models::Conventions{"mises", 0.5, false}), names, {"mu0"});
   const double stress = 1200, psi = 4, temperature = 130, mu0 = 0.07;
   NetworkBins bins = some_bins(1, 1, 1e9);
   bins.z.resize(1, 2);
@@ -127,12 +136,12 @@ TEST(NetworkFit, MinimisesTheGeneralisedLeastSquaresOfAnExplicitCovariance) {
   // At the minimum no small step in any weight lowers r' V^-1 r + decay w'w with V written out.
   const NetworkShape shape{3, 2};
   const NetworkBins bins = some_bins(5, 4, 1e9);
-  const NetworkScatter scatter{12, 0.3};
+  const calibrate::NetworkScatter scatter{12, 0.3};
   const double mu0 = 0.08, decay = 2;
-  NetworkFit fit;
+  calibrate::NetworkFit fit;
   fit.last = some_weights(shape);
   for (int again = 0; again < 40; ++again)
-    fit = fit_network({bins, bins, shape, mu0, scatter, decay}, fit.last);
+    fit = calibrate::fit_network({bins, bins, shape, mu0, scatter, decay}, fit.last);
   const VectorXd reach = mu0 * bins.weight.cwiseProduct(bins.stress);
   MatrixXd v = MatrixXd::Zero(20, 20);
   for (Index e = 0; e < 5; ++e)
@@ -141,7 +150,7 @@ TEST(NetworkFit, MinimisesTheGeneralisedLeastSquaresOfAnExplicitCovariance) {
   v.diagonal().array() += scatter.noise_MPa * scatter.noise_MPa;
   const MatrixXd inverse = v.inverse();
   const auto loss = [&](const VectorXd& w) {
-    const VectorXd r = network_residual(bins, network_tau(bins, shape, mu0, w));
+    const VectorXd r = calibrate::network_residual(bins, network_tau(bins, shape, mu0, w));
     return 0.5 * r.dot(inverse * r) + 0.5 * decay * w.head(w.size() - 1).squaredNorm();
   };
   for (Index p = 0; p < fit.last.size(); ++p)
@@ -172,7 +181,7 @@ TEST(SlowNeuralNetwork, DoesNotLearnTheFactorOfAnExperiment) {
 
 TEST(SlowNeuralNetwork, IsTheSameForAnyNumberOfThreads) {
   const Dataset data = campaign(0.05, 5, 3, 12);
-  const auto text = [&] { return to_text(tau_formula(trained_on(data).law, {})); };
+  const auto text = [&] { return expr::to_text(models::tau_formula(trained_on(data).law, {})); };
   set_threads(1);
   const std::string one = text();
   set_threads(2);
@@ -189,9 +198,10 @@ TEST(SlowNeuralNetwork, DependsOnTheSeed) {
 TEST(SlowNeuralNetwork, NeverSeesTheValidationExperiments) {
   const Dataset training = campaign(0.05, 5, 3, 12);
   const auto formula = [&](const Dataset& validation) {
-    CalibrationInput input{training, validation, {}, {}};
+    calibrate::CalibrationInput input{training, validation, {}, {}};
     input.models.use = {"neural_network"};
-    return to_text(AssembledLaw(calibrate(input).fits.front().model).tau_R);
+    return expr::to_text(
+        models::AssembledLaw(calibrate::calibrate(input).fits.front().model).tau_R);
   };
   EXPECT_EQ(formula(campaign(0.05, 5, 4, 12)), formula(campaign(0.3, 50, 5, 30)));
 }
@@ -208,22 +218,24 @@ TEST(NeuralNetwork, UsesTheStatesThatVary) {
 
 TEST(NeuralNetwork, ModelFileReadsBackToTheSameBits) {
   const Dataset data = campaign(0.05, 5, 3, 12);
-  CalibrationInput input{data, data, {}, {}};
+  calibrate::CalibrationInput input{data, data, {}, {}};
   input.models.use = {"neural_network"};
-  const Calibration calibration = calibrate(input);
-  const ModelFit& fit = calibration.fits.front();
-  const Model again = parse_model(model_json(fit, calibration), "model.json");
-  EXPECT_EQ(predict(again, data), predict(fit.model, data));
-  const Calibration read = parse_calibration(calibration_json(calibration), "calibration.json");
-  EXPECT_EQ(calibration_json(read), calibration_json(calibration));
+  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  const calibrate::ModelFit& fit = calibration.fits.front();
+  const models::Model again =
+      calibrate::parse_model(calibrate::model_json(fit, calibration), "model.json");
+  EXPECT_EQ(calibrate::predict(again, data), calibrate::predict(fit.model, data));
+  const calibrate::Calibration read =
+      calibrate::parse_calibration(calibrate::calibration_json(calibration), "calibration.json");
+  EXPECT_EQ(calibrate::calibration_json(read), calibrate::calibration_json(calibration));
   EXPECT_EQ(read.fits.front().network->cv_rmse_MPa, fit.network->cv_rmse_MPa);
 }
 
 TEST(NeuralNetwork, NeedsFiveExperiments) {
   const Dataset data = campaign(0.05, 5, 3, 4);
-  const Calibration calibration = calibrate({data, data, {}, {}});
+  const calibrate::Calibration calibration = calibrate::calibrate({data, data, {}, {}});
   EXPECT_THAT(calibration.left_out,
-              testing::Contains(testing::Property(&LeftOut::text,
+              testing::Contains(testing::Property(&calibrate::LeftOut::text,
                                                   "neural_network: needs 5 experiments to train")));
 }
 

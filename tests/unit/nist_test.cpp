@@ -55,13 +55,13 @@ protected:
       names.push_back("b" + std::to_string(i + 1));
       bounds.push_back({names.back(), "", "", 0, -infinity, infinity});
     }
-    program.emplace(parse_expr(certified.model), std::vector<std::string>{"x"}, names);
+    program.emplace(expr::parse_expr(certified.model), std::vector<std::string>{"x"}, names);
     bound.emplace(*program, certified.x.size(), std::vector<const double*>{certified.x.data()});
   }
-  FitProblem problem() const { return {*bound, certified.y, bounds}; }
-  FitResult fit(std::size_t start) const {
-    return fit_from(problem(), {Loss::l2, 0}, certified.starts.at(start),
-                    {.tolerance = 1e-18, .damping = 1, .iterations = 2000});
+  calibrate::FitProblem problem() const { return {*bound, certified.y, bounds}; }
+  calibrate::FitResult fit(std::size_t start) const {
+    return calibrate::fit_from(problem(), {calibrate::Loss::l2, 0}, certified.starts.at(start),
+                               {.tolerance = 1e-18, .damping = 1, .iterations = 2000});
   }
   // From NIST's far start these two are beyond a local method with this damping. BoxBOD: the first
   // step saturates 1 - exp(-b2 x), after which b2 has no influence. MGH10: b1 starts 400 times, b2
@@ -71,7 +71,7 @@ protected:
     return start == 0 && (GetParam() == "BoxBOD" || GetParam() == "MGH10");
   }
   // Digits that agree, at the worst parameter.
-  double digits(const FitResult& result) const {
+  double digits(const calibrate::FitResult& result) const {
     double worst = 11; // as many as are certified
     for (std::size_t i = 0; i < names.size(); ++i) {
       const double error = std::abs(result.parameters[i] / certified.parameters[i] - 1);
@@ -82,20 +82,21 @@ protected:
 
   Certified certified;
   std::vector<std::string> names;
-  std::vector<Parameter> bounds;
-  std::optional<Program> program;
-  std::optional<BoundProgram> bound;
+  std::vector<models::Parameter> bounds;
+  std::optional<expr::Program> program;
+  std::optional<expr::BoundProgram> bound;
 };
 
 TEST_P(Nist, ObservationsGiveTheCertifiedSumOfSquaresAtTheCertifiedParameters) {
-  const double cost = mean_cost(problem(), {Loss::l2, 0}, certified.parameters);
+  const double cost =
+      calibrate::mean_cost(problem(), {calibrate::Loss::l2, 0}, certified.parameters);
   EXPECT_NEAR(2 * cost * static_cast<double>(certified.y.size()) / certified.squares, 1, 1e-10);
 }
 
 TEST_P(Nist, StartsReachTheCertifiedParametersTo6Digits) {
   for (std::size_t start = 0; start < 2; ++start) {
     if (is_out_of_reach(start)) continue;
-    const FitResult result = fit(start);
+    const calibrate::FitResult result = fit(start);
     EXPECT_GE(digits(result), 6) << GetParam() << " start " << start + 1 << ": "
                                  << result.termination << ", " << result.evaluations
                                  << " evaluations";
@@ -108,7 +109,8 @@ TEST_P(Nist, StartsReachTheCertifiedParametersTo6Digits) {
 
 // The classical formula for independent errors, from the sums the solver works with.
 TEST_P(Nist, CurvatureGivesTheCertifiedStandardDeviations) {
-  const NormalEquations n = normal_equations(problem(), {Loss::l2, 0}, certified.parameters);
+  const calibrate::NormalEquations n =
+      calibrate::normal_equations(problem(), {calibrate::Loss::l2, 0}, certified.parameters);
   const double rows = static_cast<double>(certified.y.size());
   const double variance = 2 * n.cost * rows / (rows - static_cast<double>(names.size()));
   const Eigen::VectorXd scale = n.hessian.diagonal().cwiseSqrt().cwiseInverse();

@@ -7,6 +7,9 @@
 #include "support/run_command.h"
 
 namespace frictab {
+
+using data::Dataset;
+
 namespace {
 
 using test::TemporaryDirectory;
@@ -25,13 +28,13 @@ Dataset two_experiments(const std::string& a, const std::string& b) {
 struct Oracle : testing::Test {
   // The fault, or "" where it was read.
   std::string read(const std::string& text) {
-    DataOptions options;
+    data::DataOptions options;
     options.base = directory.path();
     options.oracle = {"truth.csv"};
     options.oracle_place = {"job.toml", 4, 1};
     directory.write("truth.csv", text);
     try {
-      read_oracle(options, training, validation);
+      data::read_oracle(options, training, validation);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -54,10 +57,10 @@ TEST_F(Oracle, StaysWithItsRowsWhenExperimentsAreHeldOut) {
 }
 
 TEST_F(Oracle, IsNoPartOfTheDatasFingerprint) {
-  fingerprint(training);
+  data::fingerprint(training);
   const auto before = training.hash;
   ASSERT_EQ(read("experiment,row,tau_oracle_MPa\nA,1,10\nA,2,20\n7,1,30\n"), "");
-  fingerprint(training);
+  data::fingerprint(training);
   EXPECT_EQ(training.hash, before);
 }
 

@@ -8,11 +8,15 @@
 #include "models/orowan_optimum.h"
 
 namespace frictab {
+
+using models::orowan_optimum;
+using models::OrowanPoint;
+
 namespace {
 
 struct Rows {
   std::vector<double> sigma_n, k, tau;
-  OrowanRows view() const { return {sigma_n, k, tau}; }
+  models::OrowanRows view() const { return {sigma_n, k, tau}; }
   double squares(double mu, double m) const {
     double sum = 0;
     for (std::size_t i = 0; i < tau.size(); ++i)

@@ -18,6 +18,22 @@
 #include "verify/verify.h"
 
 namespace frictab {
+
+using codegen::Exporter;
+using codegen::ExportRequest;
+using expr::to_text;
+using models::AssembledLaw;
+using models::Model;
+using table::build_table;
+using table::Outside;
+using table::state_ranges;
+using table::Table;
+using table::TableOptions;
+using table::write_table;
+using verify::DriftRecord;
+using verify::RowKind;
+using verify::verification_json;
+
 namespace {
 
 Table built(const Model& model, const std::map<std::string, std::vector<std::string>>& outside) {
@@ -29,13 +45,13 @@ Table built(const Model& model, const std::map<std::string, std::vector<std::str
 }
 
 Model log_coulomb() {
-  return test::plausible_model(*find_law("log_coulomb"));
+  return test::plausible_model(*models::find_law("log_coulomb"));
 }
 
 TEST(JobKeys, SetBothSidesOfAnAxisAtOnceOrEachOfThem) {
   const auto outside = [](const std::string& words) {
-    return parse_job("[data]\ntraining = \"a.csv\"\n[table.axes.psi]\noutside = " + words,
-                     "job.toml")
+    return job::parse_job("[data]\ntraining = \"a.csv\"\n[table.axes.psi]\noutside = " + words,
+                          "job.toml")
         .table.axes.at("psi")
         .outside;
   };
@@ -61,7 +77,7 @@ TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {
   const Table table = test::sides_table();
   const test::TemporaryDirectory directory;
   write_table(table, directory.path("t.h5"));
-  const Table again = read_table(directory.path("t.h5"));
+  const Table again = table::read_table(directory.path("t.h5"));
   for (std::size_t a = 0; a < 3; ++a) {
     EXPECT_EQ(again.axes[a].below, table.axes[a].below);
     EXPECT_EQ(again.axes[a].above, table.axes[a].above);
@@ -79,13 +95,13 @@ TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {
 TEST(TableFile, TakesAFormulaThatIsLongerThanAnHdf5Attribute) {
   const Model model = test::network_model(50, 12);
   Table table = test::direct_network();
-  add_extension(table, AssembledLaw(model));
-  table.interpolation = Interpolation::linear;
+  table::add_extension(table, AssembledLaw(model));
+  table.interpolation = table::Interpolation::linear;
   table.value.assign(32, 0.1);
   ASSERT_GT(to_text(*table.extension).size(), 2U * 65536U);
   const test::TemporaryDirectory directory;
   write_table(table, directory.path("t.h5"));
-  const Table again = read_table(directory.path("t.h5"));
+  const Table again = table::read_table(directory.path("t.h5"));
   EXPECT_EQ(to_text(*again.extension), to_text(*table.extension));
   EXPECT_EQ(test::rebuilt_by_python(table).substr(0, 3), "ok ");
 }
@@ -97,7 +113,7 @@ TEST(TableFile, WithoutTheFormulaThatASideNeedsIsAFault) {
   write_table(table, directory.path("t.h5"));
   const auto fault = [&] {
     try {
-      read_table(directory.path("t.h5"));
+      table::read_table(directory.path("t.h5"));
       return std::string("accepted");
     } catch (const InputError& error) {
       return std::string(error.what());
@@ -107,7 +123,7 @@ TEST(TableFile, WithoutTheFormulaThatASideNeedsIsAFault) {
                          "'extension'"),
             std::string::npos)
       << fault();
-  table.extension = Expr::symbol("s_mm");
+  table.extension = expr::Expr::symbol("s_mm");
   write_table(table, directory.path("t.h5"));
   EXPECT_NE(fault().find("extension uses 's_mm', which is no axis"), std::string::npos) << fault();
 }
@@ -115,17 +131,17 @@ TEST(TableFile, WithoutTheFormulaThatASideNeedsIsAFault) {
 TEST(RowsBeyond, AreCountedByAxisAndSideWithTheLargestExcess) {
   const Table table = test::sides_table();
   // sigma_n: law, clamp; v: clamp, error; T: error, law
-  const States rows = {{400, 300, 3000, 1000, 1000, 400},
-                       {50, 50, 50, 501, 1, 50},
-                       {100, 100, 100, 100, 100, 250},
-                       {480, 480, 480, 480, 480, 480}};
-  const RowsBeyond beyond = rows_beyond(table, rows);
+  const table::States rows = {{400, 300, 3000, 1000, 1000, 400},
+                              {50, 50, 50, 501, 1, 50},
+                              {100, 100, 100, 100, 100, 250},
+                              {480, 480, 480, 480, 480, 480}};
+  const verify::RowsBeyond beyond = verify::rows_beyond(table, rows);
   EXPECT_EQ(beyond.outside, 6U);
   const RowKind c = RowKind::compared, k = RowKind::clamped, r = RowKind::refused;
   EXPECT_EQ(beyond.kinds, (std::vector<RowKind>{c, c, k, r, k, c}));
   std::vector<std::string> texts;
-  for (const BeyondEnd& end : beyond.ends)
-    texts.push_back(beyond_text(end));
+  for (const verify::BeyondEnd& end : beyond.ends)
+    texts.push_back(verify::beyond_text(end));
   EXPECT_EQ(texts,
             (std::vector<std::string>{"sigma_n_MPa below 500: 3 rows, up to 200 beyond, law",
                                       "sigma_n_MPa above 2750: 1 row, up to 250 beyond, clamp",
@@ -137,19 +153,19 @@ TEST(RowsBeyond, AreCountedByAxisAndSideWithTheLargestExcess) {
 // Rows of a campaign over a table that covers less than them.
 DriftRecord verified(const std::string& words, const std::string& target = "") {
   const Model model = log_coulomb();
-  const Dataset data = test::sample_data(model);
+  const data::Dataset data = test::sample_data(model);
   TableOptions options;
   options.axes["T_contact_C"].range = {60, 120};
   options.axes["T_contact_C"].outside = {words};
   const Table table =
       build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
-  std::vector<GeneratedSource> sources;
+  std::vector<verify::GeneratedSource> sources;
   if (!target.empty()) {
-    const Exporter* exporter = find_exporter(target);
+    const Exporter* exporter = codegen::find_exporter(target);
     const ExportRequest request{table, "mm-t-s", {}};
     sources.push_back({exporter, request, exporter->generate(request)});
   }
-  return verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, sources).back();
+  return verify::verify({AssembledLaw(model), table, "table", &data, 0.5, 20000}, sources).back();
 }
 
 TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
@@ -175,19 +191,19 @@ TEST(Verify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
 
 TEST(Verify, FailsASourceThatAnswersWhereItIsToRefuse) {
   const Model model = log_coulomb();
-  const Dataset data = test::sample_data(model);
+  const data::Dataset data = test::sample_data(model);
   TableOptions options;
   options.axes["T_contact_C"].range = {60, 120};
   options.axes["T_contact_C"].outside = {"error"};
   const Table table =
       build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
   Table lenient = table;
-  for (TableAxis& axis : lenient.axes)
+  for (table::TableAxis& axis : lenient.axes)
     axis.below = axis.above = Outside::clamp;
-  const Exporter* exporter = find_exporter("c");
+  const Exporter* exporter = codegen::find_exporter("c");
   const ExportRequest request{lenient, "mm-t-s", {}};
-  const DriftRecord r = verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
-                               {{exporter, request, exporter->generate(request)}})
+  const DriftRecord r = verify::verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
+                                       {{exporter, request, exporter->generate(request)}})
                             .back();
   if (!r.ran) GTEST_SKIP() << r.why_not;
   EXPECT_GT(r.n_not_refused, 100U);
@@ -199,39 +215,39 @@ Exporter sparse(bool poses) {
   Exporter out;
   out.name = "sparse";
   out.variants = [](const ExportRequest&) {
-    return std::vector<BuildVariant>{{"none", {}, {}, 0}};
+    return std::vector<codegen::BuildVariant>{{"none", {}, {}, 0}};
   };
   if (poses)
-    out.drive = [](const Built&, const ExportRequest& request, std::size_t rows,
+    out.drive = [](const codegen::Built&, const ExportRequest& request, std::size_t rows,
                    std::span<const double* const> columns, std::span<double> tau) {
       std::vector<double> all(rows);
-      TableFunction(request.table).evaluate(rows, columns, all);
+      table::TableFunction(request.table).evaluate(rows, columns, all);
       for (std::size_t i = 0; i < rows; i += 2)
         tau[i] = all[i] + 3;
     };
   else
-    out.drive = [](const Built&, const ExportRequest&, std::size_t, std::span<const double* const>,
-                   std::span<double>) {};
+    out.drive = [](const codegen::Built&, const ExportRequest&, std::size_t,
+                   std::span<const double* const>, std::span<double>) {};
   return out;
 }
 
 TEST(Verify, CountsRowsThatADriverCannotPoseAndLeavesThemOutButNotAllOfThem) {
   const Model model = log_coulomb();
-  const Dataset data = test::sample_data(model);
+  const data::Dataset data = test::sample_data(model);
   const TableOptions options;
   const Table table =
       build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options), options);
   for (const bool poses : {true, false}) {
     const Exporter exporter = sparse(poses);
-    const DriftRecord r = verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
-                                 {{&exporter, {table, "mm-t-s", {}}, {}}})
+    const DriftRecord r = verify::verify({AssembledLaw(model), table, "table", &data, 0.5, 2000},
+                                         {{&exporter, {table, "mm-t-s", {}}, {}}})
                               .back();
     EXPECT_FALSE(r.passed);
     EXPECT_EQ(r.n_rows_not_posed, poses ? data.rows() / 2 : data.rows());
     EXPECT_GT(r.n_points_not_posed, 1000u);
-    EXPECT_THAT(not_posed_text(r), testing::EndsWith("states its solver is never in"));
+    EXPECT_THAT(verify::not_posed_text(r), testing::EndsWith("states its solver is never in"));
     const std::string text = verification_json({0.5, {r}});
-    EXPECT_EQ(verification_json(parse_verification(text, "verify.json")), text);
+    EXPECT_EQ(verification_json(verify::parse_verification(text, "verify.json")), text);
     if (poses)
       EXPECT_NEAR(r.rows.mean_abs, 1.5, 0.1) << "half of the rows, 3 MPa each";
     else
@@ -240,32 +256,33 @@ TEST(Verify, CountsRowsThatADriverCannotPoseAndLeavesThemOutButNotAllOfThem) {
 }
 
 TEST(Verify, RecordOfRowsOutsideReadsBack) {
-  const Verification before{0.5, {verified("error")}};
+  const verify::Verification before{0.5, {verified("error")}};
   const std::string text = verification_json(before);
   EXPECT_NE(text.find("\"axis\": \"T_contact_C\""), std::string::npos) << text;
-  EXPECT_EQ(verification_json(parse_verification(text, "verify.json")), text);
+  EXPECT_EQ(verification_json(verify::parse_verification(text, "verify.json")), text);
 }
 
 // tau_R over the contact normal stress from 500 MPa on.
 Table pressure_table(const char* formula) {
   Table table;
-  TableAxis axis;
+  table::TableAxis axis;
   axis.name = "sigma_n_MPa";
   axis.unit = "MPa";
   axis.nodes = {500, 1000, 2750};
   table.axes = {axis};
   table.value = {40, 60, 100};
-  table.combine = parse_expr(formula);
+  table.combine = expr::parse_expr(formula);
   return table;
 }
 
 TEST(EdgeOfTheContact, IsToldOfAStressThatStaysWhenThePressureGoes) {
   Table stress = pressure_table("value");
-  EXPECT_THAT(edge_text(stress),
+  EXPECT_THAT(codegen::edge_text(stress),
               testing::StartsWith("keeps 40 MPa below 500 MPa of contact normal stress"));
-  EXPECT_EQ(edge_text(pressure_table("value*sigma_n_MPa")), "") << "it goes with the pressure";
+  EXPECT_EQ(codegen::edge_text(pressure_table("value*sigma_n_MPa")), "")
+      << "it goes with the pressure";
   stress.axes[0].below = Outside::error;
-  EXPECT_EQ(edge_text(stress), "");
+  EXPECT_EQ(codegen::edge_text(stress), "");
 }
 
 } // namespace

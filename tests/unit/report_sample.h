@@ -12,22 +12,22 @@
 namespace frictab::test {
 
 struct ReportSample {
-  Calibration calibration;
-  Dataset training;
-  Dataset validation;
+  calibrate::Calibration calibration;
+  data::Dataset training;
+  data::Dataset validation;
   std::vector<std::vector<double>> predicted;
-  std::vector<Table> tables;
-  Verification verification;
+  std::vector<table::Table> tables;
+  verify::Verification verification;
   std::vector<std::string> files{"report.html", "calibration.json"};
 
-  ReportInput input() const {
+  report::ReportInput input() const {
     return {"job.toml", calibration, training, validation, predicted, tables, verification, files};
   }
 };
 
 // tau_R = 0.1 sigma_N and a drifting error per experiment.
-inline Dataset report_data(std::size_t experiments, std::size_t rows, std::uint64_t seed) {
-  Dataset data;
+inline data::Dataset report_data(std::size_t experiments, std::size_t rows, std::uint64_t seed) {
+  data::Dataset data;
   data.columns = {{"sigma_n_MPa", "MPa", {}, {}}, {"tau_R_MPa", "MPa", {}, {}}};
   Random random(seed);
   for (std::size_t e = 0; e < experiments; ++e) {
@@ -46,8 +46,9 @@ inline Dataset report_data(std::size_t experiments, std::size_t rows, std::uint6
   return data;
 }
 
-inline Metrics report_metrics(const Dataset& data, const std::vector<double>& predicted) {
-  Metrics m;
+inline calibrate::Metrics report_metrics(const data::Dataset& data,
+                                         const std::vector<double>& predicted) {
+  calibrate::Metrics m;
   m.n_rows = data.rows();
   m.n_experiments = data.experiments.size();
   const auto measured = data.values("tau_R_MPa");
@@ -69,12 +70,13 @@ inline ReportSample report_sample(std::size_t laws, std::size_t experiments, std
   s.validation = report_data(experiments, rows, 2);
   const auto sigma = s.validation.values("sigma_n_MPa");
   for (std::size_t l = 0; l < laws; ++l) {
-    ModelFit fit;
-    fit.model.law = registered_law(all_laws()[all_laws().size() - 1 - l % all_laws().size()]);
+    calibrate::ModelFit fit;
+    fit.model.law = models::registered_law(
+        models::all_laws()[models::all_laws().size() - 1 - l % models::all_laws().size()]);
     std::vector<double> predicted;
     for (const double value : sigma)
       predicted.push_back((0.1 - 0.003 * static_cast<double>(l)) * value);
-    for (const Parameter& parameter : fit.model.law->parameters) {
+    for (const models::Parameter& parameter : fit.model.law->parameters) {
       fit.model.parameters.push_back(parameter.start);
       fit.std_error.push_back(0.01 * std::abs(parameter.start));
     }
@@ -83,15 +85,15 @@ inline ReportSample report_sample(std::size_t laws, std::size_t experiments, std
     s.calibration.fits.push_back(std::move(fit));
   }
   s.calibration.data_hash = "0123456789abcdef";
-  Table table;
+  table::Table table;
   table.model = "coulomb";
   table.axes = {{"sigma_n_MPa", "MPa", "contact normal stress", true, {500, 1000, 2750}}};
   table.value = {0.1, 0.09, 0.08};
-  table.combine = Expr::symbol("value") * Expr::symbol("sigma_n_MPa");
+  table.combine = expr::Expr::symbol("value") * expr::Expr::symbol("sigma_n_MPa");
   table.record.refinement = "3 nodes: 0.4 MPa";
   s.tables = {table};
   s.verification.max_drift_MPa = 0.5;
-  DriftRecord record;
+  verify::DriftRecord record;
   record.model = "coulomb";
   record.subject = "table";
   record.rows = {0.3, 0.1, 0.15, 0.25};

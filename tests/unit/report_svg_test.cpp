@@ -11,6 +11,11 @@
 #include "report/svg.h"
 
 namespace frictab {
+
+using report::figures;
+using report::with_error;
+namespace svg = report::svg;
+
 namespace {
 
 using ::testing::ElementsAre;
@@ -108,7 +113,7 @@ TEST(RunningBand, FollowsTheMedianAndTheOuterTenths) {
     x.push_back(i);
     y.push_back(0.01 * i + (i * 7919 % 101) - 50); // evenly spread over -50..50
   }
-  const RunningBand band = running_band(x, y);
+  const report::RunningBand band = report::running_band(x, y);
   ASSERT_GE(band.x.size(), 25u);
   for (std::size_t g = 0; g < band.x.size(); ++g) {
     EXPECT_NEAR(band.median[g], 0.01 * band.x[g], 3);
@@ -119,8 +124,8 @@ TEST(RunningBand, FollowsTheMedianAndTheOuterTenths) {
 
 TEST(RunningBand, IsEmptyForFewRowsAndOnePointForOneAbscissa) {
   const std::vector<double> few(59, 1.0), same(200, 1.0);
-  EXPECT_TRUE(running_band(few, few).x.empty());
-  for (const double x : running_band(same, same).x)
+  EXPECT_TRUE(report::running_band(few, few).x.empty());
+  for (const double x : report::running_band(same, same).x)
     EXPECT_EQ(x, 1.0);
 }
 
@@ -131,10 +136,10 @@ TEST(Numbers, HaveSignificantDigitsSeparatorsAndMinus) {
   EXPECT_EQ(figures(1.234e-13), "1.23e-13");
   EXPECT_EQ(figures(0), "0");
   EXPECT_EQ(figures(std::nan("")), "\u2013");
-  EXPECT_EQ(fixed(-0.001, 2), "0.00");
-  EXPECT_EQ(fixed(-1234567.5, 1), "\u22121,234,567.5");
-  EXPECT_EQ(short_figures(2750), "2,750");
-  EXPECT_EQ(short_figures(0.5), "0.5");
+  EXPECT_EQ(report::fixed(-0.001, 2), "0.00");
+  EXPECT_EQ(report::fixed(-1234567.5, 1), "\u22121,234,567.5");
+  EXPECT_EQ(report::short_figures(2750), "2,750");
+  EXPECT_EQ(report::short_figures(0.5), "0.5");
 }
 
 TEST(Numbers, ValueHasTheDigitsItsErrorAllows) {

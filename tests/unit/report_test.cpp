@@ -9,6 +9,11 @@
 #include "report_sample.h"
 
 namespace frictab {
+
+using calibrate::ModelFit;
+using report::benchmark_md;
+using report::report_html;
+
 namespace {
 
 using test::report_sample;
@@ -93,7 +98,7 @@ TEST(Report, EscapesWhateverComesFromTheUser) {
   sample.verification.records.back().ran = false;
   sample.verification.records.back().why_not = bad;
   sample.files = {bad};
-  ReportInput input{
+  report::ReportInput input{
       bad,           sample.calibration,  sample.training, sample.validation, sample.predicted,
       sample.tables, sample.verification, sample.files};
   const std::string page = report_html(input);
@@ -202,16 +207,16 @@ TEST(Report, SurvivesMetricsThatAreNotFinite) {
 
 TEST(Benchmark, IsThisTextForTwoLaws) {
   const double none = std::nan("");
-  Calibration c;
+  calibrate::Calibration c;
   ModelFit orowan;
-  orowan.model.law = registered_law(*find_law("orowan"));
+  orowan.model.law = models::registered_law(*models::find_law("orowan"));
   orowan.model.parameters = {0.0792, 0.49981};
   orowan.std_error = {0.00201, std::nan("")};
   orowan.remarks = {"a|b"};
   orowan.training = {12.5, 16, 0, {12, 13}, {15, 17}, {-1, 1}, 44550, 81};
   orowan.validation = {11.558, 13.56, -2.74, {9.69, 13.54}, {11, 16}, {-6, 1}, 16500, 30};
   ModelFit fixed;
-  fixed.model.law = registered_law(*find_law("coulomb_0.08"));
+  fixed.model.law = models::registered_law(*models::find_law("coulomb_0.08"));
   fixed.model.parameters = {0.08};
   fixed.training = {28.5, 31, -20, {25, 31}, {28, 34}, {-22, -18}, 44550, 81};
   fixed.validation = {26.3, 30.2, -24.8, {21.6, 31.6}, {25, 35}, {none, none}, 16500, 30};
@@ -257,7 +262,7 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "\n"
       "## The band of experiments\n"
       "\n" +
-          std::string(band_sentence) +
+          std::string(report::band_sentence) +
           "\n"
           "\n"
           "| law | 5 % below | 95 % below | validation experiments inside |\n"
@@ -281,8 +286,8 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
 }
 
 // Three laws: the first two alike, the third worse.
-Comparisons three_laws() {
-  Comparisons c;
+calibrate::Comparisons three_laws() {
+  calibrate::Comparisons c;
   c.laws = {"a<b", "b", "c"};
   c.best_p_values = {1, 0.3, 0.0001};
   c.n_experiments = 30;
@@ -323,7 +328,7 @@ TEST(Report, ShowsTheNoiseFloorBelowTheLawsAndSaysWhatItIs) {
 TEST(Report, NamesConditionalUseAsSuchAndOnlyWhereItWasAskedFor) {
   ReportSample sample = report_sample(2, 4, 50);
   EXPECT_THAT(report_html(sample.input()), Not(HasSubstr("Conditional use")));
-  Conditional& c = sample.calibration.conditional;
+  calibrate::Conditional& c = sample.calibration.conditional;
   c.condition_on_mm = 1.5;
   c.n_experiments = 30;
   c.n_without_start = 2;
@@ -339,7 +344,7 @@ TEST(Report, NamesConditionalUseAsSuchAndOnlyWhereItWasAskedFor) {
 }
 
 TEST(Benchmark, HoldsEveryPairAndWhoMayBeTheBest) {
-  Calibration calibration;
+  calibrate::Calibration calibration;
   calibration.comparisons = three_laws();
   const std::string page = benchmark_md(calibration);
   EXPECT_THAT(page, HasSubstr("\n## Is law A better than law B?\n"));

@@ -7,6 +7,11 @@
 #include "calibrate/sandwich.h"
 
 namespace frictab {
+
+using calibrate::cluster_sandwich;
+using calibrate::Uncertainty;
+using models::Parameter;
+
 namespace {
 
 using Eigen::MatrixXd;
@@ -20,7 +25,7 @@ Parameter bounded(const char* name, double lower, double upper) {
 
 // Of a straight line c + s x through rows of experiments.
 struct Line {
-  std::vector<ExperimentSums> sums;
+  std::vector<calibrate::ExperimentSums> sums;
 
   void add(const std::vector<double>& x, double residual) {
     MatrixXd j(static_cast<Eigen::Index>(x.size()), 2);
@@ -34,7 +39,8 @@ struct Line {
 TEST(Sandwich, OfAMeanOfExperimentsIsTheErrorOfAMean) {
   const Parameter mean[] = {bounded("mean", -10, 10)};
   const double values[] = {0};
-  std::vector<ExperimentSums> sums; // residuals -1, 0, 2, -1: variance 2, of 4 experiments
+  std::vector<calibrate::ExperimentSums>
+      sums; // residuals -1, 0, 2, -1: variance 2, of 4 experiments
   for (const double residual : {-1.0, 0.0, 2.0, -1.0})
     sums.push_back({VectorXd::Constant(1, residual), MatrixXd::Constant(1, 1, 1)});
   const Uncertainty found = cluster_sandwich(mean, values, sums);

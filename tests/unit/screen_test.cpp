@@ -9,6 +9,9 @@
 #include "trace/screen.h"
 
 namespace frictab {
+
+using trace::ScreenResult;
+
 namespace {
 
 using Eigen::Index;
@@ -21,12 +24,12 @@ constexpr double level = 0.05;
 
 // Causes that are constant within experiments or vary at random, one shape each, acting on mu.
 struct Campaign {
-  std::vector<std::vector<GridShape>> shapes;
+  std::vector<std::vector<trace::GridShape>> shapes;
   VectorXd predicted, residual;
   MatrixXd fitted;
-  Blocks blocks;
+  trace::Blocks blocks;
   std::vector<std::size_t> units;
-  NoiseModel noise;
+  trace::NoiseModel noise;
 
   Campaign(std::size_t experiments, std::size_t causes, std::uint64_t seed) {
     Random random(seed, 11);
@@ -42,7 +45,7 @@ struct Campaign {
     noise.white = 0.01;
     noise.scale = 100;
     for (std::size_t c = 0; c < causes; ++c) {
-      GridShape shape;
+      trace::GridShape shape;
       shape.direction.resize(rows);
       float held = 0;
       for (Index b = 0; b < rows; ++b) {
@@ -71,9 +74,9 @@ struct Campaign {
   }
 
   ScreenResult run(std::size_t flips = 199) const {
-    const Sensitivities sensitivities = {predicted, VectorXd(), VectorXd()};
-    const Whitener whitener(noise, predicted, blocks);
-    return screen(
+    const trace::Sensitivities sensitivities = {predicted, VectorXd(), VectorXd()};
+    const trace::Whitener whitener(noise, predicted, blocks);
+    return trace::screen(
         {shapes, sensitivities, whitener, blocks.first, residual, fitted, units, flips, 1});
   }
 };
@@ -109,7 +112,7 @@ TEST(Screen, FindsACauseAmongOthersAndSaysHowLarge) {
     const ScreenResult found = campaign.run(999);
     EXPECT_EQ(found.directions[found.best].cause, cause);
     EXPECT_EQ(found.p_value, 0.001);
-    const Direction& best = found.directions[found.best];
+    const trace::Direction& best = found.directions[found.best];
     EXPECT_NEAR(best.statistic / best.size, 0.08, 0.03);
   }
 }
@@ -141,7 +144,7 @@ TEST(Screen, LeavesOutWhatLivesOnFewerThanSevenTests) {
       campaign.predicted.cwiseProduct(campaign.shapes[0][0].direction.cast<double>());
   const ScreenResult result = campaign.run();
   std::vector<std::size_t> kept;
-  for (const Direction& direction : result.directions)
+  for (const trace::Direction& direction : result.directions)
     kept.push_back(direction.cause);
   EXPECT_EQ(kept, (std::vector<std::size_t>{1, 2}));
 }

@@ -10,6 +10,12 @@
 #include <Eigen/Dense>
 
 namespace frictab {
+
+using effects::find_effect;
+using effects::PlacedEffect;
+using effects::spline_knots;
+using effects::spline_roughness;
+
 namespace {
 
 using Eigen::Index;
@@ -67,7 +73,7 @@ PlacedEffect spline(const std::vector<double>& knots, std::vector<double> values
 }
 
 double factor(const PlacedEffect& effect, std::vector<double> row) {
-  return factor_program(effect)(row, effect.parameters);
+  return effects::factor_program(effect)(row, effect.parameters);
 }
 
 TEST(SmoothForms, SplineIsTheNaturalOneThroughItsKnots) {
@@ -98,7 +104,7 @@ TEST(SmoothForms, SplineOfValuesOnALineIsThatLine) {
 TEST(SmoothForms, SlopeOfASplineHasNoJumpAtItsKnots) {
   for (const auto& knots : some_knots) {
     const PlacedEffect effect = spline(knots, some_values(knots.size()));
-    const Program program = factor_program(effect);
+    const expr::Program program = effects::factor_program(effect);
     for (std::size_t k = 1; k + 1 < knots.size(); ++k) {
       double slope[3], row[1];
       for (const int side : {-1, 0, 1}) {
@@ -193,7 +199,7 @@ TEST(SmoothForms, PenaltiesHaveAMeanDiagonalOfOneAndNoNegativeEigenvalue) {
   for (const PlacedEffect& effect :
        {spline(some_knots[2], some_values(8)), surface(some_knots[2], some_knots[4]), by_level}) {
     const MatrixXd penalty = matrix(effect.form->penalty(effect));
-    const auto n = static_cast<Index>(amplitudes_of(effect));
+    const auto n = static_cast<Index>(effects::amplitudes_of(effect));
     ASSERT_EQ(penalty.rows(), n);
     EXPECT_NEAR(penalty.trace() / static_cast<double>(n), 1.001, 1e-12);
     EXPECT_LT((penalty - penalty.transpose()).norm(), 1e-12);
@@ -212,7 +218,7 @@ TEST(SmoothForms, PenaltyOfASurfaceAddsBothDirections) {
       v(static_cast<Index>(i * y.size() + j)) = a[i];
   }
   const double all =
-      v.dot(matrix(tensor_roughness({spline_roughness(x), spline_roughness(y)})) * v);
+      v.dot(matrix(effects::tensor_roughness({spline_roughness(x), spline_roughness(y)})) * v);
   EXPECT_NEAR(all, w.dot(matrix(spline_roughness(x)) * w) * static_cast<double>(y.size()),
               1e-9 * all);
 }
@@ -220,7 +226,7 @@ TEST(SmoothForms, PenaltyOfASurfaceAddsBothDirections) {
 TEST(SmoothForms, BasisOfASplineSumsToOneAndGivesTheFactor) {
   const PlacedEffect effect = spline(some_knots[2], some_values(8));
   const VectorXd x = VectorXd::LinSpaced(41, -2, 22);
-  const MatrixXd basis = amplitude_basis(effect, {{"s_mm", x}});
+  const MatrixXd basis = trace::amplitude_basis(effect, {{"s_mm", x}});
   ASSERT_EQ(basis.cols(), 8);
   const VectorXd v = Eigen::Map<const VectorXd>(effect.parameters.data(), 8);
   for (Index i = 0; i < x.size(); ++i) {
@@ -231,10 +237,11 @@ TEST(SmoothForms, BasisOfASplineSumsToOneAndGivesTheFactor) {
 
 TEST(SmoothForms, SayWhatTheyAre) {
   PlacedEffect effect = spline({0, 5, 20}, {0, 0.1, -0.05});
-  EXPECT_EQ(effect_text(effect), "natural cubic spline of s_mm through (0, 1), (5, 1.1), (20, "
-                                 "0.95); acts on mu");
-  effect.acts_on = ActsOn::tau;
-  EXPECT_EQ(formula_text(effect), "tau_R + 1 MPa (spline(x))");
+  EXPECT_EQ(effects::effect_text(effect),
+            "natural cubic spline of s_mm through (0, 1), (5, 1.1), (20, "
+            "0.95); acts on mu");
+  effect.acts_on = effects::ActsOn::tau;
+  EXPECT_EQ(effects::formula_text(effect), "tau_R + 1 MPa (spline(x))");
 }
 
 } // namespace

@@ -8,11 +8,16 @@
 #include "support/sample_tables.h"
 
 namespace frictab {
+
+using expr::Expr;
+using table::Table;
+namespace fortran = codegen::fortran;
+
 namespace {
 
 using testing::HasSubstr;
 
-const SolverGives solver = {
+const codegen::SolverGives solver = {
     .states = {{.state = "sigma_n_MPa",
                 .text = "PRESS",
                 .read = "peval",
@@ -36,14 +41,14 @@ const SolverGives solver = {
 
 const Table table = test::four_axis_table(); // pressure, psi, speed, temperature; flow stress
 
-std::vector<SolverInput> inputs(const std::map<std::string, std::string>& job,
-                                const std::string& units = "mm-t-s") {
-  return solver_inputs({table, units, job}, solver);
+std::vector<codegen::SolverInput> inputs(const std::map<std::string, std::string>& job,
+                                         const std::string& units = "mm-t-s") {
+  return codegen::solver_inputs({table, units, job}, solver);
 }
 
 TEST(SolverInputs, AreGivenElsePropertiesUnlessTheJobSaysOtherwise) {
   std::vector<std::string> texts;
-  for (const SolverInput& input : inputs({{"sigma_f_MPa", "field:3"}}))
+  for (const codegen::SolverInput& input : inputs({{"sigma_f_MPa", "field:3"}}))
     texts.push_back(input.argument.name + ": " + input.text);
   EXPECT_THAT(texts, testing::ElementsAre(
                          "sigma_n_MPa: PRESS", "psi: property 1", "v_rel_mm_s: VREL",
@@ -99,20 +104,20 @@ TEST(SolverInputs, OfALawWithoutStatesStillSetTheFirst) {
     t.combine = Expr::symbol("value");
     return t;
   }();
-  const auto none = solver_inputs({constant, "mm-t-s", {}}, solver);
+  const auto none = codegen::solver_inputs({constant, "mm-t-s", {}}, solver);
   EXPECT_EQ(fortran::reads(none, solver, "once"), "C     no state is needed\n      x(1) = 0.0D0");
   EXPECT_EQ(fortran::reads(none, solver), "");
 }
 
 TEST(SolverInputs, OfASlidingDistanceByEitherNameAreTheSolversSlip) {
   Table slides = test::constant_table();
-  const SolverGives slip = {.states = {{.state = "s_mm", .text = "SLIP"}}};
+  const codegen::SolverGives slip = {.states = {{.state = "s_mm", .text = "SLIP"}}};
   for (const char* name : {"s_mm", "sliding_distance"}) {
     slides.combine = Expr::symbol("value") * Expr::symbol(name);
-    const auto all = solver_inputs({slides, "mm-t-s", {}}, slip);
+    const auto all = codegen::solver_inputs({slides, "mm-t-s", {}}, slip);
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].text, "SLIP");
-    EXPECT_TRUE(takes(all, "s_mm"));
+    EXPECT_TRUE(codegen::takes(all, "s_mm"));
   }
 }
 

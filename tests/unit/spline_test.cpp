@@ -12,6 +12,13 @@
 #include "table/table_file.h"
 
 namespace frictab {
+
+using expr::Expr;
+using table::Interpolation;
+using table::Table;
+using table::TableAxis;
+using table::TableFunction;
+
 namespace {
 
 using Field = std::function<double(const std::vector<double>&)>;
@@ -270,8 +277,8 @@ TEST_P(Gradient, OutsideTheValueIsTheNearestEdges) {
   EXPECT_TRUE(std::isnan(function(std::vector<double>{1.4, 1.5, std::nan("")})));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, Gradient, testing::ValuesIn(grid_interpolations),
-                         [](const auto& given) { return interpolation_name(given.param); });
+INSTANTIATE_TEST_SUITE_P(Kernels, Gradient, testing::ValuesIn(table::grid_interpolations),
+                         [](const auto& given) { return table::interpolation_name(given.param); });
 
 TEST(CubicSpline, OvershootsButTauDoesNotLeaveZeroToK) {
   const Field cliff = [](const std::vector<double>& x) {
@@ -303,8 +310,8 @@ TEST(CubicSpline, OfAFileIsTheSameBitsKinksIncluded) {
   table.axes[1].unit = "1";
   table.axes[0].kinks = {table.axes[0].nodes[2]};
   const test::TemporaryDirectory directory;
-  write_table(table, directory.path("t.h5"));
-  const Table again = read_table(directory.path("t.h5"));
+  table::write_table(table, directory.path("t.h5"));
+  const Table again = table::read_table(directory.path("t.h5"));
   EXPECT_EQ(again.interpolation, Interpolation::cubic);
   EXPECT_EQ(again.value, table.value);
   EXPECT_EQ(again.axes[0].kinks, table.axes[0].kinks);

@@ -15,6 +15,14 @@
 #include "table/table_file.h"
 
 namespace frictab {
+
+using models::AssembledLaw;
+using table::read_table;
+using table::state_ranges;
+using table::StreamedTable;
+using table::Table;
+using table::TableOptions;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,27 +35,27 @@ TableOptions large_grid() {
       {"sigma_n_MPa", 40}, {"psi", 30}, {"v_rel_mm_s", 40}, {"T_contact_C", 80}};
   for (const auto& [name, count] : nodes)
     options.axes[name].nodes = count;
-  options.interpolation = Interpolation::linear;
+  options.interpolation = table::Interpolation::linear;
   options.memory_limit_MiB = 16;
   options.place = {"job.toml", 4, 1};
   return options;
 }
 
 struct Case {
-  Model model = test::plausible_model(*find_law("log_coulomb"));
-  Dataset data = test::sample_data(model);
+  models::Model model = test::plausible_model(*models::find_law("log_coulomb"));
+  data::Dataset data = test::sample_data(model);
   TableOptions options = large_grid();
-  std::vector<StateRange> ranges = state_ranges(AssembledLaw(model), data, options);
+  std::vector<table::StateRange> ranges = state_ranges(AssembledLaw(model), data, options);
 };
 
 class StreamedTableFile : public testing::Test {
 protected:
   StreamedTable stream(const Case& c) {
-    return stream_table(AssembledLaw(c.model), c.ranges, c.options, file());
+    return table::stream_table(AssembledLaw(c.model), c.ranges, c.options, file());
   }
   // As the pipeline does: the complete file under its name.
   Table complete(const Case& c, const StreamedTable& streamed) {
-    fs::rename(finish_stream(streamed.table, c.options.hdf5, file()), file());
+    fs::rename(table::finish_stream(streamed.table, c.options.hdf5, file()), file());
     return read_table(file(), 1 << 20);
   }
   fs::path file() const { return directory.path("t/log_coulomb.h5"); }
@@ -74,8 +82,8 @@ using SlowStreamedTableFile = StreamedTableFile;
 
 TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
   const Case c;
-  ASSERT_TRUE(is_streamed(AssembledLaw(c.model), c.ranges, c.options));
-  const Table inside = build_table(AssembledLaw(c.model), c.ranges, c.options);
+  ASSERT_TRUE(table::is_streamed(AssembledLaw(c.model), c.ranges, c.options));
+  const Table inside = table::build_table(AssembledLaw(c.model), c.ranges, c.options);
   const StreamedTable streamed = stream(c);
   EXPECT_EQ(streamed.chunks, 4U);
   EXPECT_EQ(streamed.kept, 0U);
@@ -83,16 +91,16 @@ TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
   ASSERT_TRUE(outside.stored);
   EXPECT_EQ(outside.nodes(), inside.nodes());
   EXPECT_EQ(values_of(outside), inside.value);
-  EXPECT_EQ(to_text(outside.combine), to_text(inside.combine));
+  EXPECT_EQ(expr::to_text(outside.combine), expr::to_text(inside.combine));
   EXPECT_EQ(read_table(file()).value, inside.value); // small enough for memory by default
 }
 
 TEST_F(StreamedTableFile, AnswersWithTheSameBitsAsTheTableInMemory) {
   const Case c;
-  const Table inside = build_table(AssembledLaw(c.model), c.ranges, c.options);
+  const Table inside = table::build_table(AssembledLaw(c.model), c.ranges, c.options);
   const StreamedTable streamed = stream(c);
-  const TableFunction one(inside), two(streamed.table);
-  const auto points = probe_points(c.ranges, inside.axes, 3000);
+  const table::TableFunction one(inside), two(streamed.table);
+  const auto points = table::probe_points(c.ranges, inside.axes, 3000);
   for (std::size_t i = 0; i < points.front().size(); ++i) {
     std::vector<double> state, slope_one(c.ranges.size()), slope_two(c.ranges.size());
     for (std::size_t d = 0; d < points.size(); ++d)
@@ -145,7 +153,7 @@ TEST_F(StreamedTableFile, AnotherJobStartsAnew) {
   grid.ranges = state_ranges(AssembledLaw(grid.model), grid.data, grid.options);
   EXPECT_EQ(stream(grid).kept, 0U);
   Case law = c;
-  law.model = test::plausible_model(*find_law("exp_coulomb"));
+  law.model = test::plausible_model(*models::find_law("exp_coulomb"));
   for (const char* name : {"sigma_n_MPa", "T_contact_C"})
     law.options.axes[name].nodes = 2000;
   law.ranges = state_ranges(AssembledLaw(law.model), law.data, law.options);
@@ -158,7 +166,7 @@ TEST_F(StreamedTableFile, IsPackedInChunksWithChecksumsWhereAsked) {
   const StreamedTable streamed = stream(c);
   const Table packed = complete(c, streamed); // unpacked again: larger than asked to hold
   EXPECT_EQ(values_of(packed), values_of(streamed.table));
-  const auto layout = read_description(file()).layout;
+  const auto layout = table::read_description(file()).layout;
   EXPECT_EQ(layout.chunk, (std::vector<std::size_t>{1, 15, 40, 80}));
   EXPECT_EQ(layout.filters, (std::vector<std::string>{"shuffle", "deflate 1", "fletcher32"}));
   EXPECT_LT(layout.stored_bytes, 8 * packed.nodes());
@@ -170,9 +178,9 @@ TEST_F(StreamedTableFile, IsPackedInChunksWithChecksumsWhereAsked) {
 
 TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
   Case c;
-  c.options.interpolation = Interpolation::cubic;
+  c.options.interpolation = table::Interpolation::cubic;
   try {
-    is_streamed(AssembledLaw(c.model), c.ranges, c.options);
+    table::is_streamed(AssembledLaw(c.model), c.ranges, c.options);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
@@ -184,8 +192,8 @@ TEST_F(StreamedTableFile, CubicTableIsRefusedWithItsSize) {
 TEST_F(StreamedTableFile, GridOfTheToleranceIsNotStreamed) {
   Case c;
   c.options.axes["psi"].nodes.reset();
-  EXPECT_FALSE(is_streamed(AssembledLaw(c.model), c.ranges, c.options));
-  EXPECT_FALSE(fixed_axes(AssembledLaw(c.model), c.ranges, c.options));
+  EXPECT_FALSE(table::is_streamed(AssembledLaw(c.model), c.ranges, c.options));
+  EXPECT_FALSE(table::fixed_axes(AssembledLaw(c.model), c.ranges, c.options));
 }
 
 TEST_F(StreamedTableFile, TableLargerThanTheDiskIsRefusedBeforeAnythingIsWritten) {
@@ -206,7 +214,7 @@ TEST_F(StreamedTableFile, TableLargerThanTheDiskIsRefusedBeforeAnythingIsWritten
 TEST_F(StreamedTableFile, TwoProcessesDoNotWriteTheSameTable) {
   const Case c;
   fs::create_directories(directory.path("t"));
-  const ChunkList other(work(".chunks"), "another job");
+  const table::ChunkList other(work(".chunks"), "another job");
   try {
     stream(c);
     FAIL();
@@ -218,7 +226,7 @@ TEST_F(StreamedTableFile, TwoProcessesDoNotWriteTheSameTable) {
 TEST(StoredValues, FileThatIsCutShortIsAFaultThatNamesIt) {
   const test::TemporaryDirectory directory;
   const std::string file = directory.write("v", std::string(100, 'x'));
-  const StoredValues values(file, "tables/t.h5", 8, 20);
+  const io::StoredValues values(file, "tables/t.h5", 8, 20);
   std::vector<double> out(20);
   try {
     values.read(0, out);
@@ -233,16 +241,17 @@ TEST(StoredValues, FileThatIsCutShortIsAFaultThatNamesIt) {
 // One value of the packed table changed by hand.
 TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
   const test::TemporaryDirectory directory;
-  const Model model = test::plausible_model(*find_law("levanov"));
+  const models::Model model = test::plausible_model(*models::find_law("levanov"));
   TableOptions options;
   for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"})
     options.axes[name].nodes = 60;
-  const Table table =
-      build_table(AssembledLaw(model),
-                  state_ranges(AssembledLaw(model), test::sample_data(model), options), options);
-  for (const Hdf5Storage& storage : {Hdf5Storage{600, 0, true}, Hdf5Storage{600, 6, true}}) {
+  const Table table = table::build_table(
+      AssembledLaw(model), state_ranges(AssembledLaw(model), test::sample_data(model), options),
+      options);
+  for (const io::Hdf5Storage& storage :
+       {io::Hdf5Storage{600, 0, true}, io::Hdf5Storage{600, 6, true}}) {
     const std::string file = directory.path("t.h5");
-    write_table(table, file, storage);
+    table::write_table(table, file, storage);
     EXPECT_EQ(read_table(file).value, table.value);
     EXPECT_EQ(read_table(file, 0).nodes(), table.nodes()); // left on disk, unpacked
     std::string bytes = directory.read("t.h5");
@@ -252,7 +261,7 @@ TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
     ASSERT_LT(at, bytes.size());
     bytes[at] = static_cast<char>(bytes[at] ^ 1);
     directory.write("t.h5", bytes);
-    for (const std::size_t in_memory : {most_bytes_in_memory, std::size_t{0}})
+    for (const std::size_t in_memory : {table::most_bytes_in_memory, std::size_t{0}})
       try {
         read_table(file, in_memory);
         FAIL() << storage.compress << " " << in_memory;

@@ -15,27 +15,35 @@
 #include "table/table_file.h"
 
 namespace frictab {
+
+using models::AssembledLaw;
+using table::Interpolation;
+using table::read_table;
+using table::Table;
+using table::TableOptions;
+using table::write_table;
+
 namespace {
 
 Table table_of(const std::string& law, const TableOptions& options = {}) {
-  const Model model = test::plausible_model(*find_law(law));
-  const Dataset data = test::sample_data(model);
-  return build_table(AssembledLaw(model), state_ranges(AssembledLaw(model), data, options),
-                     options);
+  const models::Model model = test::plausible_model(*models::find_law(law));
+  const data::Dataset data = test::sample_data(model);
+  return table::build_table(AssembledLaw(model),
+                            table::state_ranges(AssembledLaw(model), data, options), options);
 }
 
 double worst_of(const std::string& law, const Table& table) {
-  const Model model = test::plausible_model(*find_law(law));
-  const TableFunction function(table);
-  const auto ranges = table_ranges(table, nullptr, "table");
-  return worst_case(LawFunction(AssembledLaw(model), function.inputs()), function, ranges,
-                    probe_points(ranges, table.axes, 50000))
+  const models::Model model = test::plausible_model(*models::find_law(law));
+  const table::TableFunction function(table);
+  const auto ranges = table::table_ranges(table, nullptr, "table");
+  return table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
+                           ranges, table::probe_points(ranges, table.axes, 50000))
       .drift_MPa;
 }
 
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
-  for (const Law& law : all_laws())
+  for (const models::Law& law : models::all_laws())
     names.push_back(law.name);
   return names;
 }
@@ -58,12 +66,12 @@ TableOptions options_of(Interpolation interpolation, double tolerance = 0.5) {
 class SlowTableOfEveryLaw : public TableOfEveryLaw {};
 
 TEST_P(TableOfEveryLaw, MeetsTheAskedToleranceOverTheWholeRange) {
-  for (const Interpolation interpolation : grid_interpolations)
+  for (const Interpolation interpolation : table::grid_interpolations)
     for (const double tolerance : {1.0, 0.05}) {
       const Table table = table_of(GetParam(), options_of(interpolation, tolerance));
       EXPECT_EQ(table.interpolation, interpolation);
       EXPECT_LE(worst_of(GetParam(), table), tolerance)
-          << interpolation_name(interpolation) << ", " << table.nodes() << " nodes";
+          << table::interpolation_name(interpolation) << ", " << table.nodes() << " nodes";
     }
 }
 
@@ -74,7 +82,7 @@ TEST_P(TableOfEveryLaw, FileReadsBackToTheSameBits) {
   write_table(table, file);
   const Table again = read_table(file);
   EXPECT_EQ(again.value, table.value);
-  EXPECT_EQ(to_text(again.combine), to_text(table.combine));
+  EXPECT_EQ(expr::to_text(again.combine), expr::to_text(table.combine));
   EXPECT_EQ(again.constants, table.constants);
   EXPECT_TRUE(again.record == table.record);
   ASSERT_EQ(again.axes.size(), table.axes.size());
@@ -93,7 +101,7 @@ TEST_P(SlowTableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
   if (test::run_command({python, "-c", "import h5py, h5netcdf, pandas, scipy, xarray"}).exit_code !=
       0)
     GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -scipy, -xarray are not installed";
-  for (const Interpolation interpolation : grid_interpolations)
+  for (const Interpolation interpolation : table::grid_interpolations)
     expect_rebuilt(table_of(GetParam(), options_of(interpolation)));
 }
 
@@ -103,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, SlowTableOfEveryLaw, testing::ValuesIn(law_na
 TEST(Table, ProductsOfPowersAndLogarithmsNeedTwoNodesPerAxis) {
   for (const char* law : {"log_coulomb", "exp_coulomb"}) {
     const Table table = table_of(law);
-    for (const TableAxis& axis : table.axes)
+    for (const table::TableAxis& axis : table.axes)
       EXPECT_EQ(axis.nodes.size(), 2U) << law << axis.name;
     EXPECT_LT(worst_of(law, table), 1e-11) << law;
   }
@@ -118,28 +126,28 @@ TEST(Table, ClampOfALawGetsANode) {
 }
 
 TEST(Table, ShearLimitIsCombinedAfterInterpolationNotTabulatedAcross) {
-  EXPECT_EQ(to_text(table_of("orowan").combine),
+  EXPECT_EQ(expr::to_text(table_of("orowan").combine),
             "minimum(maximum(minimum(value*sigma_n_MPa, m*(0.5773502691896258*sigma_f_MPa)), 0), "
             "0.5773502691896258*sigma_f_MPa)");
   EXPECT_LT(worst_of("orowan", table_of("orowan")), 1e-11);
   // The same law as one table of tau_R over sigma_N and sigma_f, 33 x 33 nodes across the kink.
   Table naive = table_of("orowan");
-  const Model model = test::plausible_model(*find_law("orowan"));
+  const models::Model model = test::plausible_model(*models::find_law("orowan"));
   for (const char* name : {"sigma_n_MPa", "sigma_f_MPa"}) {
-    TableAxis axis{name, "MPa", name, false, {}};
+    table::TableAxis axis{name, "MPa", name, false, {}};
     const auto [low, high] = naive.range(name).value();
     for (int i = 0; i <= 32; ++i)
       axis.nodes.push_back(low + (high - low) * i / 32);
     naive.axes.push_back(axis);
   }
-  const LawFunction law(AssembledLaw(model), {"sigma_n_MPa", "sigma_f_MPa"});
+  const table::LawFunction law(AssembledLaw(model), {"sigma_n_MPa", "sigma_f_MPa"});
   naive.value.clear();
   for (const double sigma_n : naive.axes[0].nodes)
     for (const double sigma_f : naive.axes[1].nodes) {
       const std::vector<double> state{sigma_n, sigma_f};
       naive.value.push_back(law(state));
     }
-  naive.combine = Expr::symbol("value");
+  naive.combine = expr::Expr::symbol("value");
   naive.constants.clear();
   EXPECT_GT(worst_of("orowan", naive), 1.0);
 }
@@ -201,7 +209,7 @@ TEST(Table, LogarithmicAxisFromZeroIsRefused) {
 
 TEST(TableFunction, ReportsEveryClampedAxisAndKeepsNaN) {
   const Table table = table_of("log_coulomb");
-  const TableFunction function(table);
+  const table::TableFunction function(table);
   ASSERT_EQ(function.inputs(), (std::vector<std::string>{"sigma_n_MPa", "psi", "v_rel_mm_s",
                                                          "T_contact_C", "sigma_f_MPa"}));
   std::vector<double> state{1500, 3, 50, 100, 500};
@@ -223,7 +231,7 @@ TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
   const test::TemporaryDirectory directory;
   const std::string file = directory.path("foreign.h5");
   {
-    Hdf5Writer out(file);
+    io::Hdf5Writer out(file);
     const std::size_t shape[] = {3};
     const std::vector<double> nodes{1, 1, 2}, value{0.1, 0.2, 0.3};
     out.dataset("psi", shape, nodes);
@@ -251,7 +259,7 @@ TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {
   const test::TemporaryDirectory directory;
   const std::string file = directory.path("foreign.h5");
   {
-    Hdf5Writer out(file);
+    io::Hdf5Writer out(file);
     const std::size_t shape[] = {3};
     const std::vector<double> nodes{1, 2, 3}, value{0.1, 0.2, 0.3};
     out.dataset("psi", shape, nodes);
@@ -292,13 +300,13 @@ TEST(TableFile, KeepsWhatTheRecordDoesNotKnow) {
 }
 
 TEST(TableFile, HasTheRecordByTheNamesOfItsMembersAndInputs) {
-  TableRecord record;
+  table::TableRecord record;
   record.quantile = 0.95;
   record.proven_drift_MPa = 0.4;
   record.data_origin = "measured";
   record.inputs["tool"] = {.low = 0, .high = 2, .levels = "0 = A"};
   record.inputs["psi"] = {.worst_case_at = 1.5, .range_from = "job file"};
-  const TableAttributes attributes = attributes_of(record);
+  const table::TableAttributes attributes = table::attributes_of(record);
   EXPECT_EQ(attributes.texts, (std::map<std::string, std::string>{{"data_origin", "measured"},
                                                                   {"levels_tool", "0 = A"},
                                                                   {"range_from_psi", "job file"}}));
@@ -333,7 +341,7 @@ TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
     }
     const std::string file = directory.write("broken.h5", broken);
     try {
-      TableFunction function(read_table(file)); // luck: the change did not matter
+      table::TableFunction function(read_table(file)); // luck: the change did not matter
     } catch (const InputError&) {
     }
   }

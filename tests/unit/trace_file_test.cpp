@@ -8,12 +8,20 @@
 #include "trace/trace_text.h"
 
 namespace frictab {
+
+using effects::find_effect;
+using effects::PlacedEffect;
+using trace::parse_traces;
+using trace::Trace;
+using trace::trace_json;
+using trace::Verdict;
+
 namespace {
 
 using testing::HasSubstr;
 
-TracedEffect traced(PlacedEffect placed) {
-  TracedEffect effect;
+trace::TracedEffect traced(PlacedEffect placed) {
+  trace::TracedEffect effect;
   effect.placed = std::move(placed);
   effect.columns = {"tool", "s_mm"};
   return effect;
@@ -29,7 +37,7 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   added.form = find_effect("hinge");
   added.inputs = {{"T_tool_C", {}, 20, 120}};
   added.parameters = {0.5, 70, 50};
-  added.acts_on = ActsOn::tau;
+  added.acts_on = effects::ActsOn::tau;
   added.tau_scale_MPa = 37.5;
   added.pressure_MPa = 12;
   Trace trace;
@@ -44,7 +52,7 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
     EXPECT_EQ(one.acts_on, other.acts_on);
     EXPECT_EQ(one.parameters, other.parameters);
     EXPECT_EQ(one.stiffness, other.stiffness);
-    EXPECT_EQ(effect_text(one), effect_text(other));
+    EXPECT_EQ(effects::effect_text(one), effects::effect_text(other));
     ASSERT_EQ(one.inputs.size(), other.inputs.size());
     for (std::size_t k = 0; k < one.inputs.size(); ++k) {
       EXPECT_EQ(one.inputs[k].column, other.inputs[k].column);
@@ -88,7 +96,7 @@ TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {
   trace.effects[0].parameters = {{"a", 0.2, 0.01, "1", ""},
                                  {"x0", 60, none, "%", "at its bound"},
                                  {"w", 2, none, "%", ""}}; // a reference: nobody asks
-  EXPECT_THAT(trace_text(trace), HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
+  EXPECT_THAT(trace::trace_text(trace), HasSubstr(": a = 0.2 +- 0.01, x0 = 60 % (at its bound)\n"));
   const std::string text = trace_json({trace}, false);
   EXPECT_THAT(text, HasSubstr("\"no_error_because\": \"at its bound\""));
   EXPECT_EQ(trace_json(parse_traces(text, "trace.json"), false), text);
@@ -100,7 +108,8 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
   trace.unseen = "nested_cross_validation";
   trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3};
   trace.validation_shift = {true, 57, {41, 76}, 0.21, 1e-6};
-  const Design design{{"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
+  const trace::Design design{
+      {"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
   trace.leads = {
       {"tool",
        {"tool"},
@@ -134,7 +143,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
       EXPECT_EQ(again.leads.at(0).why, trace.leads[0].why);
       EXPECT_TRUE(again.leads.at(0).between);
       EXPECT_EQ(trace_json({again}, false), text);
-      EXPECT_EQ(trace_text(again), trace_text(trace));
+      EXPECT_EQ(trace::trace_text(again), trace::trace_text(trace));
     }
 }
 

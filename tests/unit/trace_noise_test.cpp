@@ -12,6 +12,11 @@
 #include "trace/order_test.h"
 
 namespace frictab {
+
+using trace::fit_noise;
+using trace::NoiseModel;
+using trace::test_order;
+
 namespace {
 
 using Eigen::Index;
@@ -19,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A block per row; blocks of two and of three rows; one block; blocks of one row and of two.
-const Blocks blocks = test::blocks_of({7, 97, 1, 13, 61});
+const trace::Blocks blocks = test::blocks_of({7, 97, 1, 13, 61});
 
 VectorXd some_tau(Index count) {
   VectorXd tau(count);
@@ -41,7 +46,8 @@ NoiseModel some_noise(double growth) {
 }
 
 // V of one experiment, written out; its blocks count as equally far apart.
-MatrixXd dense(const NoiseModel& n, const VectorXd& tau, const Blocks& of, std::size_t experiment) {
+MatrixXd dense(const NoiseModel& n, const VectorXd& tau, const trace::Blocks& of,
+               std::size_t experiment) {
   const std::size_t begin = of.first[experiment];
   const auto size = static_cast<Index>(of.first[experiment + 1] - begin);
   MatrixXd v(size, size);
@@ -65,7 +71,7 @@ TEST(Whitener, GivesTheInverseCovarianceOfEveryExperiment) {
   for (const double growth : {0.0, 1.0}) {
     const VectorXd tau = some_tau(static_cast<Index>(blocks.count()));
     const NoiseModel noise = some_noise(growth);
-    const Whitener whitener(noise, tau, blocks);
+    const trace::Whitener whitener(noise, tau, blocks);
     MatrixXd x(tau.size(), 3);
     for (Index i = 0; i < x.size(); ++i)
       x(i) = std::sin(1.7 * static_cast<double>(i));
@@ -88,7 +94,7 @@ TEST(Whitener, GivesTheInverseCovarianceOfEveryExperiment) {
 
 TEST(Whitener, SinglePrecisionAgrees) {
   const auto count = static_cast<Index>(blocks.count());
-  const Whitener whitener(some_noise(1), some_tau(count), blocks);
+  const trace::Whitener whitener(some_noise(1), some_tau(count), blocks);
   MatrixXd x(count, 11); // about 1 once whitened
   for (Index i = 0; i < x.size(); ++i)
     x(i) = 3 * std::sin(1.7 * static_cast<double>(i));
@@ -101,7 +107,7 @@ TEST(Whitener, SinglePrecisionAgrees) {
 TEST(Whitener, SeesNothingAlongNuisanceColumns) {
   const auto count = static_cast<Index>(blocks.count());
   const MatrixXd nuisance = MatrixXd::Random(count, 2);
-  const Whitener whitener(some_noise(0), some_tau(count), blocks, nuisance);
+  const trace::Whitener whitener(some_noise(0), some_tau(count), blocks, nuisance);
   MatrixXd x = nuisance * MatrixXd::Random(2, 3);
   whitener.apply(x);
   EXPECT_LT(x.norm(), 1e-9);
@@ -109,11 +115,11 @@ TEST(Whitener, SeesNothingAlongNuisanceColumns) {
 
 // Residuals drawn from the model; experiments of 25 blocks.
 struct Drawn {
-  Blocks blocks;
+  trace::Blocks blocks;
   VectorXd residual, tau;
   MatrixXd fitted, nuisance;
 
-  NoiseData data() const { return {residual, tau, blocks, fitted, nuisance}; }
+  trace::NoiseData data() const { return {residual, tau, blocks, fitted, nuisance}; }
 };
 
 Drawn draw(const NoiseModel& noise, std::size_t count, std::uint64_t seed) {
@@ -216,15 +222,17 @@ TEST(NoiseModel, LetsGoOfAnEffectThatHasBecomeKnown) {
   const NoiseModel swallowed = fit_noise(drawn.data()).noise;
   EXPECT_GT(swallowed.gain, 0.3);
   drawn.residual = without;
-  const NoiseFit fresh = fit_noise(drawn.data());
+  const trace::NoiseFit fresh = fit_noise(drawn.data());
   // 0.01 of log likelihood: nothing that a choice between laws could see.
-  EXPECT_NEAR(refit_noise(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood, 0.01);
+  EXPECT_NEAR(trace::refit_noise(drawn.data(), swallowed).log_likelihood, fresh.log_likelihood,
+              0.01);
   NoiseModel near = fresh.noise;
   near.gain *= 1.3;
-  EXPECT_NEAR(refine_noise(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
+  EXPECT_NEAR(trace::refine_noise(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.01);
   // To what weights can show: 0.5 is one standard error of one parameter.
   near.gain = swallowed.gain;
-  EXPECT_NEAR(refit_noise_coarsely(drawn.data(), near).log_likelihood, fresh.log_likelihood, 0.5);
+  EXPECT_NEAR(trace::refit_noise_coarsely(drawn.data(), near).log_likelihood, fresh.log_likelihood,
+              0.5);
 }
 
 TEST(NoiseModel, RestrictedLikelihoodIsNotFooledByFittedParameters) {
@@ -305,7 +313,7 @@ TEST(OrderOfTests, SaysWhichOfSeveralScoresFollowsTheOrder) {
     for (Index c = 0; c < 3; ++c)
       scores(e, c) = random.normal() + (c == 1 ? 0.04 * (static_cast<double>(e) - 40) : 0.0);
   }
-  const OrderTest test = test_order(scores, order, 999, 1);
+  const trace::OrderTest test = test_order(scores, order, 999, 1);
   EXPECT_LT(test.p_value, 0.01);
   EXPECT_EQ(test.column, 1);
 }

@@ -16,6 +16,18 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using data::Column;
+using data::Dataset;
+using effects::ActsOn;
+using trace::Trace;
+using trace::trace_json;
+using trace::trace_text;
+using trace::TraceOptions;
+using trace::Verdict;
+using twin::parse_design;
+using twin::TwinOptions;
+
 namespace {
 
 using testing::Contains;
@@ -32,11 +44,11 @@ TwinOptions campaign(const std::string& law, std::uint64_t seed, const std::stri
   TwinOptions options;
   options.seed = seed;
   options.law = law;
-  options.design = parse_design(design, default_design(twin_set("D")));
+  options.design = parse_design(design, twin::default_design(twin::twin_set("D")));
   options.profile = "varied";
   options.more_bystanders = true;
-  options.scatter = parse_scatter("test=0.04,slow=0.03,rho=0.8,white=0.015");
-  if (!effect.empty()) options.effects.push_back(parse_effect(effect));
+  options.scatter = twin::parse_scatter("test=0.04,slow=0.03,rho=0.8,white=0.015");
+  if (!effect.empty()) options.effects.push_back(twin::parse_effect(effect));
   return options;
 }
 
@@ -45,17 +57,19 @@ struct Data {
 };
 
 Data data_of(const TwinOptions& options) {
-  Twin twin = make_twin(options);
+  twin::Twin twin = twin::make_twin(options);
   return {std::move(twin.training.data), std::move(twin.validation.data)};
 }
 
 Trace traced(const Data& data, const std::string& law, const TraceOptions& how = {}) {
-  ModelOptions models;
+  calibrate::ModelOptions models;
   models.use = {law};
-  CalibrationOptions calibration;
+  calibrate::CalibrationOptions calibration;
   calibration.bootstrap = 100;
-  const Calibration calibrated = calibrate({data.training, data.validation, models, calibration});
-  const Trace found = trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
+  const calibrate::Calibration calibrated =
+      calibrate::calibrate({data.training, data.validation, models, calibration});
+  const Trace found =
+      trace::trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
   // Of every campaign here: no effect is delivered that makes the calibrated law worse.
   if (!found.effects.empty() && found.unseen == "validation") {
     EXPECT_LT(found.after.validation.mae_MPa, found.as_calibrated.validation.mae_MPa);
@@ -86,9 +100,9 @@ void scale(Dataset& data, const std::string& name, double by) {
 
 // As an effect, or among what the data cannot tell from it.
 bool names(const Trace& trace, const std::string& column) {
-  for (const TracedEffect& effect : trace.effects) {
+  for (const trace::TracedEffect& effect : trace.effects) {
     if (effect.placed.inputs[0].column == column) return true;
-    for (const Alternative& other : effect.alternatives)
+    for (const trace::Alternative& other : effect.alternatives)
       if (other.in_set && (other.derived == column || other.columns == std::vector{column}))
         return true;
   }
@@ -97,7 +111,7 @@ bool names(const Trace& trace, const std::string& column) {
 
 std::vector<std::string> causes(const Trace& trace) {
   std::vector<std::string> names;
-  for (const TracedEffect& effect : trace.effects)
+  for (const trace::TracedEffect& effect : trace.effects)
     names.push_back(effect.placed.inputs[0].column);
   return names;
 }
@@ -207,7 +221,8 @@ TEST(Trace, DriftAlongADeclaredOrderIsReportedNotShipped) {
   EXPECT_THAT(t.remaining.note, HasSubstr("drift, wear or batch"));
   // The law keeps its form; its parameters are those of a campaign without the drift.
   EXPECT_EQ(t.extended_model, "log_coulomb_traced");
-  EXPECT_EQ(parameter_names(*t.extended.model.law), parameter_names(*find_law("log_coulomb")));
+  EXPECT_EQ(models::parameter_names(*t.extended.model.law),
+            models::parameter_names(*models::find_law("log_coulomb")));
   EXPECT_LT(t.after.validation.mae_MPa, 1.05 * t.before.validation.mae_MPa);
 
   // The same drift in a file that nobody said anything about: files are sorted in many ways.
@@ -259,7 +274,8 @@ TEST(Trace, AColumnCalledLikeAnOrderThatNumbersTheTestsIsOne) {
 // Also where a search sees a part of the tests only, which are not numbered without gaps.
 TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   TwinOptions options = campaign("log_coulomb", 6, "form=category,column=tool,strength=0.6");
-  options.effects.push_back(parse_effect("form=linear,column=latent,latent=drift,strength=0.6"));
+  options.effects.push_back(
+      twin::parse_effect("form=linear,column=latent,latent=drift,strength=0.6"));
   options.design = parse_design("points=15", *options.design);
   Data data = data_of(options);
   for (Dataset* part : {&data.training, &data.validation})
@@ -300,7 +316,7 @@ TEST(Trace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
   const Data data = data_of(campaign("orowan", 5, "form=power,column=humidity_pct,strength=0.8"));
   const Trace t = traced(data, "shaw");
   ASSERT_EQ(t.extended_model, "shaw_traced") << trace_text(t);
-  const ModelFit& fit = t.extended;
+  const calibrate::ModelFit& fit = t.extended;
   EXPECT_EQ(fit.model.law->parameters[2].name, "n");
   EXPECT_TRUE(std::isnan(fit.std_error[2]));
   EXPECT_GT(fit.std_error[3], 0) << "of the effect";
@@ -338,7 +354,7 @@ TEST(Trace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDec
   const Trace t = traced(data, "log_coulomb", declared_order());
   EXPECT_TRUE(t.effects.empty()) << trace_text(t);
   ASSERT_FALSE(t.leads.empty());
-  const Lead& lead = t.leads.front();
+  const trace::Lead& lead = t.leads.front();
   EXPECT_THAT(lead.columns, testing::ElementsAre("humidity_pct")) << trace_text(t);
   EXPECT_THAT(lead.why, HasSubstr("order of tests (run_order) explains it as well"));
   EXPECT_THAT(lead.design.settles, testing::ElementsAre("humidity_pct", "run_order"));
@@ -373,7 +389,7 @@ TEST(SlowTrace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
   EXPECT_EQ(trace_json({traced(options)}, true), one);
   set_threads(0);
   const std::string text = trace_json({t, t}, true);
-  const std::vector<Trace> back = parse_traces(text, "trace.json");
+  const std::vector<Trace> back = trace::parse_traces(text, "trace.json");
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(trace_text(back[0]), trace_text(t));
   EXPECT_EQ(back[0].as_calibrated.training.mae_MPa, t.as_calibrated.training.mae_MPa);
@@ -387,8 +403,8 @@ void expect_same(const Trace& one, const Trace& other, const char* what) {
   EXPECT_EQ(causes(one), causes(other)) << what;
   const auto named = [](const Trace& t) {
     std::vector<std::string> forms;
-    for (const TracedEffect& e : t.effects)
-      forms.push_back(e.placed.form->name + " on " + acts_on_name(e.placed.acts_on));
+    for (const trace::TracedEffect& e : t.effects)
+      forms.push_back(e.placed.form->name + " on " + effects::acts_on_name(e.placed.acts_on));
     return forms;
   };
   EXPECT_EQ(named(one), named(other)) << what;
@@ -480,7 +496,7 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
   const Trace t = traced(campaign("log_coulomb", 11));
   const auto find = [&](const std::string& name) {
     return *std::find_if(t.detectable.begin(), t.detectable.end(),
-                         [&](const Detectable& d) { return d.column == name; });
+                         [&](const trace::Detectable& d) { return d.column == name; });
   };
   EXPECT_TRUE(find("humidity_pct").identifiable);
   // A difference between experiments that scatter by 4 % needs about 4.7 standard errors.
@@ -492,7 +508,7 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
 TEST(Trace, FewExperimentsProveNothingAndSaySo) {
   TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
   options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
-                                default_design(twin_set("D")));
+                                twin::default_design(twin::twin_set("D")));
   const Trace t = traced(options);
   EXPECT_TRUE(t.effects.empty());
   EXPECT_THAT(trace_text(t), HasSubstr("lacks, by its residual: nothing that so few tests can"));
@@ -508,7 +524,7 @@ TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {
   TwinOptions options = campaign("coulomb", 1);
   for (const char* pressures : {"p=500", "p=500,2750"}) {
     options.design = parse_design(std::string(pressures) + ";psi=1;v=5;T=20;points=60;validation=3",
-                                  default_design(twin_set("D")));
+                                  twin::default_design(twin::twin_set("D")));
     const Trace t = traced(options);
     EXPECT_TRUE(t.effects.empty());
     EXPECT_FALSE(t.leads.empty());
@@ -546,7 +562,7 @@ TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
       found += t.nested.offered > 0;
       added += !t.effects.empty();
       flagged += t.verdict == Verdict::unexplained_structure;
-      for (const Lead& lead : t.leads)
+      for (const trace::Lead& lead : t.leads)
         EXPECT_LT(std::abs(lead.share), 3) << seed << noise << trace_text(t);
     }
   // Binomial, 30 at 0.02 and at 0.01: more than 3 in 0.2 %.
@@ -561,7 +577,7 @@ TEST(SlowTraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
       TwinOptions options =
           campaign("log_coulomb", seed, fmt::format("form=linear,column={},strength=0.3", hidden));
       if (std::string(hidden) == "direction")
-        options.effects = {parse_effect("form=category,column=direction,strength=0.3")};
+        options.effects = {twin::parse_effect("form=category,column=direction,strength=0.3")};
       options.hide = {hidden};
       if (std::string(hidden) == "film_um") options.hide.push_back("film2_um"); // goes with it
       const Trace t = traced(options);

@@ -14,6 +14,12 @@
 #include "twin/twin_effect.h"
 
 namespace frictab {
+
+using twin::make_twin;
+using twin::parse_scatter;
+using twin::Twin;
+using twin::TwinOptions;
+
 namespace {
 
 using test::fault_of;
@@ -22,11 +28,11 @@ using testing::HasSubstr;
 TwinOptions small(const std::string& design = "v=5,500;points=110;validation=6") {
   TwinOptions options;
   options.seed = 1;
-  options.design = parse_design(design, default_design(twin_set("D")));
+  options.design = twin::parse_design(design, twin::default_design(twin::twin_set("D")));
   return options;
 }
 
-std::span<const double> column(const TwinPart& part, const char* name) {
+std::span<const double> column(const twin::TwinPart& part, const char* name) {
   return part.data.values(name);
 }
 
@@ -76,7 +82,7 @@ double between_tests(const Twin& twin) {
       sum += std::log(tau[i] / twin.training.oracle_MPa[i]);
     means.push_back(sum / static_cast<double>(first[e + 1] - first[e]));
   }
-  const double mean = mean_of(means);
+  const double mean = twin::mean_of(means);
   double square = 0;
   for (const double m : means)
     square += (m - mean) * (m - mean);
@@ -155,7 +161,7 @@ TwinOptions many_tests() {
 
 TEST(TwinBystanders, MoreOfThemAreWhatTheySay) {
   const Twin twin = make_twin(many_tests());
-  const TwinPart& part = twin.training;
+  const twin::TwinPart& part = twin.training;
   EXPECT_NEAR(correlation(column(part, "film_um"), column(part, "film2_um")), 0.9, 0.04);
   EXPECT_GT(correlation(column(part, "run_order"), column(part, "lab_T_C")), 0.9);
   EXPECT_NEAR(correlation(column(part, "vib"), column(part, "tau_R_MPa")), 0, 0.05);
@@ -168,7 +174,7 @@ TEST(TwinBystanders, MoreOfThemAreWhatTheySay) {
 TEST(TwinBystanders, BatchesAreContiguousInTheOrderOfTests) {
   const Twin twin = make_twin(many_tests());
   std::map<double, std::set<double>> batches; // places by batch, both parts
-  for (const TwinPart* part : {&twin.training, &twin.validation})
+  for (const twin::TwinPart* part : {&twin.training, &twin.validation})
     for (std::size_t i = 0; i < part->data.rows(); ++i)
       batches[column(*part, "batch")[i]].insert(column(*part, "run_order")[i]);
   EXPECT_EQ(batches.size(), 6u);
@@ -182,7 +188,7 @@ TEST(TwinBystanders, MoreOfThemLeaveTheOthersAndTheMeasurement) {
   options.more_bystanders = true;
   const Twin more = make_twin(options);
   EXPECT_EQ(more.training.data.columns.size(), plain.training.data.columns.size() + 6);
-  for (const Column& c : plain.training.data.columns)
+  for (const data::Column& c : plain.training.data.columns)
     EXPECT_EQ(c.values, more.training.data.find(c.name)->values) << c.name;
 }
 
@@ -192,7 +198,7 @@ TEST(TwinBystanders, EffectsActOnAddedOnes) {
         "form=linear,column=vib", "form=linear,column=lab_T_C", "form=hinge,column=film2_um"}) {
     TwinOptions options = small();
     options.more_bystanders = true;
-    options.effects = {parse_effect(effect + std::string(",strength=0.1"))};
+    options.effects = {twin::parse_effect(effect + std::string(",strength=0.1"))};
     EXPECT_NEAR(make_twin(options).effects[0].strength, 0.1, 1e-6) << effect;
   }
 }

@@ -11,18 +11,24 @@
 #include "twin/twin_summary.h"
 
 namespace frictab {
+
+using models::Conventions;
+using twin::make_twin;
+using twin::mean_of;
+using twin::Twin;
+
 namespace {
 
 using test::fault_of;
 using testing::HasSubstr;
 
-TwinOptions of_law(const std::string& law, const std::vector<std::string>& effects = {}) {
-  TwinOptions options;
+twin::TwinOptions of_law(const std::string& law, const std::vector<std::string>& effects = {}) {
+  twin::TwinOptions options;
   options.law = law;
   options.profile = "varied";
-  options.design = parse_design("p=500,1625,2750;points=60;validation=10", {});
+  options.design = twin::parse_design("p=500,1625,2750;points=60;validation=10", {});
   for (const std::string& effect : effects)
-    options.effects.push_back(parse_effect(effect));
+    options.effects.push_back(twin::parse_effect(effect));
   return options;
 }
 
@@ -34,15 +40,15 @@ double mae(std::span<const double> tau, const std::vector<double>& law) {
 }
 
 // tau_R of a law that may have effects in it, on the columns of a part.
-std::vector<double> tau_by_hand(const Law& law, const TwinPart& part,
+std::vector<double> tau_by_hand(const models::Law& law, const twin::TwinPart& part,
                                 const std::vector<double>& parameters) {
   const Conventions conventions;
-  const auto names = inputs(law, conventions);
+  const auto names = models::inputs(law, conventions);
   std::vector<const double*> columns;
   for (const std::string& name : names)
     columns.push_back(part.data.values(name).data());
   std::vector<double> tau(part.data.rows());
-  Program(tau_formula(law, conventions), names, parameter_names(law))
+  expr::Program(models::tau_formula(law, conventions), names, models::parameter_names(law))
       .evaluate(tau.size(), columns, parameters, tau.data());
   return tau;
 }
@@ -50,14 +56,15 @@ std::vector<double> tau_by_hand(const Law& law, const TwinPart& part,
 class TwinOfLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(TwinOfLaw, HasNothingThatTheLawLacks) {
-  TwinOptions options = of_law(GetParam());
+  twin::TwinOptions options = of_law(GetParam());
   options.noise_scale = 0;
   const Twin twin = make_twin(options);
   EXPECT_LT(mae(twin.validation.data.values("tau_R_MPa"),
                 tau_by_hand(twin.law->law(), twin.validation, twin.law->parameters())),
             5.01e-4); // rounding of the measurement
-  const auto fit =
-      LawProblem(twin.law->law(), Conventions{}, twin.training.data).fit(Loss::l2, 0).result;
+  const auto fit = calibrate::LawProblem(twin.law->law(), Conventions{}, twin.training.data)
+                       .fit(calibrate::Loss::l2, 0)
+                       .result;
   EXPECT_LT(mae(twin.validation.oracle_MPa,
                 tau_by_hand(twin.law->law(), twin.validation, fit.parameters)),
             1e-3);
@@ -76,12 +83,13 @@ TEST_P(TwinOfLaw, StrengthIsWhatItsOwnRecalibrationLeaves) {
   const Twin twin = make_twin(of_law(GetParam(), {"form=saturation,column=s_mm,strength=0.3"}));
   EXPECT_NEAR(twin.effects[0].strength, 0.3, 1e-6);
   const auto tau = twin.training.data.values("tau_R_MPa");
-  const auto fit =
-      LawProblem(twin.law->law(), Conventions{}, twin.training.data).fit(Loss::l2, 0).result;
+  const auto fit = calibrate::LawProblem(twin.law->law(), Conventions{}, twin.training.data)
+                       .fit(calibrate::Loss::l2, 0)
+                       .result;
   const double left = mae(tau, tau_by_hand(twin.law->law(), twin.training, fit.parameters));
   EXPECT_NEAR(left / mae(tau, twin.training.recalibrated_MPa), 1, 2e-3);
   EXPECT_NEAR(left / mae(tau, twin.training.oracle_MPa), 1.3, 0.05); // recalibration of the truth
-  EXPECT_EQ(summarise(twin).find("base_law")->constants.size(), fit.parameters.size());
+  EXPECT_EQ(twin::summarise(twin).find("base_law")->constants.size(), fit.parameters.size());
 }
 
 TEST_P(TwinOfLaw, ZeroAmplitudeLeavesEveryBit) {
@@ -95,7 +103,7 @@ TEST_P(TwinOfLaw, ZeroAmplitudeLeavesEveryBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, TwinOfLaw, testing::ValuesIn(truth_names()),
+INSTANTIATE_TEST_SUITE_P(Laws, TwinOfLaw, testing::ValuesIn(twin::truth_names()),
                          [](const auto& param) { return param.param; });
 
 // The same effects as the trace stage would add them.
@@ -105,19 +113,19 @@ TEST(TwinLaw, EffectsAreThoseOfTheExtendedLaw) {
         make_twin(of_law(name, {"form=saturation,column=s_mm,amplitude=0.2",
                                 "form=linear,column=T_tool_C,amplitude=-0.6,on=m",
                                 "form=hinge,column=v_rel_mm_s,amplitude=0.05,on=tau"}));
-    std::vector<PlacedEffect> effects;
-    for (const PlantedEffect& planted : twin.effects) {
-      PlacedEffect& effect = effects.emplace_back();
+    std::vector<effects::PlacedEffect> effects;
+    for (const twin::PlantedEffect& planted : twin.effects) {
+      effects::PlacedEffect& effect = effects.emplace_back();
       effect.form = planted.form;
       effect.inputs = {{planted.spec.column, {}, -1e9, 1e9}};
       effect.acts_on = planted.spec.on;
       effect.parameters = planted.parameters;
       effect.tau_scale_MPa = mean_of(twin.training.base_MPa);
     }
-    const Law law =
-        extended_law(twin.law->law(), Conventions{}, twin.law->parameters(), effects, "truth");
+    const models::Law law = effects::extended_law(twin.law->law(), Conventions{},
+                                                  twin.law->parameters(), effects, "truth");
     std::vector<double> parameters;
-    for (const Parameter& parameter : law.parameters)
+    for (const models::Parameter& parameter : law.parameters)
       parameters.push_back(parameter.start);
     const auto expected = tau_by_hand(law, twin.validation, parameters);
     for (std::size_t i = 0; i < expected.size(); ++i)

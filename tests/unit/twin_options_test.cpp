@@ -6,6 +6,9 @@
 #include "twin/twin.h"
 
 namespace frictab {
+
+using twin::TwinOptions;
+
 namespace {
 
 using testing::HasSubstr;
@@ -22,15 +25,15 @@ template <class Body> std::string fault(Body body) {
 std::string effect_fault(const std::string& text) {
   return fault([&] {
     TwinOptions options;
-    options.effects = {parse_effect(text)};
-    options.design =
-        parse_design("v=5,500;T=20,200;points=50;validation=2", default_design(twin_set("D")));
-    make_twin(options);
+    options.effects = {twin::parse_effect(text)};
+    options.design = twin::parse_design("v=5,500;T=20,200;points=50;validation=2",
+                                        twin::default_design(twin::twin_set("D")));
+    twin::make_twin(options);
   });
 }
 
 std::string design_fault(const std::string& text) {
-  return fault([&] { parse_design(text, default_design(twin_set("D"))); });
+  return fault([&] { twin::parse_design(text, twin::default_design(twin::twin_set("D"))); });
 }
 
 TEST(TwinOptions, UnknownFormNamesTheNearest) {
@@ -89,7 +92,8 @@ TEST(TwinOptions, EffectThatTurnsFrictionNegativeIsRefused) {
 }
 
 TEST(TwinOptions, GivenShapesAreUsed) {
-  const EffectSpec spec = parse_effect("form=saturation, column=s_mm, strength=0.1, x0=2.5");
+  const twin::EffectSpec spec =
+      twin::parse_effect("form=saturation, column=s_mm, strength=0.1, x0=2.5");
   EXPECT_EQ(spec.shapes.at("x0"), 2.5);
 }
 
@@ -105,7 +109,7 @@ TEST(TwinOptions, DesignFaultsComeTogether) {
 template <class Change> std::string options_fault(Change change) {
   TwinOptions options;
   change(options);
-  return fault([&] { make_twin(options); });
+  return fault([&] { twin::make_twin(options); });
 }
 
 TEST(TwinOptions, UnknownSetAndNoiseAreNamed) {

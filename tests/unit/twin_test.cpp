@@ -12,6 +12,13 @@
 #include "twin/twin_summary.h"
 
 namespace frictab {
+
+using twin::find_column;
+using twin::make_twin;
+using twin::Twin;
+using twin::TwinOptions;
+using twin::TwinPart;
+
 namespace {
 
 Twin twin_of(std::uint64_t seed, const std::vector<std::string>& effects = {},
@@ -19,8 +26,9 @@ Twin twin_of(std::uint64_t seed, const std::vector<std::string>& effects = {},
   TwinOptions options;
   options.seed = seed;
   for (const auto& effect : effects)
-    options.effects.push_back(parse_effect(effect));
-  if (!design.empty()) options.design = parse_design(design, default_design(twin_set("D")));
+    options.effects.push_back(twin::parse_effect(effect));
+  if (!design.empty())
+    options.design = twin::parse_design(design, twin::default_design(twin::twin_set("D")));
   return make_twin(options);
 }
 
@@ -33,7 +41,7 @@ TEST(Twin, SetDReproducesThePublishedErrorsOfConstants) {
   std::map<std::string, double> mean;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Twin twin = twin_of(seed);
-    for (const TwinLaw& law : summarise(twin).laws)
+    for (const twin::TwinLaw& law : twin::summarise(twin).laws)
       mean[law.name] += law.validation.mae_MPa / 3;
     // Calibrated constants again, without the summary's own code.
     double xy = 0, xx = 0, error = 0;
@@ -60,7 +68,7 @@ TEST(Twin, SetDReproducesThePublishedErrorsOfConstants) {
 
 // Each of its limits is one of the two laws, so least squares cannot be worse.
 TEST(Twin, CalibratedOrowanFitsNoWorseThanEitherOfItsBranches) {
-  const TwinSummary summary = summarise(twin_of(1));
+  const twin::TwinSummary summary = twin::summarise(twin_of(1));
   EXPECT_LE(summary.find("orowan")->training.rmse_MPa, summary.find("coulomb")->training.rmse_MPa);
   EXPECT_LE(summary.find("orowan")->training.rmse_MPa, summary.find("shear")->training.rmse_MPa);
 }
@@ -220,7 +228,7 @@ TEST(Twin, LatentCauseIsInNoColumn) {
 
 TEST(Twin, HiddenColumnStillActs) {
   TwinOptions options;
-  options.effects = {parse_effect("form=linear,column=humidity_pct,strength=0.3")};
+  options.effects = {twin::parse_effect("form=linear,column=humidity_pct,strength=0.3")};
   options.hide = {"humidity_pct"};
   const Twin twin = make_twin(options);
   EXPECT_EQ(find_column(twin.training.data, "humidity_pct"), nullptr);

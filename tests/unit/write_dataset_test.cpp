@@ -8,6 +8,9 @@
 #include "io/hdf5.h"
 
 namespace frictab {
+
+using data::Dataset;
+
 namespace {
 
 Dataset small() {
@@ -21,18 +24,18 @@ Dataset small() {
 }
 
 TEST(WriteDataset, CsvIsShortestAndQuotedWhereNeeded) {
-  EXPECT_EQ(csv_text(small()), "experiment,s_mm,sigma_n_MPa,tool\n"
-                               "E1,0,500,A\n"
-                               "E1,0.1,1e-20,\"B; worn\"\n"
-                               "\"a, \"\"b\"\"\",0,0.3333333333333333,A\n"
-                               "\"a, \"\"b\"\"\",2,1000000,\"B; worn\"\n");
+  EXPECT_EQ(data::csv_text(small()), "experiment,s_mm,sigma_n_MPa,tool\n"
+                                     "E1,0,500,A\n"
+                                     "E1,0.1,1e-20,\"B; worn\"\n"
+                                     "\"a, \"\"b\"\"\",0,0.3333333333333333,A\n"
+                                     "\"a, \"\"b\"\"\",2,1000000,\"B; worn\"\n");
 }
 
 TEST(WriteDataset, Hdf5ColumnsReadBackToTheSameBits) {
   const auto file = std::filesystem::path(testing::TempDir()) / "frictab_columns.h5";
   const Dataset data = small();
-  write_hdf5_columns(data, file);
-  const Hdf5Reader reader(file, "columns.h5");
+  data::write_hdf5_columns(data, file);
+  const io::Hdf5Reader reader(file, "columns.h5");
   EXPECT_EQ(reader.values("sigma_n_MPa"), data.columns[1].values);
   EXPECT_EQ(reader.texts("tool"), (std::vector<std::string>{"A", "B; worn", "A", "B; worn"}));
   EXPECT_EQ(reader.texts("experiment")[3], "a, \"b\"");
@@ -48,7 +51,9 @@ TEST(Derived, HistoriesStartAnewInEveryExperiment) {
                   {"s_mm", "mm", {1, 2, 4, 0, 1, 3}, {}},
                   {"sigma_n_MPa", "MPa", {100, 300, 120, 50, 40, 60}, {}}};
   const std::vector<double> tau = {10, 20, 30, 1, 1, 1};
-  const auto values = [&](const char* name) { return derive(*find_derived(name), data, tau); };
+  const auto values = [&](const char* name) {
+    return data::derive(*data::find_derived(name), data, tau);
+  };
   using V = std::vector<double>;
   EXPECT_EQ(values("sliding_distance"), (V{0, 1, 3, 0, 1, 3}));
   EXPECT_EQ(values("friction_work"), (V{0, 15, 65, 0, 1, 3}));

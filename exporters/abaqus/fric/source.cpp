@@ -8,6 +8,8 @@
 
 namespace frictab::abaqus::fric {
 
+using namespace codegen;
+
 const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa",

@@ -9,12 +9,13 @@
 namespace frictab::abaqus::fric {
 
 // What FRIC's arguments hold.
-const SolverGives& gives(const ExportRequest&);
+const codegen::SolverGives& gives(const codegen::ExportRequest&);
 
 // Values that are kept for every law, and for one with these inputs; without what protects them.
 inline constexpr std::size_t history = 7;
-std::size_t state_count(const std::vector<SolverInput>& inputs);
+std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
-std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+std::string fric_source(const codegen::ExportRequest& request,
+                        const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::abaqus::fric

@@ -16,6 +16,8 @@
 
 namespace frictab::abaqus::fric_coef {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;

@@ -7,6 +7,8 @@
 
 namespace frictab::abaqus::fric_coef {
 
+using namespace codegen;
+
 namespace {
 
 const Exporter& target() {

@@ -12,6 +12,8 @@
 
 namespace frictab::abaqus::table {
 
+using namespace codegen;
+
 namespace {
 
 constexpr const char* file_name = "frictab_friction.inp";
@@ -146,7 +148,7 @@ NativeTarget target() {
 }
 
 const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
+const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

@@ -7,6 +7,8 @@
 
 namespace frictab::abaqus::vfric {
 
+using namespace codegen;
+
 namespace {
 
 const char* const source_of_signature =

@@ -18,6 +18,8 @@
 
 namespace frictab::abaqus::vfric_coef {
 
+using namespace codegen;
+
 namespace {
 
 const char* const file = "frictab_vfric_coef.f";

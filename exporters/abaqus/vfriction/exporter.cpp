@@ -8,6 +8,8 @@
 
 namespace frictab::abaqus::vfriction {
 
+using namespace codegen;
+
 namespace {
 
 const char* const source_of_signature =

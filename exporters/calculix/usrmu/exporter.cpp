@@ -15,6 +15,8 @@
 
 namespace frictab::calculix::usrmu {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;

@@ -15,6 +15,8 @@
 
 namespace frictab::deform::usrbcc {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;

@@ -15,6 +15,8 @@
 
 namespace frictab::deform::usrbcc {
 
+using namespace codegen;
+
 using fortran::Coefficient;
 
 namespace {
@@ -139,7 +141,7 @@ void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) 
 }
 
 std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Table& table = request.table;
+  const frictab::table::Table& table = request.table;
   const Coefficient kind = coefficient_kind(request);
   const SolverUnit stress = solver_unit("MPa", request.units);
   TemplateValues values;

@@ -10,6 +10,8 @@
 
 namespace frictab::lsdyna::table {
 
+using namespace codegen;
+
 namespace {
 
 constexpr const char* file_name = "frictab_friction.k";
@@ -135,7 +137,7 @@ NativeTarget target() {
 }
 
 const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<PlainFormat> plain{[] { return native_plain_format(target()); }};
+const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
 
 } // namespace
 

@@ -15,11 +15,13 @@
 
 namespace frictab::lsdyna::usrfrc {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;
 
-std::string keywords(const Table& table, const std::vector<SolverInput>& inputs) {
+std::string keywords(const frictab::table::Table& table, const std::vector<SolverInput>& inputs) {
   const std::vector<std::string> values = property_values(inputs);
   std::string deck = fmt::format(
       "*CONTROL_CONTACT\n"
@@ -38,7 +40,8 @@ std::string keywords(const Table& table, const std::vector<SolverInput>& inputs)
   return deck;
 }
 
-json history(const Table& table, std::string_view units, const std::vector<SolverInput>& inputs) {
+json history(const frictab::table::Table& table, std::string_view units,
+             const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
   const auto one = [](std::size_t number, const std::string& unit, const std::string& meaning) {
     return json{{"number", number}, {"unit", unit}, {"meaning", meaning}};

@@ -8,6 +8,8 @@
 
 namespace frictab::lsdyna::usrfrc {
 
+using namespace codegen;
+
 const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa", .text = "-FNI/AREAS of the node", .read = "press"},
@@ -44,14 +46,15 @@ const SolverGives& gives(const ExportRequest&) {
   return all;
 }
 
-std::size_t state_count(const Table& table, const std::vector<SolverInput>& inputs) {
+std::size_t state_count(const frictab::table::Table& table,
+                        const std::vector<SolverInput>& inputs) {
   const std::size_t further = history_count(inputs);
   if (further > 0) return before_histories + 2 * further;
   return table.axes.empty() ? 3 : 4;
 }
 
 std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Table& table = request.table;
+  const frictab::table::Table& table = request.table;
   const std::string end = "call cstop('E r r o r   t e r m i n a t i o n')";
   TemplateValues values;
   fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,

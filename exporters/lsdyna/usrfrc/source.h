@@ -9,13 +9,15 @@
 namespace frictab::lsdyna::usrfrc {
 
 // What USRFRC's arguments hold.
-const SolverGives& gives(const ExportRequest&);
+const codegen::SolverGives& gives(const codegen::ExportRequest&);
 inline constexpr std::size_t before_histories = 4; // of UFHIST
 
 // Values of UFHIST per node that the routine keeps: 3, 4 where it counts, and two for each of
 // codegen/histories.h.
-std::size_t state_count(const Table& table, const std::vector<SolverInput>& inputs);
+std::size_t state_count(const frictab::table::Table& table,
+                        const std::vector<codegen::SolverInput>& inputs);
 
-std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+std::string usrfrc_source(const codegen::ExportRequest& request,
+                          const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::lsdyna::usrfrc

@@ -13,6 +13,8 @@
 
 namespace frictab::marc::ufric {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;

@@ -11,6 +11,8 @@
 
 namespace frictab::marc::ufric {
 
+using namespace codegen;
+
 using fortran::Coefficient;
 
 Choices choices(const ExportRequest& request) {
@@ -68,7 +70,7 @@ std::vector<std::string> result_lines(const Choices& chosen, const std::string& 
 } // namespace
 
 std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const Table& table = request.table;
+  const table::Table& table = request.table;
   const Choices chosen = choices(request);
   if (chosen.by_force && !fortran::same_at_every_pressure(table, chosen.coefficient))
     throw InputError({"export.options.marc_normal", 0, 0},

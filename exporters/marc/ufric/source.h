@@ -11,16 +11,17 @@ namespace frictab::marc::ufric {
 
 // What the job's [export.options] say.
 struct Choices {
-  fortran::Coefficient coefficient; // coulomb | shear
-  bool by_force;                    // FN is a force
-  int slip_components;              // VREL: 1 in 2-D, 2 in 3-D
+  codegen::fortran::Coefficient coefficient; // coulomb | shear
+  bool by_force;                             // FN is a force
+  int slip_components;                       // VREL: 1 in 2-D, 2 in 3-D
 };
-Choices choices(const ExportRequest& request);
+Choices choices(const codegen::ExportRequest& request);
 
 // What UFRIC's arguments hold.
-const SolverGives& gives(const ExportRequest& request);
+const codegen::SolverGives& gives(const codegen::ExportRequest& request);
 
 // Throws InputError where FN is a force and the coefficient depends on the pressure.
-std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+std::string ufric_source(const codegen::ExportRequest& request,
+                         const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::marc::ufric

@@ -19,6 +19,8 @@
 
 namespace frictab::qform::lua {
 
+using namespace codegen;
+
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -53,7 +55,7 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   out["compile"] = json::array();
   out["input_deck"] = "lubricant database: load from file, frictab_qform.lua";
   out["table"] = recipe_table(request);
-  return json_text(out);
+  return io::json_text(out);
 }
 
 SourceBundle generate(const ExportRequest& request) {
@@ -102,7 +104,7 @@ void drive(const Built& built, const ExportRequest& request, std::size_t rows,
   run_program({built.variant.interpreter, path("rows.lua"), path(file_name), path("rows.txt"),
                path("tau.txt")},
               built.directory / "lua.log");
-  const std::string answers = read_file(path("tau.txt"));
+  const std::string answers = io::read_file(path("tau.txt"));
   const SolverUnit stress = solver_unit("MPa", request.units);
   const char* at = answers.c_str();
   for (std::size_t i = 0; i < rows; ++i) {

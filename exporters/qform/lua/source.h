@@ -9,8 +9,9 @@
 namespace frictab::qform::lua {
 
 // What the wrapper is called with (names recalled), and the rest as QForm parameters.
-const SolverGives& gives();
+const codegen::SolverGives& gives();
 
-std::string lua_source(const ExportRequest& request, const std::vector<SolverInput>& inputs);
+std::string lua_source(const codegen::ExportRequest& request,
+                       const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::qform::lua
