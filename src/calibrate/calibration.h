@@ -18,9 +18,9 @@
 //     metrics           MAE, RMSE, bias with intervals
 //     comparison        which law is better than which
 //     noise_floor       what no law can go below, with replicates (repeated tests)
-//     band              the factors by which experiments lie around a law, and laws at their
-//     quantiles conditional       one gain per experiment from its own first millimetres folds
-//     experiments parted for cross-validation
+//     band              how experiments lie around a law, and laws at their quantiles
+//     conditional       one gain per experiment from its own first millimetres
+//     folds             experiments parted for cross-validation
 //   judgement           all these results as plain values; judgement_json, calibration_file as JSON
 #pragma once
 

@@ -19,7 +19,7 @@ using codegen::typical_value;
 
 namespace {
 
-TEST(Fill, NumbersReadBackToTheSameBitsInBothLanguages) {
+TEST(NumberText, ReadsBackToTheSameBitsInBothLanguages) {
   Random random(9);
   for (int i = 0; i < 20000; ++i) {
     const double x = random.normal() * std::pow(10.0, random.uniform(-300, 300));
@@ -31,7 +31,7 @@ TEST(Fill, NumbersReadBackToTheSameBitsInBothLanguages) {
   }
 }
 
-TEST(Fill, NumbersAreOfDoubleType) {
+TEST(NumberText, IsOfDoubleType) {
   EXPECT_EQ(codegen::c_number(1), "1.0");
   EXPECT_EQ(codegen::c_number(-1e300), "-1e+300");
   EXPECT_EQ(fortran_number(1), "1.0D0");
@@ -40,7 +40,7 @@ TEST(Fill, NumbersAreOfDoubleType) {
   EXPECT_EQ(fortran_number(-1.5e-9), "-1.5D-09");
 }
 
-TEST(Fill, FixedFormStaysInItsColumnsAndKeepsTheStatement) {
+TEST(FixedForm, StaysInItsColumnsAndKeepsTheStatement) {
   std::string statement = "t1 = a";
   for (int i = 0; i < 40; ++i)
     statement += " + ftmin(x(" + std::to_string(i) + "), 1.0D0)";
@@ -61,7 +61,7 @@ TEST(Fill, FixedFormStaysInItsColumnsAndKeepsTheStatement) {
   EXPECT_NO_THROW(codegen::fixed_form(std::string(66 * 20, 'x')));
 }
 
-TEST(Fill, DataStatementsHoldEveryNumberOnce) {
+TEST(FixedForm, DataStatementsHoldEveryNumberOnce) {
   std::vector<double> values;
   for (int i = 0; i < 1000; ++i)
     values.push_back(i % 3 ? i : -i / 7.0);
@@ -79,7 +79,7 @@ TEST(Fill, DataStatementsHoldEveryNumberOnce) {
   EXPECT_EQ(commas + slashes, 1000u);
 }
 
-TEST(Fill, UnitsConvertByOneOperation) {
+TEST(SolverUnits, ConvertByOneOperation) {
   EXPECT_EQ(solver_unit("MPa", "m-kg-s").to_canonical(480e6), 480);
   EXPECT_EQ(solver_unit("mm/s", "m-kg-s").from_canonical(50), 0.05);
   // 1 MPa mm = 1e6 Pa * 1e-3 m, and the same per second.
@@ -96,7 +96,7 @@ TEST(Fill, UnitsConvertByOneOperation) {
   EXPECT_TRUE(solver_unit("MPa", "mm-t-s").same());
 }
 
-TEST(Fill, TypicalValueIsTheMiddleOfTheRange) {
+TEST(EntryArguments, TypicalValueIsTheMiddleOfTheRange) {
   table::Table table = test::four_axis_table();
   EXPECT_DOUBLE_EQ(typical_value(table, "sigma_f_MPa").value(), 480);
   EXPECT_EQ(typical_value(table, "T_contact_C"), 110);
