@@ -146,7 +146,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   const bool file = values_in_file(request);
   const std::string comment = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
-                  table.log_value ? "ln " : "", table.quantity));
+                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
   TemplateValues values;
   values.text = {
       {"model", comment_text(table.model)},

@@ -127,7 +127,7 @@ std::string piece(const Table& table, const std::vector<InputArgument>& inputs) 
   const expr::Statements code = to_statements(formula.rest, Language::c, rename);
   values.lists["statements"] = items(code.lines);
   values.text["result"] = code.result;
-  values.text["quantity"] = comment_text(table.quantity);
+  values.text["quantity"] = models::quantity_name(table.quantity);
   values.text["parameters"] = states.empty() ? "void" : lines(states);
   return without_last_break(render_template("c/frictab_piece.c", values));
 }

@@ -68,7 +68,7 @@ Explanation about(const models::Law& law) {
                 {"inputs", join(free_inputs, ", ")},
                 {"may use", join(law.may_use, ", ")},
                 {"calibrated", how_calibrated(law.calibrated)},
-                {"tabulated", law.quantity},
+                {"tabulated", quantity_name(law.quantity)},
                 {"reference", law.reference},
                 {"remarks", remarks_of(law)}};
   out.items = parameter_items(law.parameters, law.calibrated == models::Calibrated::fixed);

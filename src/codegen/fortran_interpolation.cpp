@@ -217,7 +217,7 @@ std::string data_text(const Table& table, const Data& data, const std::vector<do
       {"file", values_file_name},
       {"value_comment",
        clip(fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
-                        table.log_value ? "ln " : "", table.quantity))}};
+                        table.log_value ? "ln " : "", models::quantity_name(table.quantity)))}};
   values.flags = {
       {"cubic", is_cubic(table)}, {"in_file", in_file}, {"uses_guide", !data.guide.empty()}};
   return without_last_break(render_template("fortran/frictab_data.f", values));

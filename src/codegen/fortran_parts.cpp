@@ -262,7 +262,7 @@ Piece piece(const Table& table, bool gradient, Units units) {
   const LayeredFormula formula = split_layer(*table.extension);
   add_layer(values, formula.layer, body);
   add_formulas(values, table, formula, gradient, body);
-  values.text["quantity"] = comment_text(table.quantity);
+  values.text["quantity"] = models::quantity_name(table.quantity);
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
   values.flags["gradient"] = gradient;
   values.lists["declarations"] = declarations(body.names);

@@ -71,7 +71,7 @@ json recipe_table(const ExportRequest& request) {
     axes.push_back(axis_json(table.axes[a], a, *input));
   }
   json out = {{"axes", axes},
-              {"quantity", table.quantity},
+              {"quantity", models::quantity_name(table.quantity)},
               {"transform", table.log_value ? "log" : "linear"},
               {"interpolation", table::interpolation_name(table.interpolation)},
               {"combine", expr::to_text(table.combine)},

@@ -222,11 +222,12 @@ std::string columns_text(const PlacedEffect& effect) {
 }
 
 bool has_limit(const Law& law, const models::Conventions& conventions) {
-  return has_own_limit(law, conventions) || (law.quantity == "mu" && conventions.shear_limit);
+  return has_own_limit(law, conventions) ||
+         (law.quantity == models::PieceQuantity::mu && conventions.shear_limit);
 }
 
 bool has_own_limit(const Law& law, const models::Conventions& conventions) {
-  return law.quantity == "mu" && own_limit(law, law.build(conventions));
+  return law.quantity == models::PieceQuantity::mu && own_limit(law, law.build(conventions));
 }
 
 Law extended_law(const Law& law, const models::Conventions& conventions,

@@ -26,7 +26,7 @@ Law constant(int order, const char* name, const char* symbol, double value, cons
   law.calibrated = Calibrated::fixed;
   law.parameters = {{symbol, "1", is_mu ? "friction coefficient" : "friction factor", value, 0, 1}};
   law.build = is_mu ? coulomb : shear;
-  law.quantity = is_mu ? "mu" : "tau_R";
+  law.quantity = is_mu ? PieceQuantity::mu : PieceQuantity::tau_R;
   law.log_value = !is_mu;
   return law;
 }

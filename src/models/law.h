@@ -12,6 +12,7 @@
 
 #include "core/registry.h"
 #include "expr/expr.h"
+#include "models/piece_quantity.h"
 
 namespace frictab::models {
 
@@ -60,7 +61,7 @@ struct Law {
       reference; // where formula and constants come from; says "ours" where it is our choice
   Calibrated calibrated = Calibrated::fit;
   std::vector<Parameter> parameters;
-  std::string quantity = "mu";          // of the tabulated piece: mu | tau_R
+  PieceQuantity quantity = PieceQuantity::mu;
   bool log_value = false;               // tabulate ln(value): straight for products of powers
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each

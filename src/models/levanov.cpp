@@ -21,7 +21,7 @@ Law levanov() {
   law.reference = "Levanov 1976; recalled; initial mu = 1.25 m/sqrt(3)";
   law.parameters = {
       {"m", "1", "friction factor", 0.2, 0, 1, "experiments under load, below the shear limit"}};
-  law.quantity = "tau_R";
+  law.quantity = PieceQuantity::tau_R;
   law.log_value = true;
   law.build = build;
   return law;

@@ -19,7 +19,7 @@ Law shear() {
       "the field's standard law at high contact normal stress; k by [models] shear_yield";
   law.parameters = {
       {"m", "1", "friction factor", 0.12, 0, 1, "experiments with a flow stress above 0"}};
-  law.quantity = "tau_R";
+  law.quantity = PieceQuantity::tau_R;
   law.log_value = true;
   law.build = build;
   return law;

@@ -41,7 +41,7 @@ Law wanheim_bay() {
                   "published equivalent mu = f/(1+pi/2+acos f+sqrt(1-f^2))";
   law.parameters = {
       {"f", "1", "friction factor", 0.3, 1e-4, 1, "experiments under load, below the shear limit"}};
-  law.quantity = "tau_R";
+  law.quantity = PieceQuantity::tau_R;
   law.log_value = true;
   law.build = build;
   return law;

@@ -40,7 +40,8 @@ std::string counterpart(const calibrate::Calibration& calibration, std::size_t i
   if (index == 1) {
     std::string text;
     for (const calibrate::ModelFit& fit : calibration.fits)
-      if (kind_of(*fit.model.law) == LawKind::literature && fit.model.law->quantity == "mu")
+      if (kind_of(*fit.model.law) == LawKind::literature &&
+          fit.model.law->quantity == models::PieceQuantity::mu)
         text += (text.empty() ? "" : ", ") + figures(fit.validation.mae_MPa) + " (" +
                 fit.model.law->name + ")";
     return text;

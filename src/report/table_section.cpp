@@ -24,8 +24,8 @@ std::string summary_of(const table::Table& table) {
   std::string grid;
   for (const table::TableAxis& axis : table.axes)
     grid += (grid.empty() ? "" : " \u00D7 ") + std::to_string(axis.nodes.size());
-  const std::string what =
-      (table.log_value ? "the logarithm of " : "") + svg::escape(table.quantity);
+  const std::string what = std::string(table.log_value ? "the logarithm of " : "") +
+                           models::quantity_name(table.quantity);
   std::string text = "One constant, " + what + ". ";
   if (!table.axes.empty())
     text = fmt::format(

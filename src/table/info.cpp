@@ -92,8 +92,8 @@ std::string info_text(const TableDescription& description, const std::string& fi
   std::string out =
       fmt::format("{}: table of {}{}\n", file, table.model, formula.empty() ? "" : ", " + formula);
   add_axes(out, table);
-  out += fmt::format("Value: {}{}, {}{}\n", table.log_value ? "ln " : "", table.quantity,
-                     interpolation_name(table.interpolation),
+  out += fmt::format("Value: {}{}, {}{}\n", table.log_value ? "ln " : "",
+                     models::quantity_name(table.quantity), interpolation_name(table.interpolation),
                      table.quantile() == 0.5 ? std::string()
                                              : fmt::format(", quantile {:g}", table.quantile()));
   out += "tau_R_MPa = " + expr::to_text(table.combine) + "\n";
@@ -128,7 +128,7 @@ std::string info_json(const TableDescription& description, const std::string& fi
                               {"model", table.model},
                               {"inputs", table.inputs()},
                               {"axes", axes},
-                              {"quantity", table.quantity},
+                              {"quantity", models::quantity_name(table.quantity)},
                               {"transform", table.log_value ? "log" : "linear"},
                               {"interpolation", interpolation_name(table.interpolation)},
                               {"combine", expr::to_text(table.combine)},

@@ -49,7 +49,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
     row.push_back(axis.name);
   for (const std::string& name : held)
     row.push_back(name);
-  row.push_back(table.quantity == "mu" ? "mu" : "value_MPa");
+  row.push_back(table.quantity == models::PieceQuantity::mu ? "mu" : "value_MPa");
   if (known) row.push_back("tau_R_MPa");
   out << join(row, ",") << '\n';
   const TableFunction function(table);
@@ -82,7 +82,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
 // Axes, then all values row-major: a line per run of the last axis.
 void write_txt(const PlainRequest& request, std::ostream& out) {
   const Table& table = request.table;
-  out << "# " << table.model << ": " << table.quantity << " on a grid, "
+  out << "# " << table.model << ": " << models::quantity_name(table.quantity) << " on a grid, "
       << interpolation_name(table.interpolation) << "; tau_R_MPa = " << expr::to_text(table.combine)
       << '\n';
   for (const auto& [name, value] : table.constants)

@@ -109,7 +109,7 @@ public:
         const auto node = first(chunk) + static_cast<std::size_t>(&value - out.data());
         throw InputError(place_,
                          fmt::format("{}{} is not finite at {}", table.log_value ? "ln " : "",
-                                     table.quantity, state_at(table, node)),
+                                     models::quantity_name(table.quantity), state_at(table, node)),
                          "narrower ranges in [table.axes]");
       }
     }

@@ -13,6 +13,7 @@
 
 #include "expr/expr.h"
 #include "io/stored_values.h"
+#include "models/piece_quantity.h"
 #include "table/interpolation.h"
 #include "table/record.h"
 
@@ -57,7 +58,7 @@ struct Table {
                                // the direct form, whose axes say only over which range it holds
   // Set: the values of a linear table that is too large for memory, and `value` is empty.
   std::shared_ptr<const io::StoredValues> stored;
-  std::string quantity = "mu"; // mu | tau_R
+  models::PieceQuantity quantity = models::PieceQuantity::mu;
   bool log_value = false;
   Interpolation interpolation = Interpolation::linear;
   expr::Expr combine; // tau_R_MPa of "value", state names and constants

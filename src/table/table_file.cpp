@@ -70,8 +70,8 @@ void write_axes(io::Hdf5Writer& out, const Table& table) {
 void write_attributes(io::Hdf5Writer& out, const Table& table) {
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     out.dimension_scale("value", a, table.axes[a].name);
-  out.attribute("value", "quantity", table.quantity);
-  out.attribute("value", "units", std::string(table.quantity == "mu" ? "1" : "MPa"));
+  out.attribute("value", "quantity", std::string(models::quantity_name(table.quantity)));
+  out.attribute("value", "units", std::string(models::quantity_unit(table.quantity)));
   out.attribute("value", "transform", std::string(table.log_value ? "log" : "linear"));
   out.attribute("value", "interpolation", std::string(interpolation_name(table.interpolation)));
   if (table.interpolation == Interpolation::cubic)
@@ -204,7 +204,9 @@ private:
             fmt::format("a table has at most {}", FT_MAX_AXES));
       faults_.throw_if_any();
     }
-    table_.quantity = text("value", "quantity", {"mu", "tau_R"});
+    table_.quantity = text("value", "quantity", {"mu", "tau_R"}) == "tau_R"
+                          ? models::PieceQuantity::tau_R
+                          : models::PieceQuantity::mu;
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
     table_.interpolation = find_interpolation(text("value", "interpolation", {"linear", "cubic"}))
                                .value_or(Interpolation::linear);

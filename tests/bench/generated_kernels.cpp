@@ -99,7 +99,7 @@ std::string additions(const Table& table) {
 
 Table random_table(const std::vector<std::size_t>& counts, bool even, bool cubic) {
   Table table;
-  table.quantity = "tau_R";
+  table.quantity = models::PieceQuantity::tau_R;
   table.interpolation = cubic ? table::Interpolation::cubic : table::Interpolation::linear;
   table.combine = expr::Expr::symbol("value");
   std::size_t nodes = 1;

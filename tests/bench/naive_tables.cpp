@@ -30,7 +30,7 @@ Model without_pieces(const Model& model) {
   law.build = [tau](const models::Conventions&) {
     return models::Formula{tau, Expr::symbol("value")};
   };
-  law.quantity = "tau_R";
+  law.quantity = models::PieceQuantity::tau_R;
   law.log_value = false;
   law.kinks.clear();
   Model out = model;

@@ -36,7 +36,7 @@ using Count = void(std::size_t, Array, Array, Array, Array, Array, Array, unsign
 Table temperature_table(Outside below, Outside above) {
   Table table;
   table.model = "temperature";
-  table.quantity = "tau_R";
+  table.quantity = models::PieceQuantity::tau_R;
   table::TableAxis axis;
   axis.name = "T_contact_C";
   axis.unit = "degC";

@@ -68,7 +68,7 @@ Table constant_table() {
 Table one_axis_table() {
   Table table;
   table.model = "one_axis";
-  table.quantity = "tau_R";
+  table.quantity = models::PieceQuantity::tau_R;
   table.axes = {axis("psi", false, even(1, 20, 5, false))};
   fill(table, 10, 90);
   table.combine = Expr::symbol("value");
@@ -160,7 +160,7 @@ Table spline_table() {
 Table spline_axis_table() {
   Table table;
   table.model = "spline_axis";
-  table.quantity = "tau_R";
+  table.quantity = models::PieceQuantity::tau_R;
   table.interpolation = Interpolation::cubic;
   table.axes = {axis("psi", false, {1, 2, 4, 7, 12, 20})};
   fill(table, 20, 40);

@@ -45,7 +45,7 @@ std::vector<double> nodes_of(std::size_t count, bool even) {
 // The field on a grid; tau_R is the interpolated value itself.
 Table table_of(const Field& field, std::vector<TableAxis> axes, Interpolation interpolation) {
   Table table;
-  table.quantity = "tau_R";
+  table.quantity = models::PieceQuantity::tau_R;
   table.interpolation = interpolation;
   table.axes = std::move(axes);
   table.combine = Expr::symbol("value");

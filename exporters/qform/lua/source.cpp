@@ -148,7 +148,7 @@ std::string add_piece(TemplateValues& values, const Table& table) {
   const bool any = table.is_direct() || !sides(table, Outside::law).empty();
   values.flags["has_piece"] = any;
   values.flags["has_layer"] = values.flags["piece_table"] = false;
-  values.text["quantity"] = comment_text(table.quantity);
+  values.text["quantity"] = models::quantity_name(table.quantity);
   for (const char* list : {"held", "before", "features", "piece"})
     values.lists[list];
   values.text["piece_result"] = "";
@@ -226,7 +226,7 @@ void add_interpolation(TemplateValues& values, const Table& table) {
     values.text[text] = "";
   values.text["value_comment"] = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
-                  table.log_value ? "ln " : "", table.quantity));
+                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
   values.text["only_value"] = only_value(table);
   if (interpolates) add_axes(values, table);
 }
