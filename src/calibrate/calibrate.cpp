@@ -203,13 +203,6 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
   return fit;
 }
 
-// k over the flow stress.
-double shear_yield_ratio(const std::string& convention) {
-  if (convention == "tresca") return 0.5;
-  if (convention == "flow_stress") return 1.0;
-  return 1 / std::sqrt(3.0); // mises
-}
-
 } // namespace
 
 std::string LeftOut::text() const {
@@ -219,7 +212,7 @@ std::string LeftOut::text() const {
 models::Conventions conventions_of(const ModelOptions& models, const Dataset& data) {
   models::Conventions conventions;
   conventions.shear_yield = models.shear_yield;
-  conventions.k_over_sigma_f = shear_yield_ratio(models.shear_yield);
+  conventions.k_over_sigma_f = models::shear_yield_ratio(models.shear_yield);
   conventions.shear_limit = models.shear_limit && data.has("sigma_f_MPa");
   return conventions;
 }

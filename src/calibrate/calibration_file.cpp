@@ -45,7 +45,7 @@ int whole_seconds_above(double seconds) {
 }
 
 Json conventions_json(const models::Conventions& c) {
-  return {{"shear_yield", c.shear_yield},
+  return {{"shear_yield", models::shear_yield_name(c.shear_yield)},
           {"k_over_sigma_f", c.k_over_sigma_f},
           {"shear_limit", c.shear_limit}};
 }
@@ -105,13 +105,6 @@ NetworkRecord parse_network(const Json& j) {
   return r;
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 // How the search for parameters was bounded: what a law with a name of its own has to say.
 Json bounds_json(const Law& law) {
   Json list = Json::array();
@@ -153,7 +146,7 @@ Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
     throw InputError({file, 0, 0},
                      fmt::format("law '{}' extends '{}', which is no friction law",
                                  fit.at("name").get<std::string>(), base),
-                     suggest(base, law_names()));
+                     suggest(base, models::law_names()));
   Law law = *models::find_law(base);
   law.name = fit.at("name");
   law.title = fit.at("title");
@@ -180,7 +173,7 @@ std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
   if (known && !fit.contains("law")) return models::registered_law(*known);
   if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
     throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
-                     suggest(name, law_names()));
+                     suggest(name, models::law_names()));
   return parse_made_law(fit.at("law"), known ? *known : law_with_name_of_its_own(fit, file), file);
 }
 
@@ -221,13 +214,20 @@ Json fit_json(const ModelFit& fit) {
   return j;
 }
 
+models::ShearYield parse_shear_yield(const std::string& name, const std::string& file) {
+  if (const auto convention = models::find_shear_yield(name)) return *convention;
+  throw InputError({file, 0, 0}, "unknown shear_yield '" + name + "'",
+                   "one of mises, tresca, flow_stress");
+}
+
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
   fit.model.law = parse_law(j, file);
   fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
-  fit.model.conventions = {c.at("shear_yield"), c.at("k_over_sigma_f"), c.at("shear_limit")};
+  fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
+                           c.at("shear_limit")};
   const Json& list = j.at("parameters");
   for (std::size_t p = 0; p < fit.model.law->parameters.size(); ++p) {
     const models::Parameter& info = fit.model.law->parameters[p];

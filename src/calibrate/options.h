@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "core/error.h"
+#include "models/shear_yield.h"
 
 namespace frictab::calibrate {
 
 enum class Loss { l2, l1, huber };
 
 struct ModelOptions {
-  std::vector<std::string> use;      // empty: all that the columns allow
-  std::string shear_yield = "mises"; // mises | tresca | flow_stress
-  bool shear_limit = true;           // tau_R <= k
+  std::vector<std::string> use; // empty: all that the columns allow
+  models::ShearYield shear_yield = models::ShearYield::mises;
+  bool shear_limit = true; // tau_R <= k
   Place place;
 };
 

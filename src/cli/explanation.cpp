@@ -62,7 +62,7 @@ std::string remarks_of(const models::Law& law) {
 Explanation about(const models::Law& law) {
   const models::Conventions usual;
   std::vector<std::string> free_inputs =
-      models::inputs(law, models::Conventions{"mises", usual.k_over_sigma_f, false});
+      models::inputs(law, models::Conventions{usual.shear_yield, usual.k_over_sigma_f, false});
   Explanation out{law.name, "friction law", law.title, {}, "parameters", {}};
   out.fields = {{"formula", law.formula},
                 {"inputs", join(free_inputs, ", ")},

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "calibrate/folds.h"
 #include "cli/job_commands.h"
 #include "run/summary.h"
 
@@ -17,10 +16,8 @@ int run_stages(const std::string& file, const CommonOptions& common, const Stage
   run::Pipeline pipeline(std::move(job));
   stages(pipeline);
   pipeline.commit();
-  if (const auto& data = pipeline.data())
-    if (const std::string leak = calibrate::leak_note(data->training, data->validation);
-        !leak.empty())
-      note(common, "warning: " + leak);
+  if (const auto& data = pipeline.data(); data && !data->leak.empty())
+    note(common, "warning: " + data->leak);
   for (const std::string& line : pipeline.notes())
     note(common, line);
   if (common.verbose && pipeline.data())

@@ -9,10 +9,16 @@
 
 namespace frictab::codegen {
 
+// What a generated routine holds.
+enum class ExportForm {
+  table, // the sampled table
+  direct // the law itself, over the table's ranges
+};
+
 struct ExportOptions {
   std::vector<std::string> targets{"c", "abaqus_vfric"}; // names, or all
   std::string units = "mm-t-s";                          // mm-t-s (MPa, mm/s) | m-kg-s (Pa, m/s)
-  std::string form = "table";                            // table | direct: the law itself
+  ExportForm form = ExportForm::table;
   // Where a state comes from that the solver does not give: "constant:1.0", "property" (input deck
   // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
   // "temperature", "solver"). By canonical name, or by the symbol of a traced law's further input.

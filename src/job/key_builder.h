@@ -86,16 +86,13 @@ template <> struct Kind<char> { // delimiter: 0 = not set
   static std::string show(char v) { return v == 0 ? "" : toml_quoted(std::string(1, v)); }
 };
 
-template <> struct Kind<calibrate::Loss> {
+// Enums are words of a job file; which words stands where their keys do.
+template <class T>
+requires std::is_enum_v<T>
+struct Kind<T> {
   static constexpr KeyType type = KeyType::text;
-  static calibrate::Loss from(KeyValue& v);
-  static std::string show(calibrate::Loss v);
-};
-
-template <> struct Kind<table::Interpolation> {
-  static constexpr KeyType type = KeyType::text;
-  static table::Interpolation from(KeyValue& v);
-  static std::string show(table::Interpolation v);
+  static T from(KeyValue& v);
+  static std::string show(T v);
 };
 
 // A key of a fixed path.

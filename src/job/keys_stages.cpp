@@ -14,15 +14,11 @@ using calibrate::Loss;
 
 namespace {
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 std::vector<std::string> shear_yields() {
-  return {"mises", "tresca", "flow_stress"};
+  std::vector<std::string> names;
+  for (const models::ShearYield convention : models::shear_yields)
+    names.emplace_back(models::shear_yield_name(convention));
+  return names;
 }
 std::vector<std::string> losses() {
   return {"L2", "L1", "huber"};
@@ -43,11 +39,50 @@ std::vector<std::string> sides() {
   return {"clamp", "error", "law"};
 }
 std::vector<std::string> forms() {
-  return {"table", "direct"};
+  return {"table", "direct"}; // in the order of codegen::ExportForm
 }
 std::vector<std::string> unit_systems() {
   return {"mm-t-s", "m-kg-s"};
 }
+
+} // namespace
+
+template <> Loss Kind<Loss>::from(KeyValue& v) {
+  const std::string& text = std::get<std::string>(v); // as spelled in losses()
+  if (text == "L2") return Loss::l2;
+  return text == "L1" ? Loss::l1 : Loss::huber;
+}
+
+template <> table::Interpolation Kind<table::Interpolation>::from(KeyValue& v) {
+  return *table::find_interpolation(std::get<std::string>(v)); // is one of interpolations()
+}
+
+template <> std::string Kind<table::Interpolation>::show(table::Interpolation v) {
+  return toml_quoted(table::interpolation_name(v));
+}
+
+template <> std::string Kind<Loss>::show(Loss v) {
+  return toml_quoted(losses()[static_cast<std::size_t>(v)]);
+}
+
+template <> models::ShearYield Kind<models::ShearYield>::from(KeyValue& v) {
+  return *models::find_shear_yield(std::get<std::string>(v)); // is one of shear_yields()
+}
+
+template <> std::string Kind<models::ShearYield>::show(models::ShearYield v) {
+  return toml_quoted(models::shear_yield_name(v));
+}
+
+template <> codegen::ExportForm Kind<codegen::ExportForm>::from(KeyValue& v) {
+  return std::get<std::string>(v) == "direct" ? codegen::ExportForm::direct
+                                              : codegen::ExportForm::table;
+}
+
+template <> std::string Kind<codegen::ExportForm>::show(codegen::ExportForm v) {
+  return toml_quoted(forms()[static_cast<std::size_t>(v)]);
+}
+
+namespace {
 
 bool is_number(std::string_view text, bool whole) {
   if (text.empty() || text.size() > 40) return false;
@@ -108,7 +143,7 @@ std::vector<KeyRule> model_keys() {
           "them",
           "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
           Allowed{"friction law", laws_or_all},
-      key<std::string>(
+      key<models::ShearYield>(
           "models.shear_yield", [](Job & job) -> auto& { return job.models.shear_yield; },
           "shear yield stress k: mises = sigma_f/sqrt(3), tresca = sigma_f/2, flow_stress = "
           "sigma_f (conventions differ between papers)") |
@@ -245,7 +280,7 @@ std::vector<KeyRule> export_keys() {
           "export.units", [](Job & job) -> auto& { return job.exports.units; },
           "unit system of the simulation: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)") |
           Allowed{"", unit_systems},
-      key<std::string>(
+      key<codegen::ExportForm>(
           "export.form", [](Job & job) -> auto& { return job.exports.form; },
           "what the routine holds: table, or direct = the law itself (its formula, or the network "
           "with its weights) over the table's ranges; the summary of `run` says which is faster") |
@@ -314,26 +349,8 @@ std::vector<KeyRule> proof_keys() {
 
 } // namespace
 
-Loss Kind<Loss>::from(KeyValue& v) {
-  const std::string& text = std::get<std::string>(v); // as spelled in losses()
-  if (text == "L2") return Loss::l2;
-  return text == "L1" ? Loss::l1 : Loss::huber;
-}
-
-table::Interpolation Kind<table::Interpolation>::from(KeyValue& v) {
-  return *table::find_interpolation(std::get<std::string>(v)); // is one of interpolations()
-}
-
-std::string Kind<table::Interpolation>::show(table::Interpolation v) {
-  return toml_quoted(table::interpolation_name(v));
-}
-
-std::string Kind<Loss>::show(Loss v) {
-  return toml_quoted(losses()[static_cast<std::size_t>(v)]);
-}
-
 std::vector<std::string> laws_or_all() {
-  std::vector<std::string> names = law_names();
+  std::vector<std::string> names = models::law_names();
   names.push_back("all");
   return names;
 }

@@ -6,12 +6,12 @@ namespace frictab::models {
 using expr::Expr;
 
 AssembledLaw::AssembledLaw(Model calibrated)
-    : model(std::move(calibrated)), inputs(models::inputs(*model.law, model.conventions)),
-      parameters(parameter_names(*model.law)) {
+    : model(std::move(calibrated)), parameters(parameter_names(*model.law)) {
   const Formula formula = model.law->build(model.conventions);
   piece = shared(formula.value);
   combine = shared(limited(formula.combine, model.conventions, model.gain));
   tau_R = shared(substitute(combine, {{"value", piece}}));
+  inputs = models::inputs_of(tau_R, *model.law);
   piece_inputs = expr::symbols(piece);
   for (const std::string& name : parameters)
     piece_inputs.erase(name);

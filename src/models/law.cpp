@@ -24,13 +24,24 @@ Expr tau_formula(const Law& law, const Conventions& conventions) {
 }
 
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions) {
-  auto used = expr::symbols(tau_formula(law, conventions));
+  return inputs_of(tau_formula(law, conventions), law);
+}
+
+std::vector<std::string> inputs_of(const Expr& tau_R, const Law& law) {
+  auto used = expr::symbols(tau_R);
   for (const Parameter& parameter : law.parameters)
     used.erase(parameter.name);
   std::vector<std::string> names;
   for (const data::Quantity& quantity : data::quantities())
     if (used.erase(quantity.name)) names.push_back(quantity.name);
   names.insert(names.end(), used.begin(), used.end()); // a traced effect's columns
+  return names;
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const Law& law : all_laws())
+    names.push_back(law.name);
   return names;
 }
 

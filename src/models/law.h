@@ -13,13 +13,14 @@
 #include "core/registry.h"
 #include "expr/expr.h"
 #include "models/piece_quantity.h"
+#include "models/shear_yield.h"
 
 namespace frictab::models {
 
 // What k and the shear limit mean in this job.
 struct Conventions {
-  std::string shear_yield = "mises";           // mises | tresca | flow_stress
-  double k_over_sigma_f = 0.57735026918962584; // 1/sqrt(3) | 1/2 | 1
+  ShearYield shear_yield = ShearYield::mises;
+  double k_over_sigma_f = shear_yield_ratio(ShearYield::mises);
   bool shear_limit = true; // 0 <= tau_R <= k; off where the data have no flow stress
 };
 
@@ -81,6 +82,8 @@ expr::Expr shear_yield_stress(const Conventions& conventions);
 // State names the law's tau_R depends on, in canonical order (with the shear limit's sigma_f_MPa);
 // behind them, by name, symbols of columns and derived quantities that a traced effect brought in.
 std::vector<std::string> inputs(const Law& law, const Conventions& conventions);
+// The same where the law's tau_R is written out already.
+std::vector<std::string> inputs_of(const expr::Expr& tau_R, const Law& law);
 
 // The shear stress `combine` under the shear limit: minimum(gain maximum(combine, 0), k).
 expr::Expr limited(const expr::Expr& combine, const Conventions& conventions, double gain = 1);
@@ -129,5 +132,6 @@ ModelName read_model_name(std::string_view name);
 
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);
+std::vector<std::string> law_names(); // of all_laws()
 
 } // namespace frictab::models

@@ -48,18 +48,21 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
 }
 
 JobData with_validation_files(const data::DataOptions& options) {
-  JobData data{data::load_dataset(options.training, options),
-               data::load_dataset(options.validation, options),
-               {}};
-  if (std::string leak = calibrate::leak_note(data.training, data.validation); !leak.empty())
-    data.validation.notes.push_back(std::move(leak));
+  JobData data;
+  data.training = data::load_dataset(options.training, options);
+  data.validation = data::load_dataset(options.validation, options);
+  data.leak = calibrate::leak_note(data.training, data.validation);
+  if (!data.leak.empty()) data.validation.notes.push_back(data.leak);
   return data;
 }
 
 JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed) {
   data::Dataset all = data::load_dataset(options.training, options);
   data::Split split = data::hold_out(all, options.holdout, seed);
-  JobData data{std::move(split.training), std::move(split.validation), {}};
+  JobData data;
+  data.training = std::move(split.training);
+  data.validation = std::move(split.validation);
+  data.leak = calibrate::leak_note(data.training, data.validation);
   if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
   return data;
 }

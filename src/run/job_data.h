@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "data/dataset.h"
 #include "job/job.h"
@@ -14,6 +15,7 @@ struct JobData {
   // Training and validation together, where the tool itself held out a few of few tests: tracing
   // needs them all, and judges by leaving tests out itself.
   std::optional<data::Dataset> undivided;
+  std::string leak; // calibrate::leak_note of the two
 };
 
 // Reads the files of [data]. Without validation files some experiments are held out. Throws

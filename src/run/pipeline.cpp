@@ -164,7 +164,7 @@ void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
     table.record.inputs[name].worst_case_at = value;
 }
 
-void Pipeline::write_table_file(Table& table) {
+void Pipeline::write_table_file(const Table& table) {
   const std::string name = "tables/" + table.model + ".h5";
   if (table.stored)
     output_.adopt(name,
@@ -239,7 +239,7 @@ void Pipeline::generate() {
   for (const Table& table : tables_)
     for (const codegen::Exporter* exporter : targets) {
       const std::string directory = export_directory(exporter->name, table);
-      const bool direct = job_.exports.form == "direct" || !exporter->whole();
+      const bool direct = job_.exports.form == codegen::ExportForm::direct || !exporter->whole();
       const Table form = direct ? direct_for_sources(table) : table;
       sources_[directory] = exporter->generate(request_for(form));
       for (const auto& [path, text] : sources_[directory])

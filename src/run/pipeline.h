@@ -63,7 +63,7 @@ private:
   void add_traced_laws();
   table::Table sample_table(const models::AssembledLaw& law);
   void measure_drift(const models::AssembledLaw& law, table::Table& table);
-  void write_table_file(table::Table& table);
+  void write_table_file(const table::Table& table);
   const codegen::SourceBundle& sources_in(const std::string& directory);
   std::vector<verify::GeneratedSource> sources_of(const table::Table& table,
                                                   const table::Table& direct);

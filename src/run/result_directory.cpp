@@ -23,13 +23,6 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 // Stems of entries that are called like a model: laws with traced effects and ends of bands have
 // names that no registry knows.
 void add_model_names(std::vector<std::string>& names, const fs::path& directory) {
@@ -104,7 +97,7 @@ std::optional<verify::Verification> ResultDirectory::verification() const {
 }
 
 std::vector<std::string> ResultDirectory::model_files() const {
-  std::vector<std::string> names = law_names(), files;
+  std::vector<std::string> names = models::law_names(), files;
   add_model_names(names, directory_ / "models");
   for (const std::string& name : names)
     files.push_back("models/" + name + ".json");
@@ -112,7 +105,7 @@ std::vector<std::string> ResultDirectory::model_files() const {
 }
 
 std::vector<std::string> ResultDirectory::table_names() const {
-  std::vector<std::string> names = law_names();
+  std::vector<std::string> names = models::law_names();
   add_model_names(names, directory_ / "tables");
   for (const codegen::Exporter& exporter : codegen::all_exporters())
     add_model_names(names, directory_ / "export" / exporter.name);
@@ -130,10 +123,11 @@ std::vector<std::string> ResultDirectory::table_files() const {
 }
 
 std::vector<std::string> ResultDirectory::source_files() const {
+  const std::vector<std::string> tables = table_names();
   std::vector<std::string> directories, files;
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     directories.push_back("export/" + exporter.name);
-    for (const std::string& name : table_names())
+    for (const std::string& name : tables)
       directories.push_back("export/" + exporter.name + "/" + name);
   }
   for (const std::string& directory : directories) {

@@ -100,7 +100,7 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
   table.record.quantile = model.quantile;
   table.record.gain = model.gain;
   table.record.formula = model.law->formula;
-  table.record.shear_yield = model.conventions.shear_yield;
+  table.record.shear_yield = models::shear_yield_name(model.conventions.shear_yield);
   return table;
 }
 

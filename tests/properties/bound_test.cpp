@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "models/law.h"
 #include "support/sample_data.h"
 #include "table/bound.h"
 
@@ -44,13 +45,6 @@ Case of_law(const std::string& name, Interpolation interpolation, double toleran
                     interpolation, tolerance);
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   for (char& c : name)
@@ -72,7 +66,8 @@ TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(models::law_names()),
+                         test_name);
 
 // Away from its law by a known amount: what is added to a node must come out again.
 TEST(Bound, IsAboveATableThatIsWrong) {

@@ -7,6 +7,7 @@
 #include "codegen/exporter.h"
 #include "codegen/layer.h"
 #include "core/random.h"
+#include "models/law.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/direct.h"
@@ -76,13 +77,6 @@ void expect_law(const models::Model& model) {
   }
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '.', '_');
@@ -112,7 +106,7 @@ TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryLaw, testing::ValuesIn(law_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryLaw, testing::ValuesIn(models::law_names()),
                          test_name);
 
 TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {

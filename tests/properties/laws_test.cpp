@@ -6,6 +6,7 @@
 #include "calibrate/fit.h"
 #include "core/random.h"
 #include "data/quantity.h"
+#include "models/law.h"
 #include "support/sample_data.h"
 
 namespace frictab {
@@ -22,13 +23,6 @@ class EveryLaw : public testing::TestWithParam<std::string> {
 protected:
   const models::Law& law() const { return *models::find_law(GetParam()); }
 };
-
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
@@ -156,14 +150,14 @@ TEST_P(EveryLaw, WithoutTheShearLimitNeedsNoFlowStressUnlessItsFormulaDoes) {
   EXPECT_NE(std::find(limited.begin(), limited.end(), "sigma_f_MPa"), limited.end());
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names()), test_name);
 
 TEST(Laws, HaveTheNamesOfTheContract) {
   const std::vector<std::string> contract = {
       "coulomb_0.04", "coulomb_0.08", "shear_0.12", "coulomb_mean",  "shear_mean",  "orowan_mean",
       "coulomb",      "shear",        "orowan",     "shaw",          "wanheim_bay", "levanov",
       "log_coulomb",  "exp_coulomb",  "wzl",        "neural_network"};
-  EXPECT_EQ(law_names(), contract);
+  EXPECT_EQ(models::law_names(), contract);
 }
 
 double tau(const std::string& name, std::vector<double> parameters, double sigma_n,

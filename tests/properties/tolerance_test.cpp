@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "models/law.h"
 #include "support/sample_data.h"
 #include "table/bound.h"
 
@@ -35,13 +36,6 @@ table::ProvenDrift drift_of(const Made& made, double allowed) {
       table::worst_case(table::LawFunction(AssembledLaw(made.model), function.inputs()), function,
                         made.ranges, table::probe_points(made.ranges, made.table.axes, 20000)),
       allowed);
-}
-
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
@@ -79,7 +73,8 @@ TEST_P(SlowToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
     EXPECT_FALSE(axis.log) << axis.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SlowToleranceOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Laws, SlowToleranceOfEveryLaw, testing::ValuesIn(models::law_names()),
+                         test_name);
 
 TEST(Budget, IsKeptAndMoreNodesAreCloser) {
   for (const char* law : {"wanheim_bay", "levanov"}) {

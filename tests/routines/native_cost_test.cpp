@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "codegen/compile.h"
+#include "models/law.h"
 #include "support/sample_data.h"
 #include "table/direct.h"
 #include "verify/beyond.h"
@@ -76,13 +77,6 @@ std::pair<double, double> cost(const Case& c, const std::string& target) {
   return {sum / static_cast<double>(tau.size()), largest};
 }
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '.', '_');
@@ -102,8 +96,8 @@ TEST_P(SlowNativeTableOfEveryLaw, MeetsTheToleranceAtItsHeldStates) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowNativeTableOfEveryLaw, testing::ValuesIn(law_names()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowNativeTableOfEveryLaw,
+                         testing::ValuesIn(models::law_names()), test_name);
 
 TEST(SlowNativeCost, IsTheDifferenceFromTheLawAtTheRowsOwnStates) {
   for (const char* law : {"log_coulomb", "orowan", "wanheim_bay"})

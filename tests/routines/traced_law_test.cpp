@@ -12,6 +12,7 @@
 #include "codegen/entry_arguments.h"
 #include "codegen/solver_inputs.h"
 #include "core/error.h"
+#include "models/law.h"
 #include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/rebuilt.h"
@@ -129,6 +130,21 @@ TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
                         "  hint: did you mean 'log_coulomb'?"));
 }
 
+TEST(TracedLaw, ModelFileOfAnUnknownShearYieldIsRefused) {
+  calibrate::ModelFit fit;
+  fit.model = with_all_effects().model;
+  fit.std_error.assign(fit.model.parameters.size(), 0.001);
+  std::string text = calibrate::model_json(fit, {});
+  text.replace(text.find("\"mises\""), 7, "\"misess\"");
+  try {
+    calibrate::parse_model(text, "m.json");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "m.json: error: unknown shear_yield 'misess'\n"
+                               "  hint: one of mises, tresca, flow_stress");
+  }
+}
+
 std::vector<DriftRecord> verified(const Case& c, const codegen::Exporter& exporter,
                                   const Table& form, const std::string& units = "mm-t-s",
                                   const std::map<std::string, std::string>& inputs = {}) {
@@ -238,14 +254,7 @@ TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
     }
 }
 
-std::vector<std::string> all_law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(all_law_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(models::law_names()),
                          [](const auto& given) {
                            std::string name = given.param;
                            std::replace(name.begin(), name.end(), '.', '_');

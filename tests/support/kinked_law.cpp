@@ -33,7 +33,7 @@ models::Model kinked_model() {
   law.build = build;
   models::Model model;
   model.law = models::unregistered_law(law);
-  model.conventions = {"flow_stress", 1, false};
+  model.conventions = {models::ShearYield::flow_stress, 1, false};
   model.parameters = {0.12, -0.2, 0.1, 0.03, 0.001, 0.8};
   return model;
 }

@@ -117,7 +117,8 @@ TEST(NetworkFormula, GivesTheStressThatTheTrainingSaw) {
   const models::Law made_law = models::neural_network(ensemble);
   const std::vector<std::string> names{"sigma_n_MPa", "psi", "T_contact_C"};
   const expr::Program program(
-      models::tau_formula(made_law, models::Conventions{"mises", 0.5, false}), names, {"mu0"});
+      models::tau_formula(made_law, models::Conventions{models::ShearYield::tresca, 0.5, false}),
+      names, {"mu0"});
   const double stress = 1200, psi = 4, temperature = 130, mu0 = 0.07;
   NetworkBins bins = some_bins(1, 1, 1e9);
   bins.z.resize(1, 2);

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "io/hdf5.h"
+#include "models/law.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
@@ -39,13 +40,6 @@ double worst_of(const std::string& law, const Table& table) {
   return table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
                            ranges, table::probe_points(ranges, table.axes, 50000))
       .drift_MPa;
-}
-
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
-  return names;
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
@@ -105,8 +99,10 @@ TEST_P(SlowTableOfEveryLaw, OthersRebuildTauFromTheAttributesAloneTo1e12) {
     expect_rebuilt(table_of(GetParam(), options_of(interpolation)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
-INSTANTIATE_TEST_SUITE_P(Registry, SlowTableOfEveryLaw, testing::ValuesIn(law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(models::law_names()),
+                         test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowTableOfEveryLaw, testing::ValuesIn(models::law_names()),
+                         test_name);
 
 TEST(Table, ProductsOfPowersAndLogarithmsNeedTwoNodesPerAxis) {
   for (const char* law : {"log_coulomb", "exp_coulomb"}) {

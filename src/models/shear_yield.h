@@ -1,0 +1,49 @@
+// Which shear yield stress k a job means: papers on friction differ.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace frictab::models {
+
+enum class ShearYield {
+  mises,      // k = sigma_f/sqrt(3)
+  tresca,     // k = sigma_f/2
+  flow_stress // k = sigma_f
+};
+
+inline constexpr std::array shear_yields{ShearYield::mises, ShearYield::tresca,
+                                         ShearYield::flow_stress};
+
+// As job files, calibrations and tables say it.
+constexpr const char* shear_yield_name(ShearYield convention) {
+  switch (convention) {
+  case ShearYield::tresca:
+    return "tresca";
+  case ShearYield::flow_stress:
+    return "flow_stress";
+  default:
+    return "mises";
+  }
+}
+
+constexpr std::optional<ShearYield> find_shear_yield(std::string_view name) {
+  for (const ShearYield convention : shear_yields)
+    if (name == shear_yield_name(convention)) return convention;
+  return std::nullopt;
+}
+
+// k/sigma_f.
+constexpr double shear_yield_ratio(ShearYield convention) {
+  switch (convention) {
+  case ShearYield::tresca:
+    return 0.5;
+  case ShearYield::flow_stress:
+    return 1;
+  default:
+    return 0.57735026918962584; // 1/sqrt(3)
+  }
+}
+
+} // namespace frictab::models
