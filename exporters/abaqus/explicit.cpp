@@ -88,7 +88,7 @@ SolverGives force_gives(const ForceNames& names) {
                      {.state = "v_rel_mm_s", .text = names.speed, .read = "speed"},
                      {.state = "s_mm",
                       .text = state + "(1), accumulated slip under pressure",
-                      .read = "(hist(1) + slip)"},
+                      .read = "(hist(1) + move)"},
                      {.state = "friction_work",
                       .text = state + "(2), friction work per area of the increments done",
                       .read = "hist(2)"},

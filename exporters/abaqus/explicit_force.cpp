@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "deck.h"
 #include "stop.h"
+#include "table/outside.h"
 
 namespace frictab::abaqus {
 
@@ -123,7 +124,7 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
                  {"to_solver", stress.same() ? "" : "*" + fortran_number(stress.over)}};
-  values.flags = {{"has_axes", !request.table.axes.empty()},
+  values.flags = {{"has_ends", !frictab::table::all_ends(request.table).empty()},
                   {"refuses", fortran::refuses(request.table)}};
   add_sizes(values, inputs);
   add_past(values, request, inputs);
@@ -156,8 +157,9 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
                 const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
   out["arguments_note"] = routine.arguments_note;
-  out["result"] = {{"name", "fTangential(1,k)"},
-                   {"meaning", "-min(tau_R*area, max(fStickForce, 0)); other components 0"}};
+  out["result"] = {
+      {"name", "fTangential(1,k)"},
+      {"meaning", "-max(-tau_R*area, min(tau_R*area, fStickForce)); other components 0"}};
   out["state_variables_by"] = routine.state_by;
   json states = json::array();
   for (const StateVariable& state : state_variables(request, inputs))
@@ -177,8 +179,10 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
 
 std::string force_notes(const std::string& state_name, const std::string& state_by) {
   return fmt::format(
-      "The force lies along the slip (the first local axis is the slip's own direction), never "
-      "above the stick force, 0 where that is negative; at rest it is still there. Surface "
+      "The force lies along the motion (the first local axis is the motion's own direction): the "
+      "stick force with its sign, as far as friction holds it; at rest it is still there. Slip is "
+      "the motion that the stick force, grown from the force before the increment, does not "
+      "explain: a stuck point has none. Surface "
       "expansion and flow stress are not known to the solver: [export.inputs] says per state "
       "constant:VALUE, property or field:N; a property or field the deck does not give takes the "
       "middle of the range the table was made for, as the header of the source says. DEPVAR={}: "

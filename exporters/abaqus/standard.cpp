@@ -13,6 +13,7 @@
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
 #include "stop.h"
+#include "table/outside.h"
 
 namespace frictab::abaqus {
 
@@ -84,7 +85,7 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
           .text;
   values.text["pmin"] = fortran_number(smallest_pressure(table));
   values.text["smallest"] = fmt::format("{:.3g}", smallest_pressure(table));
-  values.flags["has_axes"] = !table.axes.empty();
+  values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   values.flags["frozen"] = frozen;
   values.lists["coefficient"] = fortran::comments(coefficient_lines(frozen));
   values.lists["histories"] = fortran::comments(

@@ -23,7 +23,7 @@ bool coefficient_is_frozen(const codegen::Exporter& exporter,
 double smallest_pressure(const frictab::table::Table& table);
 
 // Fills in what both templates hold: head, histories, core with its gradient, stop, pmin and
-// smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_axes, refuses. Gives whether the
+// smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_ends, refuses. Gives whether the
 // core holds ftqnan; `unknown` asks for it in any case. `release` as in fortran::Head.
 bool add_routine(codegen::TemplateValues& values, const codegen::Exporter& exporter,
                  const codegen::ExportRequest& request,
@@ -45,8 +45,5 @@ state_variables(std::vector<std::pair<std::string, std::string>> unit_and_meanin
 // gfortran beside stand-ins for aba_param.inc and, where a side refuses, STDB_ABQERR.
 codegen::BuildVariant standard_variant(const codegen::ExportRequest& request,
                                        const std::string& file);
-
-// A pressure for laws that do not ask for one, MPa: a power of two, so that it changes no bits.
-inline constexpr double any_pressure = 1024;
 
 } // namespace frictab::abaqus

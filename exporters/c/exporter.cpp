@@ -159,7 +159,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
       {"values", file ? values_file(table, comment) : values_in_source(table, comment)},
       {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
       {"gradient", gradient_functions(request, inputs)},
-      {"count", count_function(table, inputs)}};
+      {"outside", outside_functions(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
                   {"in_file", file},
                   {"cubic", is_cubic(table)},

@@ -146,41 +146,43 @@ std::vector<std::string> extending_sides(const Table& table,
 
 namespace {
 
-Lines counted_axes(const Table& table, const std::vector<InputArgument>& inputs,
-                   const std::string& element) {
-  Lines axes;
-  for (const table::AxisEnds& axis : table::axis_ends(table)) {
-    const InputArgument& input = inputs[index_of(inputs, axis.name)];
+// Axes and inputs that are held, by the numbers of their bits.
+Lines range_ends(const Table& table, const std::vector<InputArgument>& inputs) {
+  Lines ends;
+  for (const table::AxisEnds& end : table::all_ends(table)) {
+    const InputArgument& input = inputs[index_of(inputs, end.name)];
+    const std::size_t number = ends.size();
     TemplateValues one;
-    one.text = {{"canonical", canonical(input, element)},
-                {"name", comment_text(axis.name)},
-                {"low", c_number(axis.low)},
-                {"high", c_number(axis.high)}};
-    axes.push_back(one);
+    one.text = {{"canonical", canonical(input, "")},   {"element", canonical(input, "[i]")},
+                {"name", comment_text(end.name)},      {"low", c_number(end.low)},
+                {"high", c_number(end.high)},          {"bit", std::to_string(1u << number)},
+                {"first", std::to_string(2 * number)}, {"second", std::to_string(2 * number + 1)}};
+    ends.push_back(one);
   }
-  return axes;
+  return ends;
 }
 
-std::vector<std::string> not_axes(const std::vector<InputArgument>& inputs) {
+std::vector<std::string> without_range(const Table& table,
+                                       const std::vector<InputArgument>& inputs) {
   std::vector<std::string> names;
+  const std::vector<table::AxisEnds> ends = table::all_ends(table);
   for (const InputArgument& input : inputs)
-    if (!input.axis) names.push_back(input.argument);
+    if (std::none_of(ends.begin(), ends.end(),
+                     [&](const table::AxisEnds& end) { return end.name == input.name; }))
+      names.push_back(input.argument);
   return names;
 }
 
 } // namespace
 
-std::string count_function(const Table& table, const std::vector<InputArgument>& inputs) {
+std::string outside_functions(const Table& table, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
+  values.text["parameters"] = lines(parameters(inputs, "double"));
   values.text["arrays"] = lines(parameters(inputs, "const double*"));
-  values.lists["not_axes"] = items(not_axes(inputs));
-  values.lists["axes"] = counted_axes(table, inputs, "[i]");
-  for (std::size_t a = 0; a < table.axes.size(); ++a) {
-    values.lists["axes"][a].text["first"] = std::to_string(2 * a);
-    values.lists["axes"][a].text["second"] = std::to_string(2 * a + 1);
-  }
-  values.flags["has_axes"] = !table.axes.empty();
-  return without_last_break(render_template("c/frictab_count.c", values));
+  values.lists["without_range"] = items(without_range(table, inputs));
+  values.lists["ends"] = range_ends(table, inputs);
+  values.flags["has_ends"] = !values.lists["ends"].empty();
+  return without_last_break(render_template("c/frictab_outside.c", values));
 }
 
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
@@ -203,7 +205,7 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   values.text["piece"] = law;
   values.text["piece_arguments"] = piece_arguments(table, inputs);
   values.text["result"] = stress.same() ? code.result : code.result + " * " + c_number(stress.over);
-  values.text["count"] = count_function(table, inputs);
+  values.text["outside"] = outside_functions(table, inputs);
   values.text["gradient"] = gradient;
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
@@ -212,10 +214,6 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   values.lists["unused"] = items(unused);
   values.lists["refusing"] = items(refusing_sides(table, inputs));
   values.lists["statements"] = items(code.lines);
-  values.lists["not_axes"] = items(not_axes(inputs));
-  values.lists["axes"] = counted_axes(table, inputs, "");
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    values.lists["axes"][a].text["bit"] = std::to_string(1u << a);
   return render_template("c/frictab_direct.c", values);
 }
 

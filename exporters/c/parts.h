@@ -53,9 +53,9 @@ std::vector<std::string> refusing_sides(const table::Table& table,
 std::vector<std::string> extending_sides(const table::Table& table,
                                          const std::vector<codegen::InputArgument>& inputs);
 
-// frictab_count_outside.
-std::string count_function(const table::Table& table,
-                           const std::vector<codegen::InputArgument>& inputs);
+// frictab_outside and frictab_count_outside.
+std::string outside_functions(const table::Table& table,
+                              const std::vector<codegen::InputArgument>& inputs);
 
 // frictab_tau_R_gradient and frictab_tau_R_gradient_batch, with ft_piece_gradient where it is
 // needed.

@@ -48,12 +48,15 @@ void add_arguments(TemplateValues& values, const ExportRequest& request,
                    const std::vector<InputArgument>& inputs) {
   const SolverUnit stress = solver_unit("MPa", request.units);
   const std::vector<std::string> order = request.table.inputs();
-  std::vector<std::string> names, elements, unused, not_axes;
+  const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
+  std::vector<std::string> names, elements, unused, without_range;
   for (const InputArgument& input : inputs) {
     names.push_back(input.argument);
     elements.push_back(input.used ? input.argument + "(ft_i)" : "0.0D0");
     if (!input.used) unused.push_back(input.argument);
-    if (!input.axis) not_axes.push_back(input.argument);
+    if (std::none_of(ends.begin(), ends.end(),
+                     [&](const table::AxisEnds& end) { return end.name == input.name; }))
+      without_range.push_back(input.argument);
   }
   values.lists["used"];
   for (const std::string& name : order)
@@ -72,14 +75,14 @@ void add_arguments(TemplateValues& values, const ExportRequest& request,
   values.text["items"] = continued(elements);
   values.text["n_arguments"] = std::to_string(inputs.size());
   values.lists["unused"] = items(unused);
-  values.lists["not_axes"] = items(not_axes);
+  values.lists["without_range"] = items(without_range);
   values.flags["none_used"] = order.empty();
 }
 
 void add_axes(TemplateValues& values, const Table& table,
               const std::vector<InputArgument>& inputs) {
   values.lists["axes"];
-  for (const table::AxisEnds& axis : table::axis_ends(table))
+  for (const table::AxisEnds& axis : table::all_ends(table))
     for (const InputArgument& input : inputs) {
       if (input.name != axis.name) continue;
       TemplateValues one;

@@ -38,15 +38,21 @@ std::vector<double> state_at(const table::Table& table, double share) {
 
 } // namespace
 
+std::string most_text() {
+  return fortran_number(largest_coefficient);
+}
+
 std::string coefficient(const table::Table& table, Coefficient kind) {
   const std::size_t pressure = number_of(table, "sigma_n_MPa");
   TemplateValues values;
   values.flags = {{"coulomb", kind == Coefficient::coulomb},
+                  {"capped", kind != Coefficient::stress},
                   {"shear", kind == Coefficient::shear},
                   {"takes_pressure", pressure > 0}};
   values.text = {{"n_x", std::to_string(n_states(table))},
                  {"pressure", std::to_string(pressure)},
-                 {"least", fortran_number(least_pressure)}};
+                 {"least", fortran_number(least_pressure)},
+                 {"most", most_text()}};
   return without_last_break(render_template("fortran/frictab_coef.f", values));
 }
 

@@ -20,8 +20,14 @@ enum class Coefficient {
 // is no contact in forming.
 inline constexpr double least_pressure = 1e-3;
 
+// What a solver gets at most, as mu or m. A law whose stress does not fall with the pressure would
+// ask for any coefficient at the edge of the contact: m k = 57 MPa under 0.001 MPa is 57,000.
+inline constexpr double largest_coefficient = 10;
+std::string most_text(); // as Fortran writes it
+
 // The function ftcoef(x, press, flow): the coefficient, tau_R in MPa; x as for fttau, press and
-// flow (used by m alone) in MPa. NaN where one of them is. mu: never 0/0; m and tau: 0 where there
+// flow (used by m alone) in MPa. NaN where one of them is; at
+// most largest_coefficient. mu: never 0/0; m and tau: 0 where there
 // is no pressure, m also where there is no flow stress.
 std::string coefficient(const table::Table& table, Coefficient kind);
 

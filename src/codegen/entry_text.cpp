@@ -6,6 +6,7 @@
 #include "codegen/number_text.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
+#include "table/outside.h"
 
 namespace frictab::codegen {
 
@@ -42,8 +43,8 @@ std::vector<std::string> argument_lines(const ExportRequest& request,
 
 std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix) {
   std::vector<std::string> names;
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    names.push_back(fmt::format("{}{} {}", 1u << a, suffix, comment_text(table.axes[a].name)));
+  for (const table::AxisEnds& end : table::all_ends(table))
+    names.push_back(fmt::format("{}{} {}", 1u << names.size(), suffix, comment_text(end.name)));
   if (names.empty()) names.push_back("none, the table has no axes");
   return names;
 }

@@ -16,7 +16,7 @@ std::vector<std::string> about_entry(const ExportRequest& request);
 std::vector<std::string> argument_lines(const ExportRequest& request,
                                         const std::vector<InputArgument>& inputs);
 
-// "1u psi" per axis (`suffix`: u), as frictab_outside gives them.
+// "1u psi" per axis and input that is held (`suffix`: u), as frictab_outside gives them.
 std::vector<std::string> outside_bits(const table::Table& table, const std::string& suffix);
 
 // What holds outside the range, for NaN and in threads; where a file of values lies.

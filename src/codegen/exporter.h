@@ -75,6 +75,11 @@ struct Exporter {
   // Where the target is a solver's own table, which has fewer axes than the law: the states of
   // request.table.inputs() that it holds, at which values (canonical). Empty for a whole routine.
   std::function<table::HeldStates(const ExportRequest&)> held = {};
+  // Whether the solver gets a coefficient mu and multiplies it by the pressure: at most
+  // fortran::largest_coefficient then. Null: never.
+  std::function<bool(const ExportRequest&)> gives_mu = {};
+  // What a user has to know of these files before taking them; empty: nothing. Null: never.
+  std::function<std::string(const ExportRequest&)> caution = {};
   // Its own entry for many states at once, in the units of the request and without any conversion:
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,

@@ -45,21 +45,20 @@ void add_coordinates(TemplateValues& values, const Table& table) {
     only = "ftpiec(x)";
   else if (table.axes.empty())
     only = fortran_number(table.value[0]);
-  values.flags["has_axes"] = !table.axes.empty();
   values.flags["interpolates"] = !axes.empty();
   values.flags["uses_log"] = logarithm;
 }
 
-// What lies beyond the ends of the axes.
+// What lies beyond the ends of the axes, and of inputs that are held.
 void add_ends(TemplateValues& values, const Table& table) {
-  for (const table::AxisEnds& axis : table::axis_ends(table)) {
+  for (const table::AxisEnds& axis : table::all_ends(table)) {
     TemplateValues one;
     one.text = {{"index", std::to_string(axis.input + 1)},
                 {"low", fortran_number(axis.low)},
                 {"high", fortran_number(axis.high)}};
     values.lists["ends"].push_back(one);
   }
-  values.lists["ends"]; // also where there are none
+  values.flags["has_ends"] = !values.lists["ends"].empty();
   values.lists["extending"] = table.is_direct() ? Lines{} : sides(table, table::Outside::law);
 }
 

@@ -148,8 +148,10 @@ std::vector<double> Maker::coefficients(const States& given) const {
       p = std::max(p, smallest_pressure * problem_.axes[problem_.pressure].high);
   std::vector<double> out(rows);
   problem_.tau(rows, pointers(states), out);
-  for (std::size_t i = 0; i < rows; ++i)
+  for (std::size_t i = 0; i < rows; ++i) {
     out[i] /= pressed() ? states[problem_.pressure][i] : problem_.factor_MPa;
+    if (out[i] > problem_.most) out[i] = problem_.most;
+  }
   return out;
 }
 

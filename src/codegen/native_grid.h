@@ -46,13 +46,15 @@ struct NativeAxis {
 };
 
 // What is tabulated: coefficient * factor, where the factor is the pressure, a column of its own,
-// or one number (MPa); limited where the solver knows a largest shear stress.
+// or one number (MPa); limited where the solver knows a largest shear stress. Coefficients above
+// `most` are written as that.
 struct NativeProblem {
   static constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
   std::vector<NativeAxis> axes;
   std::size_t pressure = no_column;
   double factor_MPa = 1;
   std::optional<double> limit_MPa;
+  double most = std::numeric_limits<double>::infinity();
   // tau_R in MPa without the limit; columns in canonical units, in the order of the axes. Parallel.
   std::function<void(std::size_t rows, std::span<const double* const>, std::span<double>)> tau;
 };

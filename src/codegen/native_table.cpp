@@ -7,13 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "codegen/coefficient.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/table_checks.h"
+#include "core/columns.h"
 #include "core/error.h"
 #include "data/quantity.h"
 #include "expr/program.h"
 #include "io/atomic_file.h"
 #include "io/number.h"
+#include "table/drift.h"
 
 namespace frictab::codegen {
 
@@ -258,9 +261,36 @@ double limit_as_written(double limit, const ExportRequest& request) {
   return stress.to_canonical(as_written(stress.from_canonical(limit)));
 }
 
+// Whether the law itself is asked below the pressures that were tested.
+bool follows_law_below(const table::Table& table) {
+  const table::TableAxis* axis = table::find_axis(table, "sigma_n_MPa");
+  return !axis || axis->below == table::Outside::law;
+}
+
+// Solvers keep the coefficient below the first pressure of their table. So the table goes down to
+// where that is no matter: where tau_R of every state is below the aim, or every coefficient at its
+// largest.
+double first_pressure(const NativeProblem& problem, std::size_t column, double aim_MPa) {
+  std::vector<table::StateRange> ranges;
+  for (const NativeAxis& axis : problem.axes)
+    ranges.push_back({axis.state, axis.low, axis.high, ""});
+  table::States states = table::box_points(ranges, 256);
+  std::vector<double> tau(states.front().size());
+  double pressure = problem.axes[column].low;
+  for (; pressure > fortran::least_pressure; pressure *= 0.5) {
+    std::fill(states[column].begin(), states[column].end(), pressure);
+    problem.tau(tau.size(), pointers(states), tau);
+    const auto [least, most] = std::minmax_element(tau.begin(), tau.end());
+    if (std::min(*most, problem.limit_MPa.value_or(*most)) <= aim_MPa) break;
+    if (problem.pressure == column && *least >= problem.most * pressure) break;
+  }
+  return pressure;
+}
+
 NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
                          const std::vector<NativeColumn>& columns, const table::HeldStates& held) {
   NativeProblem problem;
+  problem.most = fortran::largest_coefficient;
   for (const NativeColumn& column : columns) {
     if (form.factor == NativeFactor::pressure && is_pressure(column))
       problem.pressure = problem.axes.size();
@@ -272,9 +302,9 @@ NativeProblem problem_of(const ExportRequest& request, const NativeForm& form,
   if (form.limits) {
     const Limited parts = LimitSplit(table, held).split(table.combine);
     if (parts.limit) problem.limit_MPa = limit_as_written(*parts.limit, request);
-    if (parts.limit && !parts.rest) { // Coulomb up to the lowest pressure, the limit from there on
-      const double slope = *parts.limit / std::max(problem.axes[problem.pressure].low, 1e-6);
-      problem.tau = [slope, p = problem.pressure](std::size_t rows, auto given, auto tau) {
+    if (parts.limit && !parts.rest) { // the limit is all there is
+      problem.tau = [slope = problem.most, p = problem.pressure](std::size_t rows, auto given,
+                                                                 auto tau) {
         for (std::size_t i = 0; i < rows; ++i)
           tau[i] = slope * given[p][i];
       };
@@ -298,7 +328,10 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   out.columns = native_columns(request, form);
   out.held = native_held(request, form);
   out.aim_MPa = aim_of(request.table);
-  const NativeProblem problem = problem_of(request, form, out.columns, out.held);
+  NativeProblem problem = problem_of(request, form, out.columns, out.held);
+  for (std::size_t c = 0; c < out.columns.size(); ++c)
+    if (out.columns[c].argument.name == "sigma_n_MPa" && follows_law_below(request.table))
+      problem.axes[c].low = first_pressure(problem, c, out.aim_MPa);
   NativeGoal goal;
   goal.aim_MPa = out.aim_MPa;
   NativeGrid grid = make_native_grid(problem, goal);
@@ -383,6 +416,9 @@ Exporter native_exporter(const NativeTarget& target) {
                        std::span<const double* const> columns, std::span<double> tau) {
     const NativeValues values = target.read(io::read_file(built.directory / target.file), request);
     drive_native(target.form(request), values, request, rows, columns, tau);
+  };
+  out.gives_mu = [target](const ExportRequest& request) {
+    return target.form(request).factor == NativeFactor::pressure;
   };
   out.held = [target](const ExportRequest& request) {
     return native_held(request, target.form(request));

@@ -11,6 +11,7 @@
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "io/json.h"
+#include "table/outside.h"
 
 namespace frictab::codegen {
 
@@ -70,7 +71,13 @@ json recipe_table(const ExportRequest& request) {
                                     [&](const InputArgument& i) { return i.axis && *i.axis == a; });
     axes.push_back(axis_json(table.axes[a], a, *input));
   }
+  json held = json::array();
+  for (const table::AxisEnds& end : table::held_input_ends(table))
+    held.push_back({{"name", end.name},
+                    {"range", {end.low, end.high}},
+                    {"outside_bit", axes.size() + held.size()}});
   json out = {{"axes", axes},
+              {"held_inputs", held},
               {"quantity", models::quantity_name(table.quantity)},
               {"transform", table.log_value ? "log" : "linear"},
               {"interpolation", table::interpolation_name(table.interpolation)},

@@ -48,6 +48,11 @@ Exporter routine_exporter(const RoutineTarget& target) {
   Exporter out = target.about;
   out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
   out.variants = [target](const ExportRequest& request) { return with_driver(target, request); };
+  out.caution = target.caution;
+  out.gives_mu = [target](const ExportRequest& request) {
+    return target.drive(request, checked_inputs(target, request)).result ==
+           fortran::Coefficient::coulomb;
+  };
   out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> columns, std::span<double> tau) {
     const std::vector<SolverInput> inputs = checked_inputs(target, request);

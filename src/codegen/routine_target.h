@@ -21,6 +21,7 @@ struct RoutineTarget {
   std::function<const SolverGives&(const ExportRequest&)> gives;
   // Refuses inputs that the routine cannot take (InputError); empty: takes all.
   std::function<void(const ExportRequest&, const std::vector<SolverInput>&)> check = {};
+  std::function<std::string(const ExportRequest&)> caution = {}; // Exporter::caution
   // The sources by name, without values file and recipe.
   std::function<SourceBundle(const ExportRequest&, const std::vector<SolverInput>&)> sources;
   // Adds to recipe.json what stands between its head and the table.

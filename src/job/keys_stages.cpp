@@ -246,7 +246,7 @@ std::vector<KeyRule> table_keys() {
           "what a query beyond the range gets, at both ends or [low, high]: clamp = the value at "
           "the nearest end, error = NaN, and the solver stops, law = the law's own formula; where "
           "the state is no axis of a law's table, the formula takes it as it is",
-          "clamp", "[\"clamp\", \"law\"]") |
+          "clamp; law below the low end of sigma_n_MPa", "[\"clamp\", \"law\"]") |
           Allowed{"", sides} | outside_problem,
       key<double>(
           "table.memory_limit_MiB", [](Job & job) -> auto& { return job.table.memory_limit_MiB; },

@@ -241,7 +241,11 @@ void Pipeline::generate() {
       const std::string directory = export_directory(exporter->name, table);
       const bool direct = job_.exports.form == codegen::ExportForm::direct || !exporter->whole();
       const Table form = direct ? direct_for_sources(table) : table;
-      sources_[directory] = exporter->generate(request_for(form));
+      const codegen::ExportRequest request = request_for(form);
+      sources_[directory] = exporter->generate(request);
+      const std::string caution = exporter->caution ? exporter->caution(request) : "";
+      if (!caution.empty() && std::find(notes_.begin(), notes_.end(), caution) == notes_.end())
+        notes_.push_back(caution);
       for (const auto& [path, text] : sources_[directory])
         output_.write(directory + "/" + path, text);
     }

@@ -223,6 +223,27 @@ void add_outside(std::string& out, const verify::Verification& verification,
   if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
 }
 
+// One line per model: how far table and routines are from the law below the range.
+void add_below(std::string& out, const verify::Verification& verification,
+               const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models) {
+    std::optional<verify::BelowRange> table, routines;
+    for (const verify::DriftRecord& r : verification.records) {
+      if (r.model != model || !r.ran || !r.below || r.held) continue;
+      std::optional<verify::BelowRange>& one = r.subject == "table" ? table : routines;
+      if (!one || r.below->max_abs_MPa > one->max_abs_MPa) one = r.below;
+    }
+    if (!table) continue;
+    const std::string of_routines =
+        routines ? fmt::format(", routines {:.3g}", routines->max_abs_MPa) : "";
+    lines +=
+        fmt::format("  {:<14} {:.4g} to {:.4g} MPa ({}): table {:.3g}{}\n", model, table->low_MPa,
+                    table->high_MPa, table->outside, table->max_abs_MPa, of_routines);
+  }
+  if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
+}
+
 // One line per solver's own table: how far it is where its states are held, and what that costs.
 void add_costs(std::string& out, const verify::Verification& verification) {
   std::string lines;
@@ -253,6 +274,7 @@ void add_drift(std::string& out, const verify::Verification& verification) {
     out += text_of(line, model);
   }
   add_outside(out, verification, models);
+  add_below(out, verification, models);
   add_costs(out, verification);
 }
 

@@ -14,6 +14,7 @@
 #include "table/direct.h"
 #include "table/drift.h"
 #include "table/grid.h"
+#include "table/outside.h"
 #include "table/sampling.h"
 
 namespace frictab::table {
@@ -47,7 +48,8 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
                                    range.name, range.low),
                        "spacing = \"linear\", or a range that starts above 0");
   }
-  if (asked != options.axes.end()) {
+  plan.axis.below = usual_below(range.name);
+  if (asked != options.axes.end() && !asked->second.outside.empty()) {
     plan.axis.below = *find_outside(asked->second.outside.front());
     plan.axis.above = *find_outside(asked->second.outside.back());
   }

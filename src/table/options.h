@@ -16,8 +16,8 @@ namespace frictab::table {
 struct AxisOptions {
   std::optional<std::pair<double, double>> range;
   std::optional<std::size_t> nodes;
-  std::optional<std::string> spacing;        // "log" | "linear"
-  std::vector<std::string> outside{"clamp"}; // clamp | error | law: both sides, or low and high
+  std::optional<std::string> spacing; // "log" | "linear"
+  std::vector<std::string> outside; // clamp | error | law: both sides, or low and high; none: usual
   Place place;
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace frictab::table {
 
@@ -34,11 +36,84 @@ std::optional<Outside> find_outside(std::string_view name) {
   return std::nullopt;
 }
 
+Outside usual_below(std::string_view axis) {
+  return axis == "sigma_n_MPa" ? Outside::law : Outside::clamp;
+}
+
 AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
     : name(axis.name), input(number_of_input), low(axis.nodes.front()), high(axis.nodes.back()),
       below(axis.below), above(axis.above),
       refused_below(below == Outside::error ? low - rounding * std::abs(low) : -infinite),
       refused_above(above == Outside::error ? high + rounding * std::abs(high) : infinite) {}
+
+AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
+                   std::pair<double, double> range)
+    : name(held_input), input(number_of_input), low(range.first), high(range.second),
+      below(Outside::clamp), above(Outside::clamp), refused_below(-infinite),
+      refused_above(infinite) {}
+
+namespace {
+
+// minimum(maximum(x, low), high), in any order of the operands: what holds x, or nothing.
+struct Hold {
+  std::string name;
+  double low, high;
+};
+
+std::optional<Hold> hold_of(const Expr& e) {
+  const auto parts = [](const Expr& of, expr::Op op) -> std::optional<std::pair<Expr, double>> {
+    if (of.op() != op) return std::nullopt;
+    for (const std::size_t i : {0U, 1U})
+      if (of.operands()[i].op() == expr::Op::constant)
+        return std::pair{of.operands()[1 - i], of.operands()[i].value()};
+    return std::nullopt;
+  };
+  const auto upper = parts(e, expr::Op::minimum);
+  const auto lower = upper ? parts(upper->first, expr::Op::maximum) : std::nullopt;
+  if (!lower || lower->first.op() != expr::Op::symbol) return std::nullopt;
+  return Hold{lower->first.name(), lower->second, upper->second};
+}
+
+// The narrowest range at which the formula holds each of its inputs.
+void find_holds(const Expr& e, std::map<std::string, std::pair<double, double>>& ranges,
+                std::set<const Expr::Node*>& seen) {
+  if (e.op() == expr::Op::constant || e.op() == expr::Op::symbol || !seen.insert(e.id()).second)
+    return;
+  if (const auto hold = hold_of(e)) {
+    auto& [low, high] = ranges.try_emplace(hold->name, hold->low, hold->high).first->second;
+    low = std::max(low, hold->low);
+    high = std::min(high, hold->high);
+  }
+  for (const Expr& operand : e.operands())
+    find_holds(operand, ranges, seen);
+}
+
+} // namespace
+
+std::vector<AxisEnds> held_input_ends(const Table& table) {
+  std::map<std::string, std::pair<double, double>> ranges;
+  std::set<const Expr::Node*> seen;
+  find_holds(table.combine, ranges, seen);
+  for (const auto& [name, record] : table.record.inputs)
+    if (record.levels && record.low && record.high)
+      ranges.try_emplace(name, *record.low, *record.high);
+  const std::vector<std::string> inputs = table.inputs();
+  std::vector<AxisEnds> ends;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto range = ranges.find(inputs[i]);
+    const bool is_axis = std::any_of(table.axes.begin(), table.axes.end(),
+                                     [&](const TableAxis& axis) { return axis.name == inputs[i]; });
+    if (range != ranges.end() && !is_axis) ends.emplace_back(inputs[i], i, range->second);
+  }
+  return ends;
+}
+
+std::vector<AxisEnds> all_ends(const Table& table) {
+  std::vector<AxisEnds> ends = axis_ends(table);
+  for (AxisEnds& held : held_input_ends(table))
+    ends.push_back(std::move(held));
+  return ends;
+}
 
 std::vector<AxisEnds> axis_ends(const Table& table) {
   const std::vector<std::string> inputs = table.inputs();

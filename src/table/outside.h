@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "expr/program.h"
@@ -12,9 +13,17 @@
 
 namespace frictab::table {
 
-// The range of one axis with what holds on either side of it.
+// What holds beyond the low end of an axis where the job says nothing: the law below every
+// contact normal stress that was tested, because a clamped tau_R stays where the contact has no
+// pressure left, and most contact points of a forming process begin there. Elsewhere, and beyond
+// the high end of every axis: clamp.
+Outside usual_below(std::string_view axis);
+
+// The range of one axis, or of an input that is held, with what holds on either side of it.
 struct AxisEnds {
   explicit AxisEnds(const TableAxis& axis, std::size_t number_of_input = 0);
+  AxisEnds(const std::string& held_input, std::size_t number_of_input,
+           std::pair<double, double> range);
 
   std::string name;
   std::size_t input; // of Table::inputs()
@@ -38,6 +47,13 @@ struct AxisEnds {
 };
 
 std::vector<AxisEnds> axis_ends(const Table& table);
+
+// Inputs that are no axis and were tested over a range only: those that `combine` holds at its ends
+// (traced effects), and numbers of levels. The formula answers beyond it, with what holds there.
+std::vector<AxisEnds> held_input_ends(const Table& table);
+
+// Both, in this order: bit i of `outside` is the i-th of them.
+std::vector<AxisEnds> all_ends(const Table& table);
 
 // Answers where interpolation does not: beyond a side with `error` (NaN) or `law`, and everywhere
 // for the direct form. Axes that are not beyond a side with `law` are held at their ends, so that

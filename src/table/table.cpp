@@ -79,6 +79,7 @@ struct TableFunction::Data {
     bool log;
   };
   std::vector<std::string> inputs;
+  std::size_t n_axes = 0; // of the table, also where the direct form has no `axes`
   std::vector<Axis> axes;
   std::vector<AxisSearch> searches;
   std::vector<ft_axis> linear;
@@ -92,7 +93,19 @@ struct TableFunction::Data {
   std::unique_ptr<Program> of_inputs; // row: inputs; the value is a scalar, so nothing is copied
   std::unique_ptr<Program> of_all;    // row: value, then inputs
 
+  std::vector<AxisEnds> held; // inputs that are no axis
+
   void add_axes(const Table& table);
+  unsigned held_bits(const double* state) const {
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (held[i].leaves(state[held[i].input])) bits |= 1u << (n_axes + i);
+    return bits;
+  }
+  // tau_R, and the bits of axes.
+  double tau(std::span<const double> state, unsigned* outside) const;
+  double gradient(std::span<const double> state, std::span<double> derivative,
+                  unsigned* outside) const;
   void coordinates(const double* state, double* u) const {
     for (std::size_t a = 0; a < axes.size(); ++a) {
       const double x = state[axes[a].input];
@@ -180,6 +193,8 @@ TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>(
   Data& d = *data_;
   d.inputs = table.inputs();
   if (OutsideRule::needed(table)) d.rule = std::make_unique<OutsideRule>(table);
+  d.n_axes = table.axes.size();
+  d.held = held_input_ends(table);
   if (!table.is_direct()) d.add_axes(table);
   d.log_value = table.log_value;
   std::map<std::string, Expr> constants;
@@ -198,36 +213,47 @@ const std::vector<std::string>& TableFunction::inputs() const {
   return data_->inputs;
 }
 
-double TableFunction::operator()(std::span<const double> state, unsigned* outside) const {
-  const Data& d = *data_;
-  if (d.rule)
-    if (const auto tau = d.rule->tau(state, outside)) return *tau;
+double TableFunction::Data::tau(std::span<const double> state, unsigned* outside) const {
+  if (rule)
+    if (const auto answer = rule->tau(state, outside)) return *answer;
   double u[FT_MAX_AXES];
-  d.coordinates(state.data(), u);
-  const double raw = d.raw(u, nullptr, outside), value = d.log_value ? std::exp(raw) : raw;
-  return (*d.of_inputs)(state, {&value, 1});
+  coordinates(state.data(), u);
+  const double x = raw(u, nullptr, outside), piece = log_value ? std::exp(x) : x;
+  return (*of_inputs)(state, {&piece, 1});
+}
+
+double TableFunction::Data::gradient(std::span<const double> state, std::span<double> derivative,
+                                     unsigned* outside) const {
+  if (rule)
+    if (const auto answer = rule->gradient(state, derivative, outside)) return *answer;
+  double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
+  coordinates(state.data(), u);
+  const double x = raw(u, by_u, outside);
+  row[0] = log_value ? std::exp(x) : x;
+  std::copy(state.begin(), state.end(), row + 1);
+  const double answer =
+      of_all->gradient({row, state.size() + 1}, {}, std::span<double>(by_row, state.size() + 1));
+  for (std::size_t i = 0; i < state.size(); ++i)
+    derivative[i] = by_row[1 + i];
+  const double by_raw = log_value ? by_row[0] * row[0] : by_row[0];
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    if (by_u[a] == 0) continue; // clamped: no 0/0 at the origin of a logarithmic axis
+    const std::size_t i = axes[a].input;
+    derivative[i] += by_raw * (axes[a].log ? by_u[a] / state[i] : by_u[a]);
+  }
+  return answer;
+}
+
+double TableFunction::operator()(std::span<const double> state, unsigned* outside) const {
+  const double tau = data_->tau(state, outside);
+  if (outside) *outside |= data_->held_bits(state.data());
+  return tau;
 }
 
 double TableFunction::gradient(std::span<const double> state, std::span<double> derivative,
                                unsigned* outside) const {
-  const Data& d = *data_;
-  if (d.rule)
-    if (const auto tau = d.rule->gradient(state, derivative, outside)) return *tau;
-  double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
-  d.coordinates(state.data(), u);
-  const double raw = d.raw(u, by_u, outside);
-  row[0] = d.log_value ? std::exp(raw) : raw;
-  std::copy(state.begin(), state.end(), row + 1);
-  const double tau =
-      d.of_all->gradient({row, state.size() + 1}, {}, std::span<double>(by_row, state.size() + 1));
-  for (std::size_t i = 0; i < state.size(); ++i)
-    derivative[i] = by_row[1 + i];
-  const double by_raw = d.log_value ? by_row[0] * row[0] : by_row[0];
-  for (std::size_t a = 0; a < d.axes.size(); ++a) {
-    if (by_u[a] == 0) continue; // clamped: no 0/0 at the origin of a logarithmic axis
-    const std::size_t i = d.axes[a].input;
-    derivative[i] += by_raw * (d.axes[a].log ? by_u[a] / state[i] : by_u[a]);
-  }
+  const double tau = data_->gradient(state, derivative, outside);
+  if (outside) *outside |= data_->held_bits(state.data());
   return tau;
 }
 
@@ -252,23 +278,34 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
   constexpr std::size_t per_task = 32 * Program::block;
   parallel_for((rows + per_task - 1) / per_task, [&](std::size_t task) {
     const std::size_t first = task * per_task, count = std::min(rows - first, per_task);
-    if (data_->rule) { // asks row by row
-      double state[16];
-      for (std::size_t i = first; i < first + count; ++i) {
-        for (std::size_t c = 0; c < columns.size(); ++c)
-          state[c] = columns[c][i];
-        tau[i] = (*this)({state, columns.size()}, outside.empty() ? nullptr : &outside[i]);
-      }
+    double state[16];
+    const auto read_state = [&](std::size_t i) {
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        state[c] = columns[c][i];
+      return std::span<const double>(state, columns.size());
+    };
+    if (data_->axes.empty() && data_->rule) { // the direct form: the law, row by row
+      for (std::size_t i = first; i < first + count; ++i)
+        tau[i] = (*this)(read_state(i), outside.empty() ? nullptr : &outside[i]);
       return;
     }
     std::vector<double> value(count);
+    std::vector<unsigned> own_bits(outside.empty() && data_->rule ? count : 0);
+    unsigned* const bits = outside.empty() ? own_bits.data() : &outside[first];
+    const bool count_bits = !outside.empty() || data_->rule;
     for (std::size_t i = 0; i < count; i += Program::block)
       data_->pieces(columns, first + i, std::min(count - i, Program::block), value.data() + i,
-                    outside.empty() ? nullptr : &outside[first + i]);
+                    count_bits ? bits + i : nullptr);
     std::vector<const double*> row{value.data()};
     for (const double* column : columns)
       row.push_back(column + first);
     data_->of_all->evaluate(count, row, {}, tau.data() + first);
+    for (std::size_t i = 0; data_->rule && i < count; ++i) // where not the table answers
+      if (bits[i] != 0)
+        if (const auto answer = data_->rule->tau(read_state(first + i), nullptr))
+          tau[first + i] = *answer;
+    for (std::size_t i = 0; !data_->held.empty() && !outside.empty() && i < count; ++i)
+      bits[i] |= data_->held_bits(read_state(first + i).data());
   });
 }
 

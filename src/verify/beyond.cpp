@@ -20,14 +20,18 @@ void count(BeyondEnd& end, double excess) {
 } // namespace
 
 RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
-  const std::vector<table::AxisEnds> axes = table::axis_ends(table);
+  const std::vector<table::AxisEnds> axes = table::all_ends(table);
   const std::size_t rows = states.empty() ? 0 : states.front().size();
   RowsBeyond out;
   out.kinds.assign(rows, RowKind::compared);
   std::vector<BeyondEnd> ends;
   for (const table::AxisEnds& axis : axes) {
-    ends.push_back({axis.name, "below", table::outside_name(axis.below), axis.low, 0, 0});
-    ends.push_back({axis.name, "above", table::outside_name(axis.above), axis.high, 0, 0});
+    const bool is_axis = ends.size() < 2 * table.axes.size();
+    const auto name = [&](table::Outside side) {
+      return is_axis ? table::outside_name(side) : "held";
+    };
+    ends.push_back({axis.name, "below", name(axis.below), axis.low, 0, 0});
+    ends.push_back({axis.name, "above", name(axis.above), axis.high, 0, 0});
   }
   for (std::size_t i = 0; i < rows; ++i) {
     bool outside = false;
@@ -39,6 +43,7 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
         count(ends[2 * a], axes[a].low - x);
       else
         count(ends[2 * a + 1], x - axes[a].high);
+      if (a >= table.axes.size()) continue; // the law holds it as well: compared
       if (axes[a].refuses(x))
         out.kinds[i] = RowKind::refused;
       else if (!axes[a].extends(x) && out.kinds[i] != RowKind::refused)

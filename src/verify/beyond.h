@@ -10,7 +10,7 @@
 namespace frictab::verify {
 
 enum class RowKind : char {
-  compared, // inside, or outside only where the law's own formula goes on
+  compared, // inside, or outside only where the law's own formula goes on or holds the input
   clamped,  // beyond a side that clamps: the answer is no error of the table
   refused   // beyond a side with outside = error: the answer is NaN
 };

@@ -15,10 +15,19 @@ namespace frictab::verify {
 struct BeyondEnd {
   std::string axis;
   std::string side;    // below | above
-  std::string outside; // what the table does there: clamp | error | law
+  std::string outside; // what the table does there: clamp | error | law; held: as the law does
   double end = 0;
   std::size_t rows = 0;
   double largest_excess = 0; // in the unit of the axis
+};
+
+// Where forming contacts begin: states below every contact normal stress that the table was made
+// for, down to a tenth of the lowest, and the other states anywhere in their ranges.
+struct BelowRange {
+  double low_MPa = 0, high_MPa = 0; // of sigma_n_MPa
+  std::string outside;              // what the table does there: clamp | law
+  std::size_t n_points = 0;
+  double max_abs_MPa = 0; // against the law; no failure where the table clamps
 };
 
 // One thing that was compared with the law.
@@ -41,7 +50,8 @@ struct DriftRecord {
   // they say nothing of the source and count as the table's own. Of the rows, of the range's
   // points.
   std::size_t n_rows_not_posed = 0, n_points_not_posed = 0;
-  double max_vs_table_MPa = 0; // sources: largest difference from the table itself
+  double max_vs_table_MPa = 0;          // sources: largest difference from the table itself
+  std::optional<BelowRange> below = {}; // where the law takes sigma_n_MPa, unless it is refused
   bool passed = false;
   std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
   std::string not_proven = {};           // why there is no such bound

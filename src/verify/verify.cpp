@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
+#include "codegen/coefficient.h"
 #include "codegen/compile.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "table/bound.h"
+#include "table/outside.h"
 #include "verify/beyond.h"
 
 namespace frictab::verify {
@@ -34,6 +36,8 @@ struct Subjects {
   Probe rows;
   RowsBeyond beyond;
   Probe range;
+  Probe below; // the range, at lower contact normal stresses: BelowRange
+  std::optional<BelowRange> where;
   table::ProvenDrift proven; // empty where the table's own record is known
 };
 
@@ -42,6 +46,24 @@ Probe probe(const table::LawFunction& law, const table::TableFunction& table,
   Probe out = table::with_law(law, std::move(states));
   table::compare(out, table);
   return out;
+}
+
+constexpr const char* pressure = "sigma_n_MPa";
+constexpr std::size_t most_below = 4096; // Halton points
+
+// Fills `below` and `where`.
+void add_below(Subjects& s, const VerifyInput& input, std::vector<table::StateRange> ranges,
+               const table::LawFunction& law, const table::TableFunction& table) {
+  const auto range = std::find_if(ranges.begin(), ranges.end(),
+                                  [](const auto& one) { return one.name == pressure; });
+  if (range == ranges.end() || !(range->low > 0)) return;
+  const table::TableAxis* axis = table::find_axis(input.table, pressure);
+  const table::Outside outside = axis ? axis->below : table::Outside::law;
+  if (outside == table::Outside::error) return;
+  range->high = range->low;
+  range->low = 0.1 * range->low;
+  s.where = {range->low, range->high, table::outside_name(outside), 0, 0};
+  s.below = probe(law, table, table::box_points(ranges, std::min(input.samples, most_below)));
 }
 
 Subjects prepare(const VerifyInput& input) {
@@ -70,6 +92,7 @@ Subjects prepare(const VerifyInput& input) {
       worst.push_back({x});
   }
   table::append(s.range, probe(law, table, worst)); // sources are looked at there as well
+  add_below(s, input, ranges, law, table);
   if (input.rows) {
     table::States states = calibrate::input_columns(input.law, s.names, *input.rows).values();
     s.beyond = rows_beyond(input.table, states);
@@ -126,6 +149,14 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
     record.worst_state[s.names[d]] = s.range.states[d][at];
 }
 
+void compare_below(DriftRecord& record, const Subjects& s, const std::vector<double>& answer) {
+  record.below = s.where;
+  record.below->n_points = answer.size();
+  for (std::size_t i = 0; i < answer.size(); ++i)
+    record.below->max_abs_MPa =
+        std::max(record.below->max_abs_MPa, difference(answer[i], s.below.law[i]));
+}
+
 // What a driver leaves where its solver can never be: tau_R is not negative.
 constexpr double not_posed = -1;
 
@@ -144,20 +175,26 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
   DriftRecord record;
   record.model = input.law.model.name();
   record.subject = subject;
-  for (const Probe* reference : {&s.rows, &s.range}) {
+  for (const Probe* reference : {&s.rows, &s.range, &s.below}) {
     std::vector<double> tau(reference->law.size(), not_posed);
     if (reference->law.size() == 0) continue;
     answer(*reference, tau);
-    const bool of_rows = reference == &s.rows;
-    (of_rows ? record.n_rows_not_posed : record.n_points_not_posed) =
-        leave_out_not_posed(tau, reference->table);
-    if (of_rows)
+    const std::size_t left_out = leave_out_not_posed(tau, reference->table);
+    if (reference == &s.rows) {
+      record.n_rows_not_posed = left_out;
       compare_rows(record, *reference, s.beyond, tau);
-    else
+    } else if (reference == &s.range) {
+      record.n_points_not_posed = left_out;
       compare_range(record, s, tau);
+    } else {
+      compare_below(record, s, tau);
+    }
   }
+  const bool follows_below = !record.below || record.below->outside != "law" ||
+                             record.below->max_abs_MPa <= input.max_drift_MPa;
   record.passed = record.rows.max_abs <= input.max_drift_MPa &&
-                  record.worst_case_MPa <= input.max_drift_MPa && record.n_not_refused == 0;
+                  record.worst_case_MPa <= input.max_drift_MPa && record.n_not_refused == 0 &&
+                  follows_below;
   return record;
 }
 
@@ -187,7 +224,9 @@ Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldS
   const table::TableFunction table(input.table);
   Subjects out;
   out.names = s.names;
-  for (const auto& [from, to] : {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}}) {
+  out.where = s.where;
+  for (const auto& [from, to] :
+       {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}, {&s.below, &out.below}}) {
     table::States states = from->states;
     for (std::size_t d = 0; d < states.size(); ++d)
       if (const auto value = held.find(s.names[d]); value != held.end())
@@ -200,12 +239,29 @@ Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldS
   return out;
 }
 
+// The same where the solver gets mu, which no target writes above a stated value: tau_R is at most
+// that times the pressure.
+Subjects with_largest_mu(const Subjects& s) {
+  Subjects out = s;
+  const auto at = std::find(s.names.begin(), s.names.end(), pressure);
+  if (at == s.names.end()) return out;
+  const auto column = static_cast<std::size_t>(at - s.names.begin());
+  for (Probe* probe : {&out.rows, &out.range, &out.below})
+    for (std::size_t i = 0; i < probe->law.size(); ++i) {
+      const double most =
+          codegen::fortran::largest_coefficient * std::max(probe->states[column][i], 0.0);
+      for (double* tau : {&probe->law[i], &probe->table[i]})
+        if (*tau > most) *tau = most;
+    }
+  return out;
+}
+
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
 
-DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s,
+DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const Subjects& at_held,
                             const table::HeldStates& held, const std::string& subject,
                             const Answer& answer) {
-  DriftRecord record = compare(input, at_held(input, s, held), subject, answer);
+  DriftRecord record = compare(input, at_held, subject, answer);
   record.held = held;
   if (s.rows.law.empty()) return record;
   std::vector<double> tau(s.rows.law.size());
@@ -240,8 +296,11 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const Answer answer = [&](const Probe& reference, std::vector<double>& tau) {
     target.drive(reference.law.size(), columns_for(source.request.table, s, reference), tau);
   };
-  if (exporter.whole()) return compare(input, s, subject, answer);
-  return compare_reduced(input, s, exporter.held(source.request), subject, answer);
+  const bool gives_mu = exporter.gives_mu && exporter.gives_mu(source.request);
+  const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };
+  if (exporter.whole()) return compare(input, given(s), subject, answer);
+  const table::HeldStates held = exporter.held(source.request);
+  return compare_reduced(input, s, given(at_held(input, s, held)), held, subject, answer);
 }
 
 } // namespace

@@ -23,9 +23,12 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
           ? ""
           : fmt::format("; {} rows answered by a number where outside = error",
                         record.n_not_refused);
-  return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows; allowed "
-                     "{:.6g} MPa{}",
-                     record.worst_case_MPa, state, record.rows.max_abs, max_drift_MPa, answered);
+  const std::string below =
+      record.below ? fmt::format("; {:.6g} MPa below the range", record.below->max_abs_MPa) : "";
+  return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows{}; "
+                     "allowed {:.6g} MPa{}",
+                     record.worst_case_MPa, state, record.rows.max_abs, below, max_drift_MPa,
+                     answered);
 }
 
 Json beyond_json(const BeyondEnd& end) {
@@ -62,6 +65,13 @@ Json record_json(const DriftRecord& record) {
   if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
   if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
   if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
+  if (record.below)
+    j["below"] = {{"axis", "sigma_n_MPa"},
+                  {"low", record.below->low_MPa},
+                  {"high", record.below->high_MPa},
+                  {"outside", record.below->outside},
+                  {"n_points", record.below->n_points},
+                  {"max_abs_MPa", record.below->max_abs_MPa}};
   if (record.held) {
     j["held"] = Json::object();
     for (const auto& [name, value] : *record.held)
@@ -116,6 +126,11 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
         r.not_proven = one.value("not_proven", "");
+        if (one.contains("below")) {
+          const Json& below = one.at("below");
+          r.below = {below.at("low"), below.at("high"), below.at("outside"), below.at("n_points"),
+                     below.at("max_abs_MPa")};
+        }
         if (one.contains("held")) {
           r.held = one.at("held").get<std::map<std::string, double>>();
           r.cost_mean_abs_MPa = one.at("cost_mean_abs_MPa");

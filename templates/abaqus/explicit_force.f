@@ -1,7 +1,7 @@
 C     All that is computed is double precision, whatever the solver's
 C     precision.
-      double precision x(@{n_x}), pnorm, area, stick, slip, fprev
-      double precision dtime, fric, comp, hist(@{n_hist}), add(@{n_add})
+      double precision x(@{n_x}), pnorm, area, stick, move, fprev
+      double precision against, dtime, fric, comp, hist(@{n_hist}), add(@{n_add})
       logical lkeep
 @if unknown
       double precision ftqnan
@@ -17,27 +17,28 @@ C
         pnorm = fNormal(k)
         area = @{area}
         stick = fStickForce(k)
-        slip = 0.0D0
+        move = 0.0D0
         fprev = 0.0D0
         do i = 1, nDir
           comp = dSlipFric(i,k)
-          slip = slip + comp*comp
+          move = move + comp*comp
           comp = fTangPrev(i,k)
           fprev = fprev + comp*comp
         end do
-        slip = sqrt(slip)
+        move = sqrt(move)
         fprev = sqrt(fprev)
+C       The first local axis is the direction of the motion.
+        against = -fTangPrev(1,k)
 @{reads}
         do i = 1, @{n_hist}
           hist(i) = 0.0D0
         end do
         if (@{states} .ge. 1) call ftread(@{states}, @{columns},
      &    @{state}, hist)
-        call ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
-     &    fric, add, lkeep)
+        call ftpnt(x, pnorm, area, stick, move, dtime, fprev,
+     &    against, hist, fric, add, lkeep)
         if (lkeep .and. @{states} .ge. 1) call ftkeep(@{states},
      &    @{columns}, @{state}, add)
-C       Along the slip, which is the first local axis.
         if (nFricDir .ge. 1)
      &    fTangential(1,k) = real(-fric, kind(fTangential))
       end do

@@ -1,22 +1,27 @@
 C     One contact point, in double precision. In: x as far as the entry
-C     fills it; normal force, area, stick force, slip of the increment
-C     and its time, size of the friction force before it; hist: slip,
-C     work per area and peak pressure before it. Out: fric, against the
-C     slip; add: what the state variables gain, where lkeep.
+C     fills it; normal force, area, stick force, relative motion of the
+C     increment and its time, the friction force before it: its size and
+C     what of it acts against the motion; hist: slip, work per area and
+C     peak pressure before it. Out: fric, against the motion; add: what
+C     the state variables gain, where lkeep.
+C     The force is the stick force as far as friction can hold it, with
+C     its sign: under penalty contact a stuck point that moves back has
+C     a force along its motion, and would creep without it.
 @if has_histories
 C     From hist(4) and add(5) on: further histories, see ftpast; of what
 C     is no sum add is the value itself.
 @end
-      subroutine ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
-     &  fric, add, lkeep)
+      subroutine ftpnt(x, pnorm, area, stick, move, dtime, fprev,
+     &  against, hist, fric, add, lkeep)
       implicit none
-      double precision x(@{n_x}), pnorm, area, stick, slip, dtime, fprev
-      double precision hist(@{n_hist}), fric, add(@{n_add}), press, speed, fttau
+      double precision x(@{n_x}), pnorm, area, stick, move, dtime, fprev
+      double precision against, hist(@{n_hist}), fric, add(@{n_add}), press
+      double precision speed, limit, past, trial, before, slip, fttau
       logical lkeep, ftnan
       integer i
       integer*8 bits, most
       external fttau, ftnan
-@if has_axes
+@if has_ends
       logical ftout
       external ftout
 @end
@@ -38,18 +43,18 @@ C     at once, which spares most points the calls.
       most = max(ibclr(transfer(pnorm, bits), 63),
      &  ibclr(transfer(area, bits), 63),
      &  ibclr(transfer(stick, bits), 63),
-     &  ibclr(transfer(slip, bits), 63),
+     &  ibclr(transfer(move, bits), 63),
      &  ibclr(transfer(dtime, bits), 63))
       if (most .gt. 9218868437227405312_8) then
         if (ftnan(dtime)) fric = dtime
-        if (ftnan(slip)) fric = slip
+        if (ftnan(move)) fric = move
         if (ftnan(stick)) fric = stick
         if (ftnan(area)) fric = area
         if (ftnan(pnorm)) fric = pnorm
       else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
         press = pnorm/area
         speed = 0.0D0
-        if (dtime .gt. 0.0D0) speed = slip/dtime
+        if (dtime .gt. 0.0D0) speed = move/dtime
 @{reads}
 @if has_histories
         call ftpast(hist(4), press, speed, @{temperature_now}, x)
@@ -61,16 +66,33 @@ C     at once, which spares most points the calls.
         fric = fttau(x)@{to_solver}
 @end
         if (ftnan(fric)) return
-        fric = fric*area
-        if (fric .gt. stick) fric = stick
-        if (fric .lt. 0.0D0) fric = 0.0D0
+        limit = max(fric*area, 0.0D0)
+        fric = max(-limit, min(limit, stick))
+        past = abs(stick - fric)
         lkeep = .true.
+C       A force before that is NaN is no reason to have none now: it
+C       counts as this one.
+        before = abs(fric)
+        trial = past
+        if (.not. ftnan(fprev)) then
+          before = fprev
+          trial = abs(stick - against)
+        end if
+C       The stick force grows with the motion from the force before it
+C       to what it is now; friction stops it at fric. What is left of
+C       the motion is slip, all of a point that slides on. What a
+C       falling limit releases of the elastic part is not counted.
+        slip = move
+        if (past .lt. trial) slip = move*(past/trial)
+        if (past .le. 0.0D0) slip = 0.0D0
+        if (slip .lt. move .and. dtime .gt. 0.0D0) speed = slip/dtime
         add(1) = slip
 C       The increment that has just been done: mean of the force then
 C       and the force now, times its slip.
-        if (slip .gt. 0.0D0) add(2) = 0.5D0*(fprev + fric)/area*slip
+        if (slip .gt. 0.0D0)
+     &    add(2) = 0.5D0*(before + abs(fric))/area*slip
         add(3) = press
-@if has_axes
+@if has_ends
         if (ftout(x)) add(4) = 1.0D0
 @end
 @if has_histories
@@ -82,8 +104,8 @@ C       and the force now, times its slip.
 @for sum in sums
         from(@{sum.number}) = 0.0D0
 @end
-        call ftnext(from, press, speed, @{temperature_now}, pmax, fric/area,
-     &    slip, dtime, add(5))
+        call ftnext(from, press, speed, @{temperature_now}, pmax,
+     &    abs(fric)/area, slip, dtime, add(5))
 @end
       end if
       return

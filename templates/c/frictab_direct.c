@@ -62,20 +62,7 @@ double frictab_tau_R(
       @{names});
 }
 
-unsigned frictab_outside(
-    @{parameters}) {
-  unsigned outside = 0u;
-@for name in not_axes
-  (void)@{name.text};
-@end
-@for axis in axes
-  {
-    const double x = @{axis.canonical}; /* @{axis.name} */
-    if (x < @{axis.low} || x > @{axis.high}) outside |= @{axis.bit}u;
-  }
-@end
-  return outside;
-}
+@{outside}
 
 void frictab_tau_R_batch(
     size_t n,
@@ -91,5 +78,3 @@ void frictab_tau_R_batch(
 }
 
 @{gradient}
-
-@{count}

@@ -64,8 +64,7 @@ static const ft_axis ft_axes[@{n_axes}] = {
 
 @end
 FT_INLINE double ft_tau(
-    @{parameters},
-    unsigned* outside) {
+    @{parameters}) {
 @for input in used
   const double x@{input.index} = @{input.canonical}; /* @{input.name} */
 @end
@@ -79,7 +78,6 @@ FT_INLINE double ft_tau(
 @for name in unused
   (void)@{name.text};
 @end
-  *outside = 0u;
 @for input in used
 @if input.formula_only
   if (x@{input.index} != x@{input.index}) return x@{input.index}; /* NaN in, NaN out */
@@ -89,7 +87,7 @@ FT_INLINE double ft_tau(
   u[@{axis.index}] = @{axis.coordinate};
 @end
 @if has_axes
-  value = @{interpolate}(ft_axes, ft_table, u, outside);
+  value = @{interpolate}(ft_axes, ft_table, u, (unsigned*)0);
   if (value != value) return value; /* NaN in one of the axes */
 @else
   value = ft_value[0];
@@ -114,23 +112,14 @@ FT_INLINE double ft_tau(
 
 double frictab_tau_R(
     @{parameters}) {
-  unsigned outside;
 @if in_file
   if (!ft_ready()) return (double)NAN;
 @end
   return ft_tau(
-      @{names},
-      &outside);
+      @{names});
 }
 
-unsigned frictab_outside(
-    @{parameters}) {
-  unsigned outside;
-  (void)ft_tau(
-      @{names},
-      &outside);
-  return outside;
-}
+@{outside}
 
 void frictab_tau_R_batch(
     size_t n,
@@ -147,14 +136,9 @@ void frictab_tau_R_batch(
     return;
   }
 @end
-  for (i = 0; i < n; ++i) {
-    unsigned outside;
+  for (i = 0; i < n; ++i)
     tau[i] = ft_tau(
-        @{items},
-        &outside);
-  }
+        @{items});
 }
 
 @{gradient}
-
-@{count}

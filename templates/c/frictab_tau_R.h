@@ -56,9 +56,9 @@ void frictab_tau_R_gradient_batch(
     double* tau,
     double* derivative);
 
-/* Adds how many of n states lie outside, to counts of your own (two per axis, by the bits above:
- * first those below its range, then those above). Nothing is counted inside the library, so that
- * threads stay free: each has its own counts, added up at the end.
+/* Adds how many of n states lie outside, to counts of your own (two per bit above: first those
+ * below the range, then those above). Nothing is counted inside the library, so that threads stay
+ * free: each has its own counts, added up at the end.
  */
 void frictab_count_outside(
     size_t n,

@@ -1,11 +1,11 @@
 @if coulomb
 C     mu = tau_R/p of the state x at the pressure press (MPa). Below
 C     @{least} MPa it is that of @{least} MPa: at 0 it would be 0/0.
-C     Above 1E30 it is that of 1E30.
+C     Above 1E30 it is that of 1E30. At most @{most}.
 @else
 @if shear
 C     m = tau_R/k of the state x, k = flow/sqrt(3) (MPa). 0 without
-C     pressure or without flow stress.
+C     pressure or without flow stress. At most @{most}.
 @else
 C     tau_R in MPa of the state x; 0 without pressure.
 @end
@@ -49,6 +49,9 @@ C     tau_R in MPa of the state x; 0 without pressure.
 @else
       if (press .gt. 0.0D0) ftcoef = fttau(x)
 @end
+@end
+@if capped
+      if (.not. ftnan(ftcoef)) ftcoef = min(ftcoef, @{most})
 @end
       return
       end

@@ -87,8 +87,9 @@ C
 @if has_piece
 @{piece}
 @end
-@if has_axes
-C     True where x lies outside the range of an axis.
+@if has_ends
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       @{pure}logical function ftout(x)
       implicit none
       double precision@{in} x(@{n_x})

@@ -139,7 +139,7 @@ contains
     real(c_double), value :: &
         @{names}
     integer(c_int) :: ft_bits
-@for name in not_axes
+@for name in without_range
     associate (ft_unused => @{name.text}); end associate
 @end
     ft_bits = 0

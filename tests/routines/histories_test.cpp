@@ -158,7 +158,7 @@ TYPED_TEST(SlowHistories, WithoutStateVariablesAreThoseOfTheIncrementAlone) {
   }
 }
 
-TYPED_TEST(SlowHistories, TurnNaNWithTheForceBeforeThemAndSoDoesTheLaw) {
+TYPED_TEST(SlowHistories, AreNotSpoiltByAForceBeforeThatIsNaN) {
   static const Table table = history_table();
   void* routine = this->routine("path", table, "mm-t-s");
   auto c = this->call();
@@ -167,10 +167,10 @@ TYPED_TEST(SlowHistories, TurnNaNWithTheForceBeforeThemAndSoDoesTheLaw) {
   c.previous[0] = std::numeric_limits<typename TypeParam::Real>::quiet_NaN();
   this->run(c, routine);
   EXPECT_LT(c.tangential[0], 0) << "this force does not depend on the one before";
-  EXPECT_TRUE(std::isnan(c.state[1]));
+  EXPECT_NEAR(double(c.state[1]), -double(c.tangential[0]) / 4 * 2, 1e-3);
   this->run(c, routine);
-  EXPECT_TRUE(std::isnan(c.tangential[0]));
-  EXPECT_EQ(c.state[0], 2) << "and nothing is added to what is spoilt";
+  EXPECT_LT(c.tangential[0], 0);
+  EXPECT_EQ(c.state[0], 4);
 }
 
 TYPED_TEST(SlowHistories, ThatAreNaNGiveNaNWhereTheLawAsksForThem) {

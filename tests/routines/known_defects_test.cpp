@@ -93,12 +93,16 @@ TEST_F(KnownDefects, TheFirstIncrementHasFriction) {
   EXPECT_DOUBLE_EQ(c.tangential[0], -80);
 }
 
-// A bare min(mu N, stick force) pushes where the penalty's stick force comes in negative.
-TEST_F(KnownDefects, ANegativeStickForceDoesNotPush) {
+// A bare min(mu N, stick force) pushes with any force where the penalty's stick force comes in
+// negative; max(stick force, 0) lets a stuck node creep (stuck_node_test.cpp).
+TEST_F(KnownDefects, ANegativeStickForceHoldsAsFarAsFrictionDoes) {
   auto c = pressed<VfrictionCall<double>>(1);
+  c.stick = {-1e6};
+  c.run(routine<double>("abaqus_vfriction", "constant", constant));
+  EXPECT_DOUBLE_EQ(c.tangential[0], 80);
   c.stick = {-50};
   c.run(routine<double>("abaqus_vfriction", "constant", constant));
-  EXPECT_EQ(c.tangential[0], 0);
+  EXPECT_EQ(c.tangential[0], 50);
 }
 
 // dSlipFric(3,k) and fTangential(2,k) lie beyond the arrays of plane and axisymmetric models; the

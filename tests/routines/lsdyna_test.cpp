@@ -342,12 +342,14 @@ TYPED_TEST(SlowLsDyna, AddsWorkKeepsThePeakAndCountsCyclesOutside) {
   auto c = this->call(1);
   c.area[0] = 4;
   c.before[2] = 80, c.before[3] = 0;
-  c.stiffness[0] = 1, c.slip[0][0] = 0;
+  c.stiffness[0] = TypeParam(1e9), c.slip[0][0] = 0;
   this->set(c, 0, 1000, 50);
   this->run(c, this->four_axes());
-  const double hold = std::hypot(80, double(c.slip[1][0]));
-  const double work = 0.5 * (80 + hold) / 4 * double(c.slip[1][0]);
-  EXPECT_CLOSE(double(c.history[1]), work) << "held by 80 N before and now";
+  const double hold = std::hypot(80, 1e9 * double(c.slip[1][0])), fric = this->tau() * 4;
+  ASSERT_GT(hold, 10 * fric) << "it slides";
+  const double slip = (hold - fric) / 1e9, work = 0.5 * (80 + fric) / 4 * slip;
+  EXPECT_CLOSE(double(c.history[0]), slip) << "what is not elastic of the motion";
+  EXPECT_CLOSE(double(c.history[1]), work);
   this->set(c, 0, 700, 50);
   this->run(c, this->four_axes());
   EXPECT_EQ(c.history[2], 1000);
@@ -356,6 +358,18 @@ TYPED_TEST(SlowLsDyna, AddsWorkKeepsThePeakAndCountsCyclesOutside) {
   for (int cycle = 0; cycle < 2; ++cycle)
     this->run(c, this->four_axes());
   EXPECT_EQ(c.history[3], 2);
+}
+
+TYPED_TEST(SlowLsDyna, KeepsNoSlipAndNoWorkOfANodeThatIsHeld) {
+  auto c = this->call(1);
+  c.area[0] = 4;
+  c.before[2] = 80, c.before[3] = 0;
+  c.stiffness[0] = 1, c.slip[0][0] = 0;
+  this->set(c, 0, 1000, 50);
+  this->run(c, this->four_axes());
+  EXPECT_NEAR(std::hypot(double(c.force[0][0]), double(c.force[1][0])), 80, 1e-4);
+  EXPECT_EQ(c.history[0], 0);
+  EXPECT_EQ(c.history[1], 0);
 }
 
 TYPED_TEST(SlowLsDyna, TakesWorkAndPeakPressureInTheSolversUnits) {

@@ -32,7 +32,7 @@ using Bits = unsigned(double, double, double, double, double, double);
 using Array = const double*;
 using Count = void(std::size_t, Array, Array, Array, Array, Array, Array, unsigned long*);
 
-// One axis, temperature 20 .. 200 degC, that holds T^2 while the law says 3 T.
+// One axis, temperature 20 .. 200 degC, that holds T^2/100 while the law says 0.03 T.
 Table temperature_table(Outside below, Outside above) {
   Table table;
   table.model = "temperature";
@@ -44,15 +44,15 @@ Table temperature_table(Outside below, Outside above) {
   axis.below = below;
   axis.above = above;
   table.axes = {axis};
-  table.value = {400, 40000};
-  table.extension = 3.0 * Expr::symbol("T_contact_C");
+  table.value = {4, 400};
+  table.extension = 0.03 * Expr::symbol("T_contact_C");
   table.combine = Expr::symbol("value") + Expr::symbol("sigma_n_MPa");
   return table;
 }
 
 double beyond(Outside outside, double at_end, double x) {
   if (outside == Outside::error) return std::nan("");
-  return outside == Outside::law ? 3 * x : at_end;
+  return outside == Outside::law ? 0.03 * x : at_end;
 }
 
 // tau_R by every target in double precision, at these pressures and temperatures.
@@ -83,9 +83,9 @@ TEST(SlowOutsideTheRange, EveryPolicyOnEachSideIsTheSameInCppCAndFortran) {
       SCOPED_TRACE(std::string(outside_name(below)) + ", " + outside_name(above));
       std::vector<double> wanted;
       for (std::size_t i = 0; i < T.size(); ++i)
-        wanted.push_back(p[i] + (T[i] < 20    ? beyond(below, 400, T[i])
-                                 : T[i] > 200 ? beyond(above, 40000, T[i])
-                                              : 400 + 39600 * (T[i] - 20) / 180));
+        wanted.push_back(p[i] + (T[i] < 20    ? beyond(below, 4, T[i])
+                                 : T[i] > 200 ? beyond(above, 400, T[i])
+                                              : 4 + 396 * (T[i] - 20) / 180));
       expect_everywhere(temperature_table(below, above), p, T, wanted);
     }
 }
@@ -100,9 +100,9 @@ TEST(SlowOutsideTheRange, TheDirectFormKeepsThePoliciesOfItsTable) {
       direct.value.clear();
       std::vector<double> wanted;
       for (std::size_t i = 0; i < T.size(); ++i)
-        wanted.push_back(p[i] + (T[i] < 20    ? beyond(below, 60, T[i])
-                                 : T[i] > 200 ? beyond(above, 600, T[i])
-                                              : 3 * T[i]));
+        wanted.push_back(p[i] + (T[i] < 20    ? beyond(below, 0.6, T[i])
+                                 : T[i] > 200 ? beyond(above, 6, T[i])
+                                              : 0.03 * T[i]));
       expect_everywhere(direct, p, T, wanted);
     }
 }

@@ -134,9 +134,8 @@ TYPED_TEST(SlowVfricCoef, OfALawWithoutPressureStaysFiniteAndItsForceGoesToZero)
   this->run(c, this->routine("one_axis", table));
   const double state[] = {psi};
   const double tau = function(state);
-  EXPECT_CLOSE(c.coefficient[0], tau / 1e-3);
-  EXPECT_CLOSE(c.coefficient[1] * c.pressure[1], tau * 1e-3);
-  EXPECT_CLOSE(c.coefficient[2] * c.pressure[2], tau);
+  for (const std::size_t k : {0, 1, 2})
+    EXPECT_EQ(c.coefficient[k], 10) << "the most that a solver gets";
   EXPECT_CLOSE(c.coefficient[3] * c.pressure[3], tau);
 }
 

@@ -179,13 +179,23 @@ TYPED_TEST(Vfric, TakesTheFirstIncrementWithoutDividingByItsZeroTime) {
   EXPECT_CLOSE(this->force(c), -this->tau(1000, 0, 100));
 }
 
-TYPED_TEST(Vfric, NeverExceedsTheStickForceNorTurnsItRound) {
+TYPED_TEST(Vfric, GivesTheStickForceWithItsSignAsFarAsFrictionHoldsIt) {
   auto c = this->call(4);
   c.stick = {TypeParam(10), TypeParam(0), TypeParam(-5), TypeParam(-1e30)};
   this->run(c, this->four_axes());
   EXPECT_EQ(this->force(c, 0), -10);
-  for (std::size_t k = 1; k < 4; ++k)
-    EXPECT_EQ(this->force(c, k), 0);
+  EXPECT_EQ(this->force(c, 1), 0);
+  EXPECT_EQ(this->force(c, 2), 5);
+  EXPECT_CLOSE(this->force(c, 3), this->tau(1000, 50, 100));
+}
+
+TYPED_TEST(Vfric, TakesAForceBeforeThatIsNaNAsTheOneNow) {
+  auto c = this->call(1);
+  c.previous[0] = std::numeric_limits<TypeParam>::quiet_NaN();
+  this->run(c, this->four_axes());
+  EXPECT_CLOSE(this->force(c), -this->tau(1000, 50, 100));
+  EXPECT_EQ(c.state[0], c.slip[0]);
+  EXPECT_CLOSE(double(c.state[1]), this->tau(1000, 50, 100) * double(c.slip[0]));
 }
 
 TYPED_TEST(Vfric, GivesNoForceWithoutAreaOrNormalForceAndKeepsTheState) {
@@ -219,6 +229,8 @@ TYPED_TEST(Vfric, GivesNaNForNaNInAnyArgumentItUses) {
     this->run(c, this->four_axes());
     EXPECT_TRUE(std::isnan(this->force(c, 1))) << name;
     EXPECT_EQ(c.tangential[3], 0) << name;
+    for (std::size_t i = 3; i < 6; ++i)
+      EXPECT_EQ(c.state[i], 0) << name;
     if (std::string(name) != "dTimCur" && std::string(name) != "props") {
       EXPECT_CLOSE(this->force(c, 2), -this->tau(1000, 50, 100));
     }

@@ -13,6 +13,7 @@
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/direct.h"
+#include "table/outside.h"
 #include "table/table_file.h"
 #include "verify/beyond.h"
 #include "verify/verify.h"
@@ -70,7 +71,7 @@ TEST(SlowOutsideTheRange, IsWhatTheJobAsksForAndOnlyThenHoldsTheLawsFormula) {
   EXPECT_EQ(table.axes[3].above, Outside::clamp);
   ASSERT_TRUE(table.extension);
   EXPECT_EQ(table.constants.count("c3"), 1U);
-  EXPECT_FALSE(built(log_coulomb(), {{"psi", {"error"}}}).extension);
+  EXPECT_FALSE(built(log_coulomb(), {{"psi", {"error"}}, {"sigma_n_MPa", {"clamp"}}}).extension);
 }
 
 TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {
@@ -148,6 +149,75 @@ TEST(RowsBeyond, AreCountedByAxisAndSideWithTheLargestExcess) {
                                       "v_rel_mm_s below 5: 1 row, up to 4 beyond, clamp",
                                       "v_rel_mm_s above 500: 1 row, up to 1 beyond, error",
                                       "T_contact_C above 200: 1 row, up to 50 beyond, law"}));
+}
+
+// What a traced effect brings in is no axis: beyond what was tested the formula holds it.
+Table with_held_humidity() {
+  using expr::Expr;
+  Table table = test::sides_table();
+  table.combine = table.combine *
+                  (1.0 + 0.01 * minimum(maximum(Expr::symbol("humidity_pct"), 30.0), 60.0)) *
+                  (1.0 + 0.1 * Expr::symbol("tool"));
+  table.record.inputs["tool"] = {.low = 0, .high = 2, .levels = "0 = A, 1 = B, 2 = C"};
+  return table;
+}
+
+TEST(HeldInputs, AreThoseThatTheFormulaHoldsAndNumbersOfLevels) {
+  const Table table = with_held_humidity();
+  std::vector<std::string> texts;
+  for (const table::AxisEnds& end : table::held_input_ends(table))
+    texts.push_back(fmt::format("{} {} {}", end.name, end.low, end.high));
+  EXPECT_EQ(texts, (std::vector<std::string>{"humidity_pct 30 60", "tool 0 2"}));
+  EXPECT_TRUE(table::held_input_ends(test::sides_table()).empty());
+}
+
+TEST(HeldInputs, HaveBitsBehindThoseOfTheAxesWhoeverAnswers) {
+  Table table = with_held_humidity();
+  const std::vector<std::string> names = table.inputs();
+  const auto bits = [&](double humidity, double tool, double speed) {
+    std::vector<double> state, slope(names.size());
+    for (const std::string& name : names)
+      state.push_back(name == "humidity_pct"  ? humidity
+                      : name == "tool"        ? tool
+                      : name == "v_rel_mm_s"  ? speed
+                      : name == "T_contact_C" ? 100
+                                              : 600);
+    const table::TableFunction tau(table);
+    unsigned one = 99, two = 99, many = 99;
+    tau(state, &one);
+    tau.gradient(state, slope, &two);
+    std::vector<const double*> columns;
+    for (const double& x : state)
+      columns.push_back(&x);
+    double out = 0;
+    tau.evaluate(1, columns, {&out, 1}, {&many, 1});
+    EXPECT_EQ(one, two);
+    EXPECT_EQ(one, many);
+    return one;
+  };
+  EXPECT_EQ(bits(45, 1, 50), 0U);
+  EXPECT_EQ(bits(29, 1, 50), 8U); // three axes before it
+  EXPECT_EQ(bits(61, 3, 50), 24U);
+  EXPECT_EQ(bits(61, 1, 1), 10U);
+}
+
+TEST(RowsBeyond, CountHeldInputsAndCompareThemAsTheLawHoldsThemToo) {
+  const Table table = with_held_humidity();
+  table::States rows;
+  for (const std::string& name : table.inputs()) {
+    if (name == "humidity_pct")
+      rows.push_back({20, 45, 70});
+    else
+      rows.push_back(std::vector<double>(3, name == "tool"          ? 1
+                                            : name == "T_contact_C" ? 100
+                                                                    : 500));
+  }
+  const verify::RowsBeyond beyond = verify::rows_beyond(table, rows);
+  EXPECT_EQ(beyond.outside, 2U);
+  EXPECT_EQ(beyond.kinds, std::vector<RowKind>(3, RowKind::compared));
+  ASSERT_EQ(beyond.ends.size(), 2U);
+  EXPECT_EQ(verify::beyond_text(beyond.ends[0]),
+            "humidity_pct below 30: 1 row, up to 10 beyond, held");
 }
 
 // Rows of a campaign over a table that covers less than them.

@@ -470,7 +470,8 @@ C     val and its derivatives by x
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

@@ -29,7 +29,7 @@ C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
 C     Coefficient: of the current state, with its derivatives.
 C     Below 1 MPa, and without pressure, the coefficient is that
-C     at 1 MPa.
+C     at 1 MPa. At most 10.0D0.
 C     NaN in gives NaN in fCoef, with derivatives 0.
 C
 C     PROPS (PROPERTIES=2; a property the deck does not give
@@ -157,6 +157,13 @@ C         T_contact_C: tempAvg; property 1 where nTemp = 0
           dmup = dmup + dpeak - amu
           if (p .lt. peval) dmup = dpeak
           dmup = dmup/peval
+          if (amu .gt. 10.0D0) then
+            amu = 10.0D0
+            dmuv = zero
+            dmup = zero
+            dmut = zero
+            dmus = zero
+          end if
           if (keeps) then
             do i = 1, 5
               s1(i) = s0(i)
@@ -334,7 +341,8 @@ C     val and its derivatives by x
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

@@ -26,7 +26,7 @@ C     1 contact temperature, degC (110), reference where nTemp = 0
 C     2 flow stress of the workpiece, MPa (480)
 C
 C     Below 0.001 MPa (and out of contact) fCoef is tau_R/pressure at
-C       0.001 MPa: the limit, not 0/0.
+C       0.001 MPa: the limit, not 0/0. At most 10.
 C     fCoefDeriv is set to 0: the explicit solver builds no tangent.
 C     No state variables: sliding distance, work, peak pressure and
 C       every other history are properties or fields, and states outside
@@ -119,7 +119,7 @@ C     v_rel_mm_s: slipRate
       ftcoef = tau
       if (ftnan(tau)) return
       if (tau .lt. 0.0D0) tau = 0.0D0
-      ftcoef = tau/press
+      ftcoef = min(tau/press, 10.0D0)
       return
       end
 C
@@ -166,7 +166,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

@@ -103,8 +103,8 @@ C     rData: step time, total time, time increment, friction work.
 C
 C     All that is computed is double precision, whatever the solver's
 C     precision.
-      double precision x(4), pnorm, area, stick, slip, fprev
-      double precision dtime, fric, comp, hist(3), add(4)
+      double precision x(4), pnorm, area, stick, move, fprev
+      double precision against, dtime, fric, comp, hist(3), add(4)
       logical lkeep
 C
 C     sigma_f_MPa: property 2
@@ -121,16 +121,18 @@ C     sigma_f_MPa: property 2
         pnorm = fNormal(k)
         area = areaCont(k)
         stick = fStickForce(k)
-        slip = 0.0D0
+        move = 0.0D0
         fprev = 0.0D0
         do i = 1, nDir
           comp = dSlipFric(i,k)
-          slip = slip + comp*comp
+          move = move + comp*comp
           comp = fTangPrev(i,k)
           fprev = fprev + comp*comp
         end do
-        slip = sqrt(slip)
+        move = sqrt(move)
         fprev = sqrt(fprev)
+C       The first local axis is the direction of the motion.
+        against = -fTangPrev(1,k)
 C       T_contact_C: mean of both surfaces; property 1 where nTemp = 0
         if (nTemp .gt. 0) then
           x(3) = tempSlv(k)
@@ -149,11 +151,10 @@ C       T_contact_C: mean of both surfaces; property 1 where nTemp = 0
         end do
         if (nStates .ge. 1) call ftread(nStates, nNodState,
      &    state(1,1,k), hist)
-        call ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
-     &    fric, add, lkeep)
+        call ftpnt(x, pnorm, area, stick, move, dtime, fprev,
+     &    against, hist, fric, add, lkeep)
         if (lkeep .and. nStates .ge. 1) call ftkeep(nStates,
      &    nNodState, state(1,1,k), add)
-C       Along the slip, which is the first local axis.
         if (nFricDir .ge. 1)
      &    fTangential(1,k) = real(-fric, kind(fTangential))
       end do
@@ -161,15 +162,20 @@ C       Along the slip, which is the first local axis.
       end
 C
 C     One contact point, in double precision. In: x as far as the entry
-C     fills it; normal force, area, stick force, slip of the increment
-C     and its time, size of the friction force before it; hist: slip,
-C     work per area and peak pressure before it. Out: fric, against the
-C     slip; add: what the state variables gain, where lkeep.
-      subroutine ftpnt(x, pnorm, area, stick, slip, dtime, fprev, hist,
-     &  fric, add, lkeep)
+C     fills it; normal force, area, stick force, relative motion of the
+C     increment and its time, the friction force before it: its size and
+C     what of it acts against the motion; hist: slip, work per area and
+C     peak pressure before it. Out: fric, against the motion; add: what
+C     the state variables gain, where lkeep.
+C     The force is the stick force as far as friction can hold it, with
+C     its sign: under penalty contact a stuck point that moves back has
+C     a force along its motion, and would creep without it.
+      subroutine ftpnt(x, pnorm, area, stick, move, dtime, fprev,
+     &  against, hist, fric, add, lkeep)
       implicit none
-      double precision x(4), pnorm, area, stick, slip, dtime, fprev
-      double precision hist(3), fric, add(4), press, speed, fttau
+      double precision x(4), pnorm, area, stick, move, dtime, fprev
+      double precision against, hist(3), fric, add(4), press
+      double precision speed, limit, past, trial, before, slip, fttau
       logical lkeep, ftnan
       integer i
       integer*8 bits, most
@@ -186,32 +192,49 @@ C     at once, which spares most points the calls.
       most = max(ibclr(transfer(pnorm, bits), 63),
      &  ibclr(transfer(area, bits), 63),
      &  ibclr(transfer(stick, bits), 63),
-     &  ibclr(transfer(slip, bits), 63),
+     &  ibclr(transfer(move, bits), 63),
      &  ibclr(transfer(dtime, bits), 63))
       if (most .gt. 9218868437227405312_8) then
         if (ftnan(dtime)) fric = dtime
-        if (ftnan(slip)) fric = slip
+        if (ftnan(move)) fric = move
         if (ftnan(stick)) fric = stick
         if (ftnan(area)) fric = area
         if (ftnan(pnorm)) fric = pnorm
       else if (pnorm .gt. 0.0D0 .and. area .gt. 0.0D0) then
         press = pnorm/area
         speed = 0.0D0
-        if (dtime .gt. 0.0D0) speed = slip/dtime
+        if (dtime .gt. 0.0D0) speed = move/dtime
 C       sigma_n_MPa: fNormal/areaCont of the contact point
         x(1) = press
 C       v_rel_mm_s: |dSlipFric|/rData(3) (0 where rData(3) = 0)
         x(2) = speed
         fric = fttau(x)
         if (ftnan(fric)) return
-        fric = fric*area
-        if (fric .gt. stick) fric = stick
-        if (fric .lt. 0.0D0) fric = 0.0D0
+        limit = max(fric*area, 0.0D0)
+        fric = max(-limit, min(limit, stick))
+        past = abs(stick - fric)
         lkeep = .true.
+C       A force before that is NaN is no reason to have none now: it
+C       counts as this one.
+        before = abs(fric)
+        trial = past
+        if (.not. ftnan(fprev)) then
+          before = fprev
+          trial = abs(stick - against)
+        end if
+C       The stick force grows with the motion from the force before it
+C       to what it is now; friction stops it at fric. What is left of
+C       the motion is slip, all of a point that slides on. What a
+C       falling limit releases of the elastic part is not counted.
+        slip = move
+        if (past .lt. trial) slip = move*(past/trial)
+        if (past .le. 0.0D0) slip = 0.0D0
+        if (slip .lt. move .and. dtime .gt. 0.0D0) speed = slip/dtime
         add(1) = slip
 C       The increment that has just been done: mean of the force then
 C       and the force now, times its slip.
-        if (slip .gt. 0.0D0) add(2) = 0.5D0*(fprev + fric)/area*slip
+        if (slip .gt. 0.0D0)
+     &    add(2) = 0.5D0*(before + abs(fric))/area*slip
         add(3) = press
         if (ftout(x)) add(4) = 1.0D0
       end if
@@ -323,7 +346,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

@@ -391,8 +391,7 @@ static const ft_values ft_table = {ft_value, 0};
 
 FT_INLINE double ft_tau(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
-    double sigma_f_MPa,
-    unsigned* outside) {
+    double sigma_f_MPa) {
   const double x1 = sigma_n_MPa; /* sigma_n_MPa */
   const double x3 = v_rel_mm_s; /* v_rel_mm_s */
   const double x4 = T_contact_C; /* T_contact_C */
@@ -402,12 +401,11 @@ FT_INLINE double ft_tau(
   double value;
   (void)psi;
   (void)s_mm;
-  *outside = 0u;
   if (x6 != x6) return x6; /* NaN in, NaN out */
   u[0] = x1;
   u[1] = x3;
   u[2] = x4;
-  value = ft_linear_3(ft_axes, ft_table, u, outside);
+  value = ft_linear_3(ft_axes, ft_table, u, (unsigned*)0);
   if (value != value) return value; /* NaN in one of the axes */
   /* the formula of the header, in MPa */
   {
@@ -423,20 +421,58 @@ FT_INLINE double ft_tau(
 double frictab_tau_R(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa) {
-  unsigned outside;
   return ft_tau(
-      sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa,
-      &outside);
+      sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa);
 }
 
 unsigned frictab_outside(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa) {
-  unsigned outside;
-  (void)ft_tau(
-      sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa,
-      &outside);
+  unsigned outside = 0u;
+  (void)psi;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  {
+    const double x = sigma_n_MPa; /* sigma_n_MPa */
+    if (x < 500.0 || x > 2750.0) outside |= 1u;
+  }
+  {
+    const double x = v_rel_mm_s; /* v_rel_mm_s */
+    if (x < 5.0 || x > 500.0) outside |= 2u;
+  }
+  {
+    const double x = T_contact_C; /* T_contact_C */
+    if (x < 20.0 || x > 200.0) outside |= 4u;
+  }
   return outside;
+}
+
+void frictab_count_outside(
+    size_t n,
+    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
+    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
+    unsigned long* counts) {
+  size_t i;
+  (void)psi;
+  (void)s_mm;
+  (void)sigma_f_MPa;
+  for (i = 0; i < n; ++i) {
+    {
+      const double x = sigma_n_MPa[i]; /* sigma_n_MPa */
+      counts[0] += x < 500.0 ? 1ul : 0ul;
+      counts[1] += x > 2750.0 ? 1ul : 0ul;
+    }
+    {
+      const double x = v_rel_mm_s[i]; /* v_rel_mm_s */
+      counts[2] += x < 5.0 ? 1ul : 0ul;
+      counts[3] += x > 500.0 ? 1ul : 0ul;
+    }
+    {
+      const double x = T_contact_C[i]; /* T_contact_C */
+      counts[4] += x < 20.0 ? 1ul : 0ul;
+      counts[5] += x > 200.0 ? 1ul : 0ul;
+    }
+  }
 }
 
 void frictab_tau_R_batch(
@@ -447,12 +483,9 @@ void frictab_tau_R_batch(
   size_t i;
   (void)psi;
   (void)s_mm;
-  for (i = 0; i < n; ++i) {
-    unsigned outside;
+  for (i = 0; i < n; ++i)
     tau[i] = ft_tau(
-        sigma_n_MPa[i], 0.0, v_rel_mm_s[i], T_contact_C[i], 0.0, sigma_f_MPa[i],
-        &outside);
-  }
+        sigma_n_MPa[i], 0.0, v_rel_mm_s[i], T_contact_C[i], 0.0, sigma_f_MPa[i]);
 }
 
 static double ft_no_gradient(double tau, double* derivative) {
@@ -526,32 +559,4 @@ void frictab_tau_R_gradient_batch(
     tau[i] = frictab_tau_R_gradient(
         sigma_n_MPa[i], 0.0, v_rel_mm_s[i], T_contact_C[i], 0.0, sigma_f_MPa[i],
         derivative + 6 * i);
-}
-
-void frictab_count_outside(
-    size_t n,
-    const double* sigma_n_MPa, const double* psi, const double* v_rel_mm_s,
-    const double* T_contact_C, const double* s_mm, const double* sigma_f_MPa,
-    unsigned long* counts) {
-  size_t i;
-  (void)psi;
-  (void)s_mm;
-  (void)sigma_f_MPa;
-  for (i = 0; i < n; ++i) {
-    {
-      const double x = sigma_n_MPa[i]; /* sigma_n_MPa */
-      counts[0] += x < 500.0 ? 1ul : 0ul;
-      counts[1] += x > 2750.0 ? 1ul : 0ul;
-    }
-    {
-      const double x = v_rel_mm_s[i]; /* v_rel_mm_s */
-      counts[2] += x < 5.0 ? 1ul : 0ul;
-      counts[3] += x > 500.0 ? 1ul : 0ul;
-    }
-    {
-      const double x = T_contact_C[i]; /* T_contact_C */
-      counts[4] += x < 20.0 ? 1ul : 0ul;
-      counts[5] += x > 200.0 ? 1ul : 0ul;
-    }
-  }
 }

@@ -23,7 +23,8 @@ C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out.
 C
-C     UM: mu = tau_R/p. Below 0.001 MPa it is mu of that pressure.
+C     UM: mu = tau_R/p. Below 0.001 MPa it is mu of that pressure,
+C     and at most 10.
 C     What CalculiX does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Threads may call it at once.
 C     the list is our own: CalculiX has no user routine for friction.
@@ -109,7 +110,7 @@ C     number of the state (0: the solver gives it).
 C
 C     mu = tau_R/p of the state x at the pressure press (MPa). Below
 C     0.001D0 MPa it is that of 0.001D0 MPa: at 0 it would be 0/0.
-C     Above 1E30 it is that of 1E30.
+C     Above 1E30 it is that of 1E30. At most 10.0D0.
       double precision function ftcoef(x, press, flow)
       implicit none
       double precision x(4), press, flow
@@ -130,6 +131,7 @@ C     Above 1E30 it is that of 1E30.
       end do
       y(1) = p
       ftcoef = fttau(y)/p
+      if (.not. ftnan(ftcoef)) ftcoef = min(ftcoef, 10.0D0)
       return
       end
 C
@@ -176,7 +178,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

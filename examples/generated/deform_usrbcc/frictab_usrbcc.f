@@ -22,6 +22,7 @@ C     NaN in gives NaN out.
 C
 C     VARIABLE: mu = tau_R/p, for Coulomb friction (FRCFAC type 2).
 C       Below 0.001 MPa it is mu of that pressure: at 0 it would be 0/0.
+C       At most 10.
 C     It acts for friction only (IMODE=1 deformation, ITYPE=2), for
 C     every MODEL; otherwise VARIABLE stays as it is.
 C     SLDVEL and PRESS are computed for ELASTIC (meshed) dies only:
@@ -89,7 +90,7 @@ C     number of the state (0: the solver gives it).
 C
 C     mu = tau_R/p of the state x at the pressure press (MPa). Below
 C     0.001D0 MPa it is that of 0.001D0 MPa: at 0 it would be 0/0.
-C     Above 1E30 it is that of 1E30.
+C     Above 1E30 it is that of 1E30. At most 10.0D0.
       double precision function ftcoef(x, press, flow)
       implicit none
       double precision x(4), press, flow
@@ -110,6 +111,7 @@ C     Above 1E30 it is that of 1E30.
       end do
       y(1) = p
       ftcoef = fttau(y)/p
+      if (.not. ftnan(ftcoef)) ftcoef = min(ftcoef, 10.0D0)
       return
       end
 C
@@ -156,7 +158,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

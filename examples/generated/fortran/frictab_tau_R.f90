@@ -290,7 +290,8 @@ contains
     dtau(4) = t11
   end subroutine ftgrad
 
-  ! True where x lies outside the range of an axis.
+  ! True where x lies outside the range of an axis, or an input that
+  ! is held outside what was tested.
   pure logical function ftout(x)
     double precision, intent(in) :: x(4)
     ftout = .false.

@@ -74,6 +74,7 @@ C     itopaz(1) = 999: temperatures are computed.
 C
       double precision x(4), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
+      double precision over
       double precision scale, ssum, wsum, pmax
       double precision fttau, ftqnan
       logical ftnan
@@ -180,6 +181,14 @@ C         T_contact_C: mean of the node and the segment where it
             if (.not. ftnan(fric)) then
               if (fric .gt. hold) fric = hold
               if (fric .lt. 0.0D0) fric = 0.0D0
+C             What the force that would hold the node exceeds friction
+C             by is slip; the rest of the motion was elastic.
+              over = hold - fric
+              if (over .lt. stiff*slip) slip = over/stiff
+              if (over .le. 0.0D0) slip = 0.0D0
+              speed = slip*rate
+              ssum = slip
+              if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
 C             Work: mean of the force before and the force now.
               wsum = wsum + 0.5D0*(fprev + fric)/area*slip
               if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
@@ -275,7 +284,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

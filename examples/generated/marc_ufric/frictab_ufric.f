@@ -21,7 +21,10 @@ C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out.
 C
 C     FRIC: mu = tau_R/p, for Coulomb friction. Below 0.001 MPa it is
-C       mu of that pressure: at 0 it would be 0/0.
+C       mu of that pressure: at 0 it would be 0/0. At most 10.
+C     FOR 2-D MODELS: in 3-D it would take one component of the
+C       sliding velocity for all of it ([export.options] marc_dimension
+C       = "3d").
 C     FN: the normal stress (MPa), as stress-based friction models
 C       pass it. Not to be used with nodal ones, which pass a force.
 C     There is no history: Marc gives this routine no state variables.
@@ -82,7 +85,7 @@ C     number of the state (0: the solver gives it).
 C
 C     mu = tau_R/p of the state x at the pressure press (MPa). Below
 C     0.001D0 MPa it is that of 0.001D0 MPa: at 0 it would be 0/0.
-C     Above 1E30 it is that of 1E30.
+C     Above 1E30 it is that of 1E30. At most 10.0D0.
       double precision function ftcoef(x, press, flow)
       implicit none
       double precision x(4), press, flow
@@ -103,6 +106,7 @@ C     Above 1E30 it is that of 1E30.
       end do
       y(1) = p
       ftcoef = fttau(y)/p
+      if (.not. ftnan(ftcoef)) ftcoef = min(ftcoef, 10.0D0)
       return
       end
 C
@@ -149,7 +153,8 @@ C     m
       return
       end
 C
-C     True where x lies outside the range of an axis.
+C     True where x lies outside the range of an axis, or an input that
+C     is held outside what was tested.
       logical function ftout(x)
       implicit none
       double precision x(4)

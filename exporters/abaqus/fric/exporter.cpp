@@ -86,7 +86,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .most_points = 136, .pressure = abaqus::any_pressure};
+  return {.gives = gives(request), .most_points = 136};
 }
 
 const char* const source_of_signature =

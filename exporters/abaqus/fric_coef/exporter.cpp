@@ -82,8 +82,7 @@ Driver driver(const ExportRequest& request, const std::vector<SolverInput>& inpu
                     uses(inputs, Source::history);
   return {.gives = gives(request),
           .result = fortran::Coefficient::coulomb,
-          .most_points = kept ? std::size_t{1} : std::size_t{136},
-          .pressure = abaqus::any_pressure};
+          .most_points = kept ? std::size_t{1} : std::size_t{136}};
 }
 
 const char* const source_of_signature =

@@ -2,6 +2,7 @@
 #include "source.h"
 
 #include "abaqus/standard.h"
+#include "codegen/coefficient.h"
 #include "codegen/histories.h"
 #include "core/error.h"
 
@@ -101,6 +102,7 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
+  values.text["most"] = fortran::most_text();
   values.text["n_props"] = std::to_string(property_count(inputs));
   abaqus::add_states(values, state_count(inputs));
   return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);

@@ -8,6 +8,7 @@
 #include "abaqus/deck.h"
 #include "abaqus/explicit.h"
 #include "abaqus/stop.h"
+#include "codegen/coefficient.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
@@ -23,10 +24,6 @@ using namespace codegen;
 namespace {
 
 const char* const file = "frictab_vfric_coef.f";
-
-// MPa: where no pressure is to divide by, the coefficient is the one here. A millionth of the
-// pressures of cold forging, so that what a law says there is its limit.
-constexpr double least_pressure = 1e-3;
 
 const SolverGives& gives(const ExportRequest&) {
   static const SolverGives all = {
@@ -51,9 +48,10 @@ std::vector<std::string> remarks(const ExportRequest& request) {
   const SolverUnit stress = solver_unit("MPa", request.units);
   std::vector<std::string> lines = {
       fmt::format("Below {:.6g} {} (and out of contact) fCoef is tau_R/pressure at {:.6g} {}: the "
-                  "limit, not 0/0.",
-                  stress.from_canonical(least_pressure), stress.name,
-                  stress.from_canonical(least_pressure), stress.name),
+                  "limit, not 0/0. At most {:g}.",
+                  stress.from_canonical(fortran::least_pressure), stress.name,
+                  stress.from_canonical(fortran::least_pressure), stress.name,
+                  fortran::largest_coefficient),
       "fCoefDeriv is set to 0: the explicit solver builds no tangent.",
       "No state variables: sliding distance, work, peak pressure and every other history are "
       "properties or fields, and "
@@ -81,7 +79,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
                  {"reads", fortran::reads(inputs, gives(request))},
                  {"stress_convert", stress.same() ? "" : "/" + fortran_number(stress.over)},
-                 {"least", fortran_number(least_pressure)},
+                 {"least", fortran_number(fortran::least_pressure)},
+                 {"most", fortran::most_text()},
                  {"core", core.text}};
   values.flags = {{"unknown", unknown}, {"refuses", refuses}};
   return render_template("abaqus/vfric_coef/frictab_vfric_coef.f", values);
@@ -90,13 +89,14 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
 void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                 const std::vector<SolverInput>& inputs) {
   out["arguments"] = recipe_states(inputs);
+  const SolverUnit stress = solver_unit("MPa", request.units);
   out["arguments_note"] = "VFRIC_COEF's own 16 arguments; listed is where each state comes from";
   out["result"] = {
       {"name", "fCoef(k)"},
-      {"meaning", fmt::format("tau_R/pressure, below {:.6g} {} the value there; "
+      {"meaning", fmt::format("tau_R/pressure, below {:.6g} {} the value there, at most {:g}; "
                               "fCoefDeriv 0",
-                              solver_unit("MPa", request.units).from_canonical(least_pressure),
-                              solver_unit("MPa", request.units).name)}};
+                              stress.from_canonical(fortran::least_pressure), stress.name,
+                              fortran::largest_coefficient)}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = recipe_properties(inputs);
   abaqus::add_compile(out, file);

@@ -51,6 +51,7 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                     {.error_action = "STOP ends the analysis"});
   const bool refuses = values.flags.at("refuses");
   values.text["least"] = fmt::format("{}", fortran::least_pressure);
+  values.text["most"] = fmt::format("{}", fortran::largest_coefficient);
   values.text["stress_convert"] = fortran_conversion(solver_unit("MPa", request.units));
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
@@ -69,6 +70,7 @@ void add_recipe(json& out, const ExportRequest&, const std::vector<SolverInput>&
   out["result"] = {{"name", "UM"},
                    {"meaning", "friction coefficient mu = tau_R/p"},
                    {"least_pressure_MPa", fortran::least_pressure},
+                   {"at_most", fortran::largest_coefficient},
                    {"unit", "1"}};
   out["state_variables"] = json::array();
   out["properties"] = json::array();
@@ -121,7 +123,8 @@ const char* const notes =
     "expansion, flow stress and further histories are not at hand there: they are constants, "
     "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
     "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "
-    "[table.axes.sigma_n_MPa] outside = \"law\". Beyond a side with outside = error the routine "
+    "there the law itself answers, where the job does not ask for something else. Beyond a side "
+    "with outside = error the routine "
     "writes state and value to the standard output and stops. CalculiX is under the GPL, and so "
     "is a program linked from both when it is passed on.";
 

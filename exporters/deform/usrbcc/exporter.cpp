@@ -52,6 +52,7 @@ json result(Coefficient kind, const SolverUnit& stress) {
   } else {
     out["meaning"] = "frictional shear stress tau_R; 0 without pressure";
   }
+  if (kind != Coefficient::stress) out["at_most"] = fortran::largest_coefficient;
   out["unit"] = kind == Coefficient::stress ? stress.name : "1";
   return out;
 }

@@ -58,11 +58,12 @@ std::string result_text(Coefficient kind, const std::string& stress) {
   switch (kind) {
   case Coefficient::coulomb:
     return fmt::format("VARIABLE: mu = tau_R/p, for Coulomb friction (FRCFAC type 2). Below {} MPa "
-                       "it is mu of that pressure: at 0 it would be 0/0.",
-                       fortran::least_pressure);
+                       "it is mu of that pressure: at 0 it would be 0/0. At most {:g}.",
+                       fortran::least_pressure, fortran::largest_coefficient);
   case Coefficient::shear:
-    return "VARIABLE: m = tau_R/k, for shear friction (FRCFAC type 1), k = flow stress/sqrt(3); 0 "
-           "without pressure or flow stress.";
+    return fmt::format("VARIABLE: m = tau_R/k, for shear friction (FRCFAC type 1), k = flow "
+                       "stress/sqrt(3); 0 without pressure or flow stress. At most {:g}.",
+                       fortran::largest_coefficient);
   case Coefficient::stress:
     break;
   }

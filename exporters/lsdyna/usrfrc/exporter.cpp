@@ -12,6 +12,7 @@
 #include "codegen/solver_units.h"
 #include "codegen/values_file.h"
 #include "source.h"
+#include "table/outside.h"
 
 namespace frictab::lsdyna::usrfrc {
 
@@ -50,9 +51,10 @@ json history(const frictab::table::Table& table, std::string_view units,
               one(2, stress + "*" + length, "friction work per area"),
               one(3, stress, "peak pressure")};
   if (state_count(table, inputs) >= 4)
-    out.push_back(
-        one(4, "1",
-            table.axes.empty() ? "not used" : "cycles in which the state was outside the range"));
+    out.push_back(one(4, "1",
+                      frictab::table::all_ends(table).empty()
+                          ? "not used"
+                          : "cycles in which the state was outside the range"));
   for (const HistoryState& state : with_remainders(history_states(inputs, units), before_histories))
     out.push_back(one(out.size() + 1, state.unit, state.meaning));
   return out;

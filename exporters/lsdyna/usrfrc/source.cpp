@@ -5,6 +5,7 @@
 #include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
+#include "table/outside.h"
 
 namespace frictab::lsdyna::usrfrc {
 
@@ -50,7 +51,7 @@ std::size_t state_count(const frictab::table::Table& table,
                         const std::vector<SolverInput>& inputs) {
   const std::size_t further = history_count(inputs);
   if (further > 0) return before_histories + 2 * further;
-  return table.axes.empty() ? 3 : 4;
+  return frictab::table::all_ends(table).empty() ? 3 : 4;
 }
 
 std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -69,7 +70,7 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
       fortran::comments(numbered(history_states(inputs, request.units), before_histories + 1));
   values.text["core"] =
       fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
-  values.flags["has_axes"] = !table.axes.empty();
+  values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);

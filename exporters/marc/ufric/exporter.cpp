@@ -36,10 +36,12 @@ json result(const Choices& chosen) {
   if (chosen.coefficient == fortran::Coefficient::shear)
     return {{"name", "FRIC"},
             {"meaning", "shear factor m = tau_R/(YIEL/sqrt(3)); 0 without normal stress"},
+            {"at_most", fortran::largest_coefficient},
             {"unit", "1"}};
   return {{"name", "FRIC"},
           {"meaning", "friction coefficient mu = tau_R/|FN|"},
           {"least_pressure_MPa", fortran::least_pressure},
+          {"at_most", fortran::largest_coefficient},
           {"unit", "1"}};
 }
 
@@ -75,6 +77,14 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
   return {.gives = gives(request), .result = choices(request).coefficient};
+}
+
+// Nothing in UFRIC's arguments tells the model's dimension.
+std::string caution(const ExportRequest& request) {
+  return request.options.count("marc_dimension")
+             ? ""
+             : "marc_ufric is for 2-D models; in 3-D it would take one component of the sliding "
+               "velocity for all of it: [export.options] marc_dimension = \"3d\"";
 }
 
 const char* const source_of_signature =
@@ -115,6 +125,7 @@ const Registered<Exporter> registered{[] {
                  values_option()}},
        .entry = "ufric",
        .gives = gives,
+       .caution = caution,
        .sources = sources,
        .recipe = add_recipe,
        .variants = variants,

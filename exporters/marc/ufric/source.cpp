@@ -52,11 +52,19 @@ std::vector<std::string> result_lines(const Choices& chosen, const std::string& 
   std::vector<std::string> lines;
   if (chosen.coefficient == Coefficient::coulomb)
     lines.push_back(fmt::format("FRIC: mu = tau_R/p, for Coulomb friction. Below {} MPa it is mu "
-                                "of that pressure: at 0 it would be 0/0.",
-                                fortran::least_pressure));
+                                "of that pressure: at 0 it would be 0/0. At most {:g}.",
+                                fortran::least_pressure, fortran::largest_coefficient));
   else
-    lines.push_back("FRIC: m = tau_R/k, k = YIEL/sqrt(3), for shear friction; 0 without normal "
-                    "stress, which alone would not keep the solver from applying m k.");
+    lines.push_back(fmt::format("FRIC: m = tau_R/k, k = YIEL/sqrt(3), for shear friction; 0 "
+                                "without normal stress, which alone would not keep the solver from "
+                                "applying m k. At most {:g}.",
+                                fortran::largest_coefficient));
+  lines.push_back(
+      chosen.slip_components == 1
+          ? "FOR 2-D MODELS: in 3-D it would take one component of the sliding velocity "
+            "for all of it ([export.options] marc_dimension = \"3d\")."
+          : "FOR 3-D MODELS: in 2-D it would read beyond VREL ([export.options] "
+            "marc_dimension = \"2d\").");
   if (chosen.by_force)
     lines.push_back("FN: a force (nodal models). The coefficient is the same at every pressure, so "
                     "that none is needed.");

@@ -280,7 +280,7 @@ void add_entry(TemplateValues& values, const ExportRequest& request,
   values.text["stress"] = stress.name;
   values.lists["arguments"] = items(arguments);
   values.lists["call"] = call;
-  for (const AxisEnds& axis : axis_ends(table)) {
+  for (const AxisEnds& axis : table::all_ends(table)) {
     TemplateValues end;
     end.text = {{"value", canonical(inputs[axis.input])},
                 {"low", number(axis.low)},

@@ -67,7 +67,7 @@ C     The limit in the solver's units, its derivatives, a direction
       external ftqnan
       logical ftnan
       external ftnan, ftsize
-@if has_axes
+@if has_ends
       logical ftout
       external ftout
 @end
@@ -310,7 +310,7 @@ C
         s1(2) = s0(2) + sfd
         s1(3) = max(s0(3), p)
         s1(4) = s0(4)
-@if has_axes
+@if has_ends
         if (ftout(x)) s1(4) = s1(4) + 1.0D0
 @end
         s1(7) = amu

@@ -5,7 +5,7 @@ C     coefficient of friction tau_R/p @{from}.
 C     @{line.text}
 @end
 C     Below @{smallest} MPa, and without pressure, the coefficient is that
-C     at @{smallest} MPa.
+C     at @{smallest} MPa. At most @{most}.
 C     NaN in gives NaN in fCoef, with derivatives 0.
 C
 C     PROPS (PROPERTIES=@{n_props}; a property the deck does not give
@@ -88,7 +88,7 @@ C     Canonical units (MPa, mm, mm/s) in x, y, dy, peval.
       double precision ftqnan
       external ftqnan
 @end
-@if has_axes
+@if has_ends
 @if new
       logical ftout
       external ftout
@@ -199,6 +199,13 @@ C           A point that does not press cannot stop the analysis.
           dmup = dmup + dpeak - amu
           if (p@{to_mpa} .lt. peval) dmup = dpeak
           dmup = dmup/peval@{to_mpa}
+          if (amu .gt. @{most}) then
+            amu = @{most}
+            dmuv = zero
+            dmup = zero
+            dmut = zero
+            dmus = zero
+          end if
 @if new
           if (keeps) then
             do i = 1, @{n_states}
@@ -208,7 +215,7 @@ C           A point that does not press cannot stop the analysis.
             s1(5) = s
             if (p .gt. zero) then
               s1(2) = max(s0(2), p)
-@if has_axes
+@if has_ends
               if (ftout(x)) s1(3) = s0(3) + 1.0D0
 @end
             end if

@@ -20,7 +20,6 @@ C     Powers of two, as areas: dividing by them changes no bits.
       ftan = 0
       st = 0
       slip = 0
-      stick = 1.0E30
       prev = 0
       shape = 0
       area = 1
@@ -42,6 +41,8 @@ C       Nodes backwards, and not from the first
         area(node) = real(a, kind(area))
         fnorm(k) = real(v(1,k)*a, kind(fnorm))
         slip(1,k) = real(v(2,k)*dtime, kind(slip))
+C       Far more than friction holds, along and against the motion
+        stick(k) = 1.0E30*(1 - 2*mod(k, 2))
         tsec(k) = real(v(6,k), kind(tsec))
         do i = 1, nf
           psec(k,i) = real(field(i,k), kind(psec))
@@ -63,7 +64,7 @@ C       sums lies behind them.
      &  dsl, dn, props, area, tsec, psec, tmain, pmain)
       do k = 1, n
         a = area(jcs(k))
-        tau(k) = -ftan(1,k)/a
+        tau(k) = -ftan(1,k)/a*(1 - 2*mod(k, 2))
       end do
       end
 C

@@ -77,7 +77,7 @@ C     Out of contact nothing is refused.
       ftcoef = tau
       if (ftnan(tau)) return
       if (tau .lt. 0.0D0) tau = 0.0D0
-      ftcoef = tau/press
+      ftcoef = min(tau/press, @{most})
       return
       end
 C

@@ -23,7 +23,6 @@ C     Powers of two, as areas: dividing by them changes no bits.
       ftan = 0
       st = 0
       slip = 0
-      stick = 1.0E30
       prev = 0
 C     What no law asks for
       dn = huge(dn)
@@ -44,6 +43,8 @@ C     What no law asks for
         area(k) = real(a, kind(area))
         fnorm(k) = real(v(1,k)*a, kind(fnorm))
         slip(1,k) = real(v(2,k)*dtime, kind(slip))
+C       Far more than friction holds, along and against the motion
+        stick(k) = 1.0E30*(1 - 2*mod(k, 2))
         ts(k) = real(v(6,k), kind(ts))
         do i = 1, nf
           fs(i,k) = real(field(i,k), kind(fs))
@@ -65,7 +66,7 @@ C       sums lies behind them.
      &  tm, fs, fm)
       do k = 1, n
         a = area(k)
-        tau(k) = -ftan(1,k)/a
+        tau(k) = -ftan(1,k)/a*(1 - 2*mod(k, 2))
       end do
       end
 C

@@ -3,7 +3,8 @@ C     coefficient mu, @{from}.
 @{head}
 C     NaN in gives NaN out.
 C
-C     UM: mu = tau_R/p. Below @{least} MPa it is mu of that pressure.
+C     UM: mu = tau_R/p. Below @{least} MPa it is mu of that pressure,
+C     and at most @{most}.
 C     What CalculiX does not give is a constant, COMMON /FTCONS/ CST,
 C     filled in BLOCK DATA FTDATA below. Threads may call it at once.
 @for line in source

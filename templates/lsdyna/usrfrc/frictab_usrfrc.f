@@ -10,7 +10,7 @@ C     @{line.text}
 @end
 C     UFHIST (NHSV=@{n_history}), by node:
 C     1 accumulated slip (@{length}), 2 friction work per area
-@if has_axes
+@if has_ends
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 cycles in
 C     which the state was outside the range.
 @else
@@ -65,11 +65,12 @@ C     itopaz(1) = 999: temperatures are computed.
 C
       double precision x(@{n_x}), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
+      double precision over
       double precision scale, ssum, wsum, pmax
       double precision fttau, ftqnan
       logical ftnan
       external fttau, ftqnan, ftnan
-@if has_axes
+@if has_ends
       logical ftout
       external ftout
 @end
@@ -176,12 +177,20 @@ C         A contact of another type: tau_R has nothing to act on.
             if (.not. ftnan(fric)) then
               if (fric .gt. hold) fric = hold
               if (fric .lt. 0.0D0) fric = 0.0D0
+C             What the force that would hold the node exceeds friction
+C             by is slip; the rest of the motion was elastic.
+              over = hold - fric
+              if (over .lt. stiff*slip) slip = over/stiff
+              if (over .le. 0.0D0) slip = 0.0D0
+              speed = slip*rate
+              ssum = slip
+              if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
 C             Work: mean of the force before and the force now.
               wsum = wsum + 0.5D0*(fprev + fric)/area*slip
               if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
               if (nhv .ge. 2) ufhist(2,j) = real(wsum, kind(ufhist))
               if (nhv .ge. 3) ufhist(3,j) = real(pmax, kind(ufhist))
-@if has_axes
+@if has_ends
               if (nhv .ge. 4) then
                 if (ftout(x)) ufhist(4,j) = ufhist(4,j) + 1
               end if

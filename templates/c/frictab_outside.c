@@ -1,0 +1,39 @@
+unsigned frictab_outside(
+    @{parameters}) {
+  unsigned outside = 0u;
+@for name in without_range
+  (void)@{name.text};
+@end
+@for end in ends
+  {
+    const double x = @{end.canonical}; /* @{end.name} */
+    if (x < @{end.low} || x > @{end.high}) outside |= @{end.bit}u;
+  }
+@end
+  return outside;
+}
+
+void frictab_count_outside(
+    size_t n,
+    @{arrays},
+    unsigned long* counts) {
+  size_t i;
+@for name in without_range
+  (void)@{name.text};
+@end
+@if has_ends
+  for (i = 0; i < n; ++i) {
+@for end in ends
+    {
+      const double x = @{end.element}; /* @{end.name} */
+      counts[@{end.first}] += x < @{end.low} ? 1ul : 0ul;
+      counts[@{end.second}] += x > @{end.high} ? 1ul : 0ul;
+    }
+@end
+  }
+@else
+  (void)n;
+  (void)counts;
+  (void)i;
+@end
+}

@@ -1,0 +1,129 @@
+// One node under penalty contact, driven through VFRIC and VFRICTION as Abaqus/Explicit does: the
+// stick force is the friction force before, carried on by the penalty stiffness along the motion.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/calls/vfric.h"
+#include "support/calls/vfriction.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+namespace {
+
+constexpr double mass = 1e-6, stiffness = 7.5e5, time_step = 2e-7; // t, N/mm, s
+
+template <class Call> struct Routine;
+template <class Real> struct Routine<calls::VfricCall<Real>> {
+  static constexpr const char* target = "abaqus_vfric";
+  static constexpr const char* entry = "vfric_";
+  static void resize(calls::VfricCall<Real>& c) { c.resize(1, 1); }
+};
+template <class Real> struct Routine<calls::VfrictionCall<Real>> {
+  static constexpr const char* target = "abaqus_vfriction";
+  static constexpr const char* entry = "vfriction_";
+  static void resize(calls::VfrictionCall<Real>& c) { c.resize(1); }
+};
+
+template <class Call> class SlowPenaltyNode : public testing::Test {
+protected:
+  using Real = typename decltype(Call::stick)::value_type;
+  static constexpr bool single = sizeof(Real) == 4;
+
+  void SetUp() override {
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    static const table::Table table = test::four_axis_table();
+    const codegen::ExportRequest request{table, "mm-t-s", {}};
+    function_ = codegen::Library::address(
+        test::compiled("stuck", *codegen::find_exporter(Routine<Call>::target), request,
+                       single ? "single" : "double", test::strict)
+            ->handle(),
+        Routine<Call>::entry);
+    call_.directions = 2;
+    call_.states = 6;
+    call_.temperatures = true;
+    call_.time_increment = static_cast<Real>(time_step);
+    call_.properties = {Real(2.5), Real(60), Real(480)}; // psi, a temperature, sigma_f
+    Routine<Call>::resize(call_);
+    call_.normal[0] = 1000;
+    call_.temperature[0] = call_.temperature_main[0] = 100;
+  }
+
+  // One increment of central differences under this load.
+  void advance(double load) {
+    speed_ += (load + friction_) / mass * time_step;
+    const double motion = speed_ * time_step, along = motion < 0 ? -1 : 1;
+    moved_ += motion;
+    call_.slip[0] = static_cast<Real>(std::abs(motion));
+    call_.previous[0] = static_cast<Real>(friction_ * along);
+    call_.stick[0] = static_cast<Real>(stiffness * std::abs(motion) - friction_ * along);
+    call_.run(function_);
+    friction_ = static_cast<double>(call_.tangential[0]) * along;
+  }
+
+  // Largest friction of a node that moves this fast.
+  double limit(double speed) {
+    Call c = call_;
+    c.slip[0] = static_cast<Real>(speed * time_step);
+    c.stick[0] = Real(1e30);
+    c.run(function_);
+    return -static_cast<double>(c.tangential[0]);
+  }
+
+  double kept_slip() const { return static_cast<double>(call_.state[0] + call_.state[4]); }
+  double kept_work() const { return static_cast<double>(call_.state[1] + call_.state[5]); }
+
+  Call call_;
+  void* function_ = nullptr;
+  double speed_ = 0, moved_ = 0, friction_ = 0;
+};
+
+using Calls = testing::Types<calls::VfricCall<double>, calls::VfricCall<float>,
+                             calls::VfrictionCall<double>, calls::VfrictionCall<float>>;
+struct CallName {
+  template <class Call> static std::string GetName(int) {
+    return std::string(Routine<Call>::entry) +
+           (sizeof(typename decltype(Call::stick)::value_type) == 4 ? "single" : "double");
+  }
+};
+TYPED_TEST_SUITE(SlowPenaltyNode, Calls, CallName);
+
+// Half of what friction holds, give or take 10 %, for 24,000 increments: the node moves back in
+// every period, where the stick force turns against the motion.
+TYPED_TEST(SlowPenaltyNode, StuckByHalfTheLimitStaysWithinTheElasticSlip) {
+  const double mean = 0.5 * this->limit(0), elastic = mean / stiffness;
+  double farthest = 0;
+  for (int i = 0; i < 24000; ++i) {
+    const double ramp = std::min(1.0, i / 2000.0);
+    this->advance(ramp * mean * (1 + 0.1 * std::sin(2 * std::numbers::pi * i / 60)));
+    farthest = std::max(farthest, std::abs(this->moved_));
+  }
+  EXPECT_LT(farthest, 1.25 * elastic);
+  EXPECT_GT(farthest, elastic);
+  EXPECT_EQ(this->kept_slip(), 0);
+  EXPECT_EQ(this->kept_work(), 0);
+}
+
+TYPED_TEST(SlowPenaltyNode, SlidingOneKeepsItsMotionLessTheElasticPart) {
+  const double load = 1.2 * this->limit(0);
+  double dissipated = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double before = this->moved_ + this->friction_ / stiffness, force = this->friction_;
+    this->advance(load * std::min(1.0, i / 2000.0));
+    const double slip = this->moved_ + this->friction_ / stiffness - before;
+    dissipated += 0.5 * (std::abs(force) + std::abs(this->friction_)) * std::abs(slip);
+  }
+  const double slip = this->moved_ + this->friction_ / stiffness;
+  EXPECT_GT(slip, 1000 * this->limit(0) / stiffness) << "it did not slide";
+  // The limit falls as the node gains speed: what that releases is not counted.
+  const double bound = TestFixture::single ? 1e-4 : 1e-5;
+  EXPECT_NEAR(this->kept_slip(), slip, bound * slip);
+  EXPECT_NEAR(this->kept_work(), dissipated, bound * dissipated);
+}
+
+} // namespace
+
+} // namespace frictab
