@@ -388,6 +388,23 @@ double rounded_up(double value) {
   return std::ceil(value / unit * (1 - 1e-12)) * unit;
 }
 
+namespace {
+
+// The bound is that of exact arithmetic. Rounding, of the kernel as of the law, is taken as below
+// 2^-40 of the largest stress: no bound is below that.
+double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange>& ranges) {
+  std::vector<std::string> names;
+  for (const StateRange& range : ranges)
+    names.push_back(range.name);
+  const Probe box = with_law(LawFunction(law, names), box_points(ranges, 256));
+  double largest = 0;
+  for (const double tau : box.law)
+    if (std::isfinite(tau)) largest = std::max(largest, std::abs(tau));
+  return 0x1p-40 * largest;
+}
+
+} // namespace
+
 ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found,
                         double allowed_MPa) {
@@ -407,7 +424,8 @@ ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
     }
     out.worst.points += more.points;
   }
-  if (out.bound.MPa) out.bound.MPa = std::max(*out.bound.MPa, out.worst.drift_MPa);
+  if (out.bound.MPa)
+    out.bound.MPa = std::max({*out.bound.MPa, out.worst.drift_MPa, rounding_of(law, ranges)});
   return out;
 }
 
