@@ -72,8 +72,11 @@ struct Exporter {
   std::function<void(const Built&, const ExportRequest&, std::size_t rows,
                      std::span<const double* const> columns, std::span<double> tau)>
       drive = {};
-  // Where the target is a solver's own table, which has fewer axes than the law: the states of
-  // request.table.inputs() that it holds, at which values (canonical). Empty for a whole routine.
+  // A solver's own table, which has fewer axes than the law, instead of a routine.
+  bool own_table = false;
+  // The states of request.table.inputs() that these files hold, at which values (canonical): those
+  // that the solver's own table has no column for; those that the job says are constants. Null:
+  // none ever.
   std::function<table::HeldStates(const ExportRequest&)> held = {};
   // Whether the solver gets a coefficient mu and multiplies it by the pressure: at most
   // fortran::largest_coefficient then. Null: never.
@@ -85,8 +88,8 @@ struct Exporter {
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
 
-  // A routine that answers every state of the law; not so a table that holds some of them.
-  bool whole() const { return !held; }
+  // A routine, which is the law's; not so a table of the solver's, made from the law for it.
+  bool whole() const { return !own_table; }
 
   // What the request says for one of `options`, or its default.
   const std::string& option(const ExportRequest& request, const std::string& name) const;

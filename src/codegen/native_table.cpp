@@ -420,6 +420,7 @@ Exporter native_exporter(const NativeTarget& target) {
   out.gives_mu = [target](const ExportRequest& request) {
     return target.form(request).factor == NativeFactor::pressure;
   };
+  out.own_table = true;
   out.held = [target](const ExportRequest& request) {
     return native_held(request, target.form(request));
   };

@@ -49,6 +49,9 @@ Exporter routine_exporter(const RoutineTarget& target) {
   out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
   out.variants = [target](const ExportRequest& request) { return with_driver(target, request); };
   out.caution = target.caution;
+  out.held = [target](const ExportRequest& request) {
+    return said_constants(request, checked_inputs(target, request));
+  };
   out.gives_mu = [target](const ExportRequest& request) {
     return target.drive(request, checked_inputs(target, request)).result ==
            fortran::Coefficient::coulomb;

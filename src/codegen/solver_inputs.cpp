@@ -210,6 +210,18 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
   return inputs;
 }
 
+table::HeldStates said_constants(const ExportRequest& request,
+                                 const std::vector<SolverInput>& inputs) {
+  table::HeldStates held;
+  for (const SolverInput& input : inputs) {
+    const auto said = request.inputs.find(input.argument.name);
+    if (input.source == Source::constant && input.fallback && said != request.inputs.end() &&
+        said->second.starts_with("constant:"))
+      held[input.argument.name] = *input.fallback;
+  }
+  return held;
+}
+
 std::size_t property_count(const std::vector<SolverInput>& inputs) {
   std::size_t count = 0;
   for (const SolverInput& input : inputs)

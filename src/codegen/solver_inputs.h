@@ -73,6 +73,10 @@ struct SolverInput {
 // choices.
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives);
 
+// Those that the job says are constants, [export.inputs] NAME = "constant:VALUE".
+table::HeldStates said_constants(const ExportRequest& request,
+                                 const std::vector<SolverInput>& inputs);
+
 std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);
 bool takes(const std::vector<SolverInput>& inputs, const std::string& state); // from the solver

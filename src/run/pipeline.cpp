@@ -2,6 +2,7 @@
 #include "run/pipeline.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -236,19 +237,41 @@ void Pipeline::generate() {
   load_tables();
   for (const std::string& file : earlier_.source_files())
     output_.remove_old(file);
+  FaultList faults; // of all targets: what one cannot take, another can
+  std::set<const codegen::Exporter*> refused;
   for (const Table& table : tables_)
     for (const codegen::Exporter* exporter : targets) {
+      if (refused.count(exporter)) continue; // for the same reason
       const std::string directory = export_directory(exporter->name, table);
       const bool direct = job_.exports.form == codegen::ExportForm::direct || !exporter->whole();
       const Table form = direct ? direct_for_sources(table) : table;
-      const codegen::ExportRequest request = request_for(form);
-      sources_[directory] = exporter->generate(request);
-      const std::string caution = exporter->caution ? exporter->caution(request) : "";
-      if (!caution.empty() && std::find(notes_.begin(), notes_.end(), caution) == notes_.end())
-        notes_.push_back(caution);
-      for (const auto& [path, text] : sources_[directory])
-        output_.write(directory + "/" + path, text);
+      try {
+        generate_one(*exporter, request_for(form), directory);
+      } catch (const InputError& error) {
+        refused.insert(exporter);
+        for (const Fault& fault : error.faults())
+          faults.add(place_in_job(fault.place), exporter->name + ": " + fault.what, fault.hint);
+      }
     }
+  faults.throw_if_any();
+}
+
+void Pipeline::generate_one(const codegen::Exporter& exporter,
+                            const codegen::ExportRequest& request, const std::string& directory) {
+  sources_[directory] = exporter.generate(request);
+  const std::string caution = exporter.caution ? exporter.caution(request) : "";
+  if (!caution.empty() && std::find(notes_.begin(), notes_.end(), caution) == notes_.end())
+    notes_.push_back(caution);
+  for (const auto& [path, text] : sources_[directory])
+    output_.write(directory + "/" + path, text);
+}
+
+// Targets name the key at fault; the job knows where it stands.
+Place Pipeline::place_in_job(const Place& place) const {
+  const std::string key = "export.inputs.";
+  if (!place.file.starts_with(key)) return place;
+  const auto known = job_.exports.input_places.find(place.file.substr(key.size()));
+  return known == job_.exports.input_places.end() ? place : known->second;
 }
 
 // ---- verify ----

@@ -244,18 +244,42 @@ void add_below(std::string& out, const verify::Verification& verification,
   if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
 }
 
-// One line per solver's own table: how far it is where its states are held, and what that costs.
+// What holds the same states at the same cost.
+struct HeldLine {
+  std::string model, text;
+  std::vector<std::string> targets;
+  double worst_MPa = 0;
+};
+
+std::string text_of(const HeldLine& line) {
+  const std::size_t count = line.targets.size();
+  std::string who = line.targets.front();
+  for (std::size_t i = 1; i < std::min<std::size_t>(count, 3); ++i)
+    who += (i + 1 == count ? " and " : ", ") + line.targets[i];
+  if (count > 3) who += fmt::format(" and {} other{}", count - 3, count == 4 ? "" : "s");
+  return fmt::format("  {:<14}{:>12.3g}   {} {} {}\n", line.model, line.worst_MPa, who,
+                     count == 1 ? "holds" : "hold", line.text);
+}
+
+// Routines and tables that hold states: how far they are from the law there, and what that costs.
 void add_costs(std::string& out, const verify::Verification& verification) {
-  std::string lines;
-  for (const verify::DriftRecord& r : verification.records)
-    if (r.ran && r.held)
-      lines +=
-          fmt::format("  {:<14}{:>12.3g}   {}\n", r.model, r.worst_case_MPa, verify::cost_text(r));
+  std::vector<HeldLine> lines;
+  for (const verify::DriftRecord& r : verification.records) {
+    if (!r.ran || !r.held) continue;
+    const std::string text = verify::held_text(r), target = verify::target_of(r);
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const HeldLine& one) {
+      return one.model == r.model && one.text == text;
+    });
+    if (line == lines.end()) line = lines.insert(lines.end(), {r.model, text, {}, 0});
+    if (line->targets.empty() || line->targets.back() != target) line->targets.push_back(target);
+    line->worst_MPa = std::max(line->worst_MPa, r.worst_case_MPa);
+  }
   if (!lines.empty())
-    out +=
-        "Solvers' own tables have fewer axes than the law. Drift from it at the held states, and "
-        "what holding costs:\n" +
-        lines;
+    out += "Where states are held, by a solver's own table or by a constant of the job: drift from "
+           "the "
+           "law there, and what holding costs:\n";
+  for (const HeldLine& line : lines)
+    out += text_of(line);
 }
 
 void add_drift(std::string& out, const verify::Verification& verification) {

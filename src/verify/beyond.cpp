@@ -62,16 +62,23 @@ std::string beyond_text(const BeyondEnd& end) {
                      end.outside);
 }
 
-std::string cost_text(const DriftRecord& record) {
+std::string target_of(const DriftRecord& record) {
+  return record.subject.substr(0, record.subject.find('/'));
+}
+
+std::string held_text(const DriftRecord& record) {
   std::string held;
   for (const auto& [name, value] : *record.held)
     held += fmt::format("{}{} = {:.6g}", held.empty() ? "" : ", ", name, value);
-  const std::string target = record.subject.substr(0, record.subject.find('/'));
   const std::string cost =
       record.n_rows == 0 ? "no rows to tell the cost"
                          : fmt::format("mean {:.3g}, largest {:.3g} MPa off the law on the rows",
                                        record.cost_mean_abs_MPa, record.cost_max_abs_MPa);
-  return fmt::format("{} holds {}: {}", target, held.empty() ? "no state" : held, cost);
+  return fmt::format("{}: {}", held.empty() ? "no state" : held, cost);
+}
+
+std::string cost_text(const DriftRecord& record) {
+  return target_of(record) + " holds " + held_text(record);
 }
 
 std::string not_posed_text(const DriftRecord& record) {

@@ -27,8 +27,14 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states);
 // "T_contact_C above 200: 110 rows, up to 13.2 beyond, clamp"
 std::string beyond_text(const BeyondEnd& end);
 
+// "abaqus_vfric" of the subject "abaqus_vfric/double".
+std::string target_of(const DriftRecord& record);
+
+// "psi = 4.47: mean 3.1, largest 14.2 MPa off the law on the rows"; of a record that holds states.
+std::string held_text(const DriftRecord& record);
+
 // "abaqus_table holds psi = 4.47: mean 3.1, largest 14.2 MPa off the law on the rows"; of a record
-// of a solver's own table.
+// that holds states.
 std::string cost_text(const DriftRecord& record);
 
 // "not asked 1,200 of 16,500 rows and ...: states its solver is never in"; empty where it was asked

@@ -55,8 +55,9 @@ struct DriftRecord {
   bool passed = false;
   std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
   std::string not_proven = {};           // why there is no such bound
-  // A solver's own table, which holds some states (canonical values): all figures above compare it
-  // with the law at the held states. What holding costs, against the law at the rows' own states:
+  // What holds some states (canonical values), a solver's own table or a routine with constants of
+  // the job: all figures above compare it with the law at the held states. What holding costs,
+  // against the law at the rows' own states:
   std::optional<std::map<std::string, double>> held = {};
   double cost_mean_abs_MPa = 0, cost_max_abs_MPa = 0; // over the rows inside the range
 };

@@ -101,9 +101,11 @@ Subjects prepare(const VerifyInput& input) {
   return s;
 }
 
-void compare_rows(DriftRecord& record, const Probe& reference, const RowsBeyond& beyond,
-                  const std::vector<double>& answer) {
+// Gives the row that is furthest off.
+std::size_t compare_rows(DriftRecord& record, const Probe& reference, const RowsBeyond& beyond,
+                         const std::vector<double>& answer) {
   std::vector<double> inside;
+  std::size_t furthest = 0;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < reference.law.size(); ++i) {
     if (beyond.kinds[i] == RowKind::refused) {
@@ -116,20 +118,30 @@ void compare_rows(DriftRecord& record, const Probe& reference, const RowsBeyond&
       continue;
     }
     inside.push_back(d);
+    if (d > record.rows.max_abs) {
+      record.rows.max_abs = d;
+      furthest = i;
+    }
     sum += d;
     squares += d * d;
   }
   record.n_rows = reference.law.size();
   record.n_outside = beyond.outside;
   record.beyond = beyond.ends;
-  if (inside.empty()) return;
+  if (inside.empty()) return furthest;
   const auto count = static_cast<double>(inside.size());
   record.rows.mean_abs = sum / count;
   record.rows.rms = std::sqrt(squares / count);
-  record.rows.max_abs = *std::max_element(inside.begin(), inside.end());
   const auto at = static_cast<long>(std::ceil(0.99 * count)) - 1;
   std::nth_element(inside.begin(), inside.begin() + at, inside.end());
   record.rows.p99 = inside[static_cast<std::size_t>(at)];
+  return furthest;
+}
+
+void set_worst_state(DriftRecord& record, const Subjects& s, const Probe& reference,
+                     std::size_t i) {
+  for (std::size_t d = 0; d < s.names.size(); ++d)
+    record.worst_state[s.names[d]] = reference.states[d][i];
 }
 
 void compare_range(DriftRecord& record, const Subjects& s, const std::vector<double>& answer) {
@@ -145,8 +157,7 @@ void compare_range(DriftRecord& record, const Subjects& s, const std::vector<dou
       at = i;
     }
   }
-  for (std::size_t d = 0; d < s.names.size(); ++d)
-    record.worst_state[s.names[d]] = s.range.states[d][at];
+  set_worst_state(record, s, s.range, at);
 }
 
 void compare_below(DriftRecord& record, const Subjects& s, const std::vector<double>& answer) {
@@ -175,6 +186,7 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
   DriftRecord record;
   record.model = input.law.model.name();
   record.subject = subject;
+  std::size_t furthest_row = 0;
   for (const Probe* reference : {&s.rows, &s.range, &s.below}) {
     std::vector<double> tau(reference->law.size(), not_posed);
     if (reference->law.size() == 0) continue;
@@ -182,13 +194,17 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
     const std::size_t left_out = leave_out_not_posed(tau, reference->table);
     if (reference == &s.rows) {
       record.n_rows_not_posed = left_out;
-      compare_rows(record, *reference, s.beyond, tau);
+      furthest_row = compare_rows(record, *reference, s.beyond, tau);
     } else if (reference == &s.range) {
       record.n_points_not_posed = left_out;
       compare_range(record, s, tau);
     } else {
       compare_below(record, s, tau);
     }
+  }
+  if (record.rows.max_abs > record.worst_case_MPa) { // rows are states of the range as well
+    record.worst_case_MPa = record.rows.max_abs;
+    set_worst_state(record, s, s.rows, furthest_row);
   }
   const bool follows_below = !record.below || record.below->outside != "law" ||
                              record.below->max_abs_MPa <= input.max_drift_MPa;
@@ -219,7 +235,8 @@ Columns columns_for(const table::Table& source, const Subjects& s, const Probe& 
 
 // The same states with some of them held. A solver's own table answers beyond its ends as it
 // likes: rows that the table refuses are none of its failures.
-Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldStates& held) {
+Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldStates& held,
+                 bool own_table) {
   const table::LawFunction law(input.law, s.names);
   const table::TableFunction table(input.table);
   Subjects out;
@@ -235,7 +252,7 @@ Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldS
   }
   out.beyond = rows_beyond(input.table, out.rows.states);
   for (RowKind& kind : out.beyond.kinds)
-    if (kind == RowKind::refused) kind = RowKind::clamped;
+    if (own_table && kind == RowKind::refused) kind = RowKind::clamped;
   return out;
 }
 
@@ -259,17 +276,18 @@ Subjects with_largest_mu(const Subjects& s) {
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
 
 DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const Subjects& at_held,
-                            const table::HeldStates& held, const std::string& subject,
-                            const Answer& answer) {
+                            const table::HeldStates& held, bool own_table,
+                            const std::string& subject, const Answer& answer) {
   DriftRecord record = compare(input, at_held, subject, answer);
   record.held = held;
   if (s.rows.law.empty()) return record;
-  std::vector<double> tau(s.rows.law.size());
-  answer(s.rows, tau);
+  std::vector<double> tau(s.rows.law.size(), not_posed);
+  // A solver's table knows nothing of them; a routine's driver may set its constants.
+  answer(own_table ? s.rows : at_held.rows, tau);
   std::size_t count = 0;
   double sum = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
-    if (s.beyond.kinds[i] != RowKind::compared) continue;
+    if (s.beyond.kinds[i] != RowKind::compared || tau[i] == not_posed) continue;
     const double d = difference(tau[i], s.rows.law[i]);
     record.cost_max_abs_MPa = std::max(record.cost_max_abs_MPa, d);
     sum += d;
@@ -298,9 +316,11 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   };
   const bool gives_mu = exporter.gives_mu && exporter.gives_mu(source.request);
   const auto given = [&](const Subjects& all) { return gives_mu ? with_largest_mu(all) : all; };
-  if (exporter.whole()) return compare(input, given(s), subject, answer);
-  const table::HeldStates held = exporter.held(source.request);
-  return compare_reduced(input, s, given(at_held(input, s, held)), held, subject, answer);
+  const table::HeldStates held =
+      exporter.held ? exporter.held(source.request) : table::HeldStates{};
+  if (exporter.whole() && held.empty()) return compare(input, given(s), subject, answer);
+  return compare_reduced(input, s, given(at_held(input, s, held, exporter.own_table)), held,
+                         exporter.own_table, subject, answer);
 }
 
 } // namespace

@@ -230,6 +230,34 @@ TEST_F(SlowMainJob, RowsOutsideTheRangeAreToldByAxisAndSide) {
   EXPECT_NE(directory.read("out/report.html").find("sigma_n_MPa above 1800"), std::string::npos);
 }
 
+TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAtTheirPlace) {
+  const auto result = run_frictab({"run", job, "--set",
+                                   "export.targets=[\"abaqus_vfric\", \"marc_ufric\", "
+                                   "\"qform_lua\"]",
+                                   "--set", "export.inputs.sigma_f_MPa=field:1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "--set 2: error: marc_ufric: 'field:1' is no source of a state\n"
+                        "  hint: known: constant:VALUE, solver\n"
+                        "--set 2: error: qform_lua: 'field:1' is no source of a state\n"
+                        "  hint: known: constant:VALUE, property\n");
+}
+
+TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
+  const auto result =
+      run_frictab({"run", job, "--set", "table.model=levanov", "--set",
+                   "export.targets=[\"abaqus_vfric\", \"abaqus_fric\", \"marc_ufric\"]", "--set",
+                   "export.inputs.sigma_f_MPa=constant:480"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_NE(
+      result.out.find("abaqus_vfric, abaqus_fric and marc_ufric hold sigma_f_MPa = 480: mean "),
+      std::string::npos)
+      << result.out;
+  EXPECT_NE(result.err.find("marc_ufric is for 2-D models"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("Off the law below the tested contact normal stresses, MPa:\n"
+                            "  levanov "),
+            std::string::npos);
+}
+
 TEST_F(SlowMainJob, FilesOfTheUserInTheOutputDirectoryStay) {
   directory.write("out/models/mine.json", "{}");
   directory.write("out/export/c/driver.c", "int x;");

@@ -139,6 +139,26 @@ TEST(NativeCost, OfAShearLawIsNothingInDeformWhichMultipliesByItsOwnShearYieldSt
   EXPECT_GT(c.verified("deform_table").cost_max_abs_MPa, 1) << "mu at one flow stress";
 }
 
+// A routine with a constant is compared where it is right, at the constant, whoever calls it.
+TEST(SlowConstantOfTheJob, IsWhereEveryRoutineIsComparedAndItsCostIsTold) {
+  const Case c("wanheim_bay");
+  for (const Exporter& exporter : codegen::all_exporters()) {
+    if (!exporter.whole() || !exporter.held) continue; // C and Fortran take every state
+    const codegen::ExportRequest request = {
+        c.table, "mm-t-s", {{"sigma_f_MPa", "constant:480"}}, {}};
+    const DriftRecord record = c.compared({{&exporter, request, exporter.generate(request)}});
+    if (!record.ran) continue;
+    EXPECT_TRUE(record.passed) << exporter.name << " " << record.worst_case_MPa;
+    ASSERT_TRUE(record.held) << exporter.name;
+    EXPECT_EQ(*record.held, (table::HeldStates{{"sigma_f_MPa", 480}})) << exporter.name;
+    EXPECT_EQ(record.worst_state.at("sigma_f_MPa"), 480) << exporter.name;
+    EXPECT_GT(record.cost_max_abs_MPa, 5) << exporter.name;
+    const codegen::ExportRequest free = {c.table, "mm-t-s", {}, {}};
+    if (exporter.name == "calculix_usrmu") continue; // takes no flow stress from its solver
+    EXPECT_FALSE(c.compared({{&exporter, free, exporter.generate(free)}}).held) << exporter.name;
+  }
+}
+
 TEST(NativeCost, IsWrittenAndReadBackAndTold) {
   const Case c("orowan");
   verify::Verification verification{0.5, {c.verified("abaqus_table")}};

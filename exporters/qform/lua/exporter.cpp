@@ -135,6 +135,9 @@ Exporter exporter() {
   out.generate = generate;
   out.variants = variants;
   out.drive = drive;
+  out.held = [](const ExportRequest& request) {
+    return said_constants(request, solver_inputs(request, gives()));
+  };
   return out;
 }
 
