@@ -7,21 +7,52 @@ namespace frictab::abaqus {
 
 using namespace codegen;
 
-std::string friction_lines(const std::string& user, std::size_t depvar,
-                           const std::vector<SolverInput>& inputs) {
-  const std::vector<std::string> values = property_values(inputs);
-  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, " + user;
-  if (depvar > 0) deck += fmt::format(", depvar={}", depvar);
-  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
-  return deck + "\n" + property_deck(values);
-}
+namespace {
 
+// Property lines, eight values each.
 std::string property_deck(const std::vector<std::string>& values) {
   std::string deck;
   for (std::size_t i = 0; i < values.size(); ++i)
     deck +=
         (i % 8 == 0 ? " " : ", ") + values[i] + (i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
   return deck;
+}
+
+} // namespace
+
+std::string friction_lines(const std::string& user, std::size_t depvar,
+                           const std::vector<SolverInput>& inputs,
+                           const std::vector<std::string>& further) {
+  std::vector<std::string> values = property_placeholders(inputs);
+  values.insert(values.end(), further.begin(), further.end());
+  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, " + user;
+  if (depvar > 0) deck += fmt::format(", depvar={}", depvar);
+  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
+  return deck + "\n" + property_deck(values);
+}
+
+std::string field_lines(const std::vector<SolverInput>& inputs) {
+  std::string lines;
+  for (const SolverInput& input : inputs) {
+    if (input.source != Source::field) continue;
+    const std::string unit =
+        input.argument.solver.name == "1" ? "" : ", " + input.argument.solver.name;
+    lines += fmt::format("** field variable {0}: {1}{2}; both surfaces need it\n"
+                         "*Initial Conditions, type=FIELD, variable={0}\n"
+                         " <nodes of both surfaces>, <{1} at the start>\n"
+                         "** and in the step:\n"
+                         "*Field, variable={0}\n"
+                         " <nodes of both surfaces>, <{1}>\n",
+                         input.field, input.argument.meaning, unit);
+  }
+  return lines;
+}
+
+std::string standard_lines(const std::vector<SolverInput>& inputs) {
+  return "*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
+         "** and on the step, for derivatives by the pressure:\n"
+         "*Step, unsymm=YES, nlgeom=YES\n" +
+         field_lines(inputs);
 }
 
 } // namespace frictab::abaqus

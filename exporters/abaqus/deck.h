@@ -9,12 +9,17 @@
 namespace frictab::abaqus {
 
 // "*Surface Interaction, name=FRICTAB", "*Friction, <user>, depvar=<depvar>, properties=<n>" and
-// its data lines, 8 values each. `user` as the keyword has it: "user", "user=friction"; DEPVAR and
-// PROPERTIES are left out where they are 0.
+// its data lines, 8 values each, those of `inputs` before `further`. `user` as the keyword has it:
+// "user", "user=friction"; DEPVAR and PROPERTIES are left out where they are 0.
 std::string friction_lines(const std::string& user, std::size_t depvar,
-                           const std::vector<codegen::SolverInput>& inputs);
+                           const std::vector<codegen::SolverInput>& inputs,
+                           const std::vector<std::string>& further = {});
 
-// The numbers of property lines, eight to a line.
-std::string property_deck(const std::vector<std::string>& values);
+// Which lines give the field variables that the law takes, as comments and keywords; empty where it
+// takes none.
+std::string field_lines(const std::vector<codegen::SolverInput>& inputs);
+
+// What stands behind friction_lines for contact pairs of Abaqus/Standard.
+std::string standard_lines(const std::vector<codegen::SolverInput>& inputs);
 
 } // namespace frictab::abaqus

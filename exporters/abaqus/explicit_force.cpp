@@ -57,7 +57,7 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
   lines.push_back("With a smaller DEPVAR those that it leaves out are not kept.");
   const std::string absent = " with a smaller DEPVAR it is taken as ";
   if (takes(inputs, "s_mm"))
-    lines.push_back(fmt::format("The law needs {}(1):{}the slip of the increment alone.",
+    lines.push_back(fmt::format("The law needs {}(1):{}the motion of the increment alone.",
                                 routine.state_name, absent));
   if (takes(inputs, "friction_work"))
     lines.push_back(fmt::format("The law needs {}(2):{}0.", routine.state_name, absent));
@@ -168,7 +168,8 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs);
   add_compile(out, file_of(routine));
-  out["input_deck"] = friction_lines(routine.user, state_count(inputs), inputs) + routine.deck_tail;
+  out["input_deck"] = friction_lines(routine.user, state_count(inputs), inputs) +
+                      routine.deck_tail + field_lines(inputs);
 }
 
 } // namespace
@@ -189,7 +190,8 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "accumulated slip, friction work per area, peak pressure, increments outside the range, and "
       "what single precision rounds off slip and work (increments are small against their sum: "
       "with DEPVAR=4 a slip in steps of 1e-6 mm stops growing at 32 mm), each by {}. A law with "
-      "friction_work or peak_sigma_n takes it from {}: slip and peak include the present "
+      "friction_work or peak_sigma_n takes it from {}: slip and peak include the motion and "
+      "pressure of the present "
       "increment, work ends before it; further histories of a traced law (energy, times, means, "
       "peaks, friction power) take two state variables each, their times are the solver's seconds, "
       "which time scaling changes. Beyond a side with outside = error "

@@ -85,7 +85,12 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
                  const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
-  std::vector<expr::Expr> formulas{table.combine, derivative(table.combine, "value")};
+  // Of a value that no state changes nobody asks the slope.
+  const bool changes = std::any_of(inputs.begin(), inputs.end(), [&](const InputArgument& input) {
+    return behind_value(table, input);
+  });
+  std::vector<expr::Expr> formulas{table.combine,
+                                   changes ? derivative(table.combine, "value") : expr::Expr(0.0)};
   for (const InputArgument& input : inputs)
     formulas.push_back(derivative(table.combine, input.name));
   const expr::SeveralStatements code =
@@ -108,7 +113,7 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
     values.lists["slopes"].push_back(slope);
   }
   if (by_value) return;
-  values.lists["unused"].push_back(item("value"));
+  if (!expr::symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
   for (const TemplateValues& state : values.lists["behind"])
     values.lists["unused"].push_back(item("d" + state.text.at("index")));
 }

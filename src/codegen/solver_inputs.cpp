@@ -41,11 +41,18 @@ template <class Number> std::optional<Number> number(std::string_view text) {
   return value;
 }
 
+// The table's answer is not the law's there.
+bool clamps(const table::TableAxis& axis, double value) {
+  return (value < axis.nodes.front() && axis.below != table::Outside::law) ||
+         (value > axis.nodes.back() && axis.above != table::Outside::law);
+}
+
 // One state's choice.
 class Choice {
 public:
-  Choice(SolverInput& input, const SolverGives& gives, FaultList& faults)
-      : input_(input), gives_(gives), faults_(faults) {
+  Choice(SolverInput& input, const SolverGives& gives, const table::Table& table, FaultList& faults)
+      : input_(input), gives_(gives), axis_(table::find_axis(table, input.argument.name)),
+        faults_(faults) {
     const std::string& name = input.argument.name;
     given_ = gives.find(state_of(name));
     const bool kept = is_further_history(name) && !gives.history.empty();
@@ -126,6 +133,10 @@ private:
     input_.fallback = value;
     if (!value || !std::isfinite(*value))
       fault(fmt::format("'{}' is not a number", text), "constant:1.5");
+    else if (axis_ && clamps(*axis_, *value))
+      fault(fmt::format("{} lies beyond the table's {:.6g} .. {:.6g}", text, axis_->nodes.front(),
+                        axis_->nodes.back()),
+            "a value inside, a wider range, or [table.axes." + name + "] outside = \"law\"");
     else if (known && *value < known->lowest)
       fault(fmt::format("{} is below the smallest possible {}", text, name),
             fmt::format("at least {} {}", known->lowest, known->unit));
@@ -139,6 +150,7 @@ private:
 
   SolverInput& input_;
   const SolverGives& gives_;
+  const table::TableAxis* axis_; // null: the state is none
   FaultList& faults_;
   const GivenState* given_ = nullptr;
   std::string
@@ -189,7 +201,7 @@ std::vector<SolverInput> solver_inputs(const ExportRequest& request, const Solve
     input.argument = *std::find_if(arguments.begin(), arguments.end(),
                                    [&](const InputArgument& a) { return a.name == name; });
     input.fallback = fallback(request.table, name);
-    Choice choice(input, gives, faults);
+    Choice choice(input, gives, request.table, faults);
     if (const auto said = request.inputs.find(name); said != request.inputs.end())
       choice.read(said->second);
     if (choice.needs_property()) input.property = ++properties;
@@ -240,14 +252,14 @@ bool uses(const std::vector<SolverInput>& inputs, Source source) {
                      [&](const SolverInput& input) { return input.source == source; });
 }
 
-std::vector<std::string> property_values(const std::vector<SolverInput>& inputs) {
-  std::vector<std::string> values;
-  for (const SolverInput& input : inputs)
-    if (input.property)
-      values.push_back(input.fallback ? fmt::format("{:.6g}", input.argument.solver.from_canonical(
-                                                                  *input.fallback))
-                                      : "<" + input.argument.argument + ">");
-  return values;
+std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs) {
+  std::vector<std::string> places;
+  for (const SolverInput& input : inputs) {
+    const InputArgument& of = input.argument;
+    const std::string unit = of.solver.name == "1" ? "" : ", " + of.solver.name;
+    if (input.property) places.push_back("<" + of.meaning + unit + ">");
+  }
+  return places;
 }
 
 namespace fortran {

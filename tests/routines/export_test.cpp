@@ -1,4 +1,5 @@
 // Exporters as a whole: what is refused, what the recipe says, that strict compilers are content.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -6,8 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "models/law.h"
 #include "support/generated.h"
+#include "support/sample_data.h"
 #include "support/sample_tables.h"
+#include "table/build.h"
+#include "table/direct.h"
 
 namespace frictab {
 
@@ -51,6 +56,35 @@ TEST(SlowExport, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
     }
 }
 
+class SlowSourcesOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {
+  const models::Model model = test::plausible_model(*models::find_law(GetParam()));
+  const models::AssembledLaw law(model);
+  const Table table =
+      table::build_table(law, table::state_ranges(law, test::sample_data(model), {}), {});
+  const Table direct = table::direct_form(law, table);
+  for (const Table* form : {&table, &direct}) {
+    const ExportRequest request{*form, "mm-t-s", {}};
+    const std::string key = GetParam() + (form == &direct ? " direct" : "") + " warnings";
+    if (have_program("gcc")) {
+      EXPECT_NO_THROW(test::compiled(key, *find_exporter("c"), request, "c99",
+                                     {"-Wall", "-Wextra", "-pedantic", "-Werror"}));
+    }
+    if (have_program("gfortran")) {
+      EXPECT_NO_THROW(test::compiled(key, *find_exporter("abaqus_vfric"), request, "double",
+                                     test::no_warnings));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, SlowSourcesOf, testing::ValuesIn(models::law_names()),
+                         [](const auto& law) {
+                           std::string name = law.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
+
 TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {
   const Table table = test::four_axis_table();
   const std::string what = refusal({table,
@@ -65,6 +99,16 @@ TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {
   EXPECT_THAT(what, HasSubstr("'state' is no source of a state"));
   EXPECT_THAT(what, HasSubstr("-5 is below the smallest possible sigma_f_MPa"));
   EXPECT_THAT(what, HasSubstr("did you mean 'v_rel_mm_s'?"));
+}
+
+TEST(Export, RefusesAConstantBeyondAnAxisUnlessTheLawGoesOnThere) {
+  Table table = test::four_axis_table();
+  const ExportRequest request{table, "mm-t-s", {{"psi", "constant:25"}}};
+  EXPECT_EQ(refusal(request),
+            "export.inputs.psi: error: 25 lies beyond the table's 1 .. 20\n"
+            "  hint: a value inside, a wider range, or [table.axes.psi] outside = \"law\"");
+  Table follows = test::sides_table(); // by the law below 500 MPa and above 200 degC
+  EXPECT_EQ(refusal({follows, "mm-t-s", {{"T_contact_C", "constant:250"}}}), "accepted");
 }
 
 TEST(Export, RefusesFieldNumbersThatAreNone) {
@@ -125,8 +169,10 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   const Table table = test::four_axis_table();
   const nlohmann::json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
   EXPECT_EQ(out["entry"], "vfric");
-  EXPECT_THAT(std::string(out["input_deck"]),
-              HasSubstr("*Friction, user, depvar=6, properties=3\n 4.47214, 110, 4.8e+08\n"));
+  EXPECT_THAT(
+      std::string(out["input_deck"]),
+      HasSubstr("*Friction, user, depvar=6, properties=3\n <surface expansion ratio A1/A0>, "
+                "<contact temperature, degC>, <flow stress of the workpiece, Pa>\n"));
   EXPECT_EQ(out["properties"][2]["unit"], "Pa");
   EXPECT_EQ(out["state_variables"].size(), 6u);
   EXPECT_EQ(out["state_variables"][1]["unit"], "Pa*m");
@@ -135,6 +181,24 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   EXPECT_THAT(std::string(out["data_origin"]), HasSubstr("synthetic"));
   EXPECT_EQ(out["table"]["axes"][0]["range"][1], 2750.0);
   EXPECT_EQ(out["table"]["worst_case_MPa"], 0.31);
+}
+
+TEST(Export, InputDeckHasTheLinesOfTheFieldsTheLawTakes) {
+  const Table table = test::four_axis_table();
+  for (const char* target : {"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef", "abaqus_fric",
+                             "abaqus_fric_coef"}) {
+    const nlohmann::json out = recipe(target, {table, "mm-t-s", {{"psi", "field:2"}}});
+    EXPECT_THAT(
+        std::string(out["input_deck"]),
+        HasSubstr("*Initial Conditions, type=FIELD, variable=2\n"
+                  " <nodes of both surfaces>, <surface expansion ratio A1/A0 at the start>\n"
+                  "** and in the step:\n"
+                  "*Field, variable=2\n"
+                  " <nodes of both surfaces>, <surface expansion ratio A1/A0>\n"))
+        << target;
+    EXPECT_EQ(std::string(recipe(target, {table, "mm-t-s", {}})["input_deck"]).find("*Field"),
+              std::string::npos);
+  }
 }
 
 TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {

@@ -390,7 +390,8 @@ TEST(FricRecipe, TellsDepvarPropertiesAndTheUnsymmetricSolver) {
   EXPECT_EQ(out["entry"], "fric");
   EXPECT_THAT(std::string(out["input_deck"]),
               testing::AllOf(testing::HasSubstr("*Friction, user, depvar=15, properties=3\n"
-                                                " 4.47214, 4.8e+08, 0.\n"),
+                                                " <surface expansion ratio A1/A0>, "
+                                                "<flow stress of the workpiece, Pa>, 0.\n"),
                              testing::HasSubstr("unsymm=YES")));
   EXPECT_EQ(out["properties"][2]["quantity"], "critical_slip");
   EXPECT_EQ(out["properties"][2]["unit"], "m");

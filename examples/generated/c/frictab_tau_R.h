@@ -43,7 +43,7 @@ double frictab_tau_R_gradient(
     double sigma_f_MPa,
     double* derivative);
 
-/* The axes beyond whose range the state lies, as bits:
+/* The states beyond whose tested range this one lies, as bits:
  *   1u sigma_n_MPa
  *   2u v_rel_mm_s
  *   4u T_contact_C

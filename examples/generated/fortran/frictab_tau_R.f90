@@ -150,7 +150,7 @@ contains
     end do
   end subroutine frictab_tau_R_gradient_batch
 
-  ! The axes beyond whose range the state lies, as bits:
+  ! The states beyond whose tested range this one lies, as bits:
   !   1 sigma_n_MPa
   !   2 v_rel_mm_s
   !   4 T_contact_C

@@ -186,7 +186,8 @@ C             by is slip; the rest of the motion was elastic.
               over = hold - fric
               if (over .lt. stiff*slip) slip = over/stiff
               if (over .le. 0.0D0) slip = 0.0D0
-              speed = slip*rate
+              speed = 0.0D0
+              if (slip .gt. 0.0D0) speed = slip*rate
               ssum = slip
               if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
 C             Work: mean of the force before and the force now.

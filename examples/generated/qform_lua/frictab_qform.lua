@@ -111,7 +111,7 @@ function frictab_tau_R(sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_
   return ft_tau(sigma_n_MPa, v_rel_mm_s, T_contact_C, sigma_f_MPa)
 end
 
--- True where a state lies outside the range of an axis.
+-- True where a state lies outside the range that was tested.
 function frictab_outside(sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa)
   do
     local x = sigma_n_MPa

@@ -25,14 +25,8 @@ using json = nlohmann::ordered_json;
 const char* const file = "frictab_fric.f";
 
 std::string input_deck(const std::vector<SolverInput>& inputs) {
-  std::vector<std::string> values = property_values(inputs);
-  values.push_back("0.");
-  return fmt::format("*Surface Interaction, name=FRICTAB\n*Friction, user, depvar={}, "
-                     "properties={}\n{}*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
-                     "** and on the step, for derivatives by the pressure:\n"
-                     "*Step, unsymm=YES, nlgeom=YES\n",
-                     abaqus::states_size(state_count(inputs)), values.size(),
-                     abaqus::property_deck(values));
+  return abaqus::friction_lines("user", abaqus::states_size(state_count(inputs)), inputs, {"0."}) +
+         abaqus::standard_lines(inputs);
 }
 
 json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {

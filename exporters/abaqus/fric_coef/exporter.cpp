@@ -25,15 +25,9 @@ using json = nlohmann::ordered_json;
 const char* const file = "frictab_fric_coef.f";
 
 std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  const std::vector<std::string> values = property_values(inputs);
-  std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, user=COEFFICIENT";
-  if (is_2024(request))
-    deck += fmt::format(", depvar={}", abaqus::states_size(state_count(inputs)));
-  if (!values.empty()) deck += fmt::format(", properties={}", values.size());
-  return deck + "\n" + abaqus::property_deck(values) +
-         "*Contact Pair, interaction=FRICTAB\n <secondary>, <main>\n"
-         "** and on the step, for derivatives by the pressure:\n"
-         "*Step, unsymm=YES, nlgeom=YES\n";
+  const std::size_t depvar = is_2024(request) ? abaqus::states_size(state_count(inputs)) : 0;
+  return abaqus::friction_lines("user=COEFFICIENT", depvar, inputs) +
+         abaqus::standard_lines(inputs);
 }
 
 json state_variables(const ExportRequest& request, const std::vector<SolverInput>& inputs) {

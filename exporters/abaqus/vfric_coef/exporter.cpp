@@ -102,7 +102,8 @@ void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
   abaqus::add_compile(out, file);
   out["input_deck"] = abaqus::friction_lines("user=coefficient", 0, inputs) +
                       "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-                      "*Contact Property Assignment\n , , FRICTAB\n";
+                      "*Contact Property Assignment\n , , FRICTAB\n" +
+                      abaqus::field_lines(inputs);
 }
 
 SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -129,8 +130,9 @@ const char* const notes =
     "and slip, the routine says how large the coefficient is. The argument list is RECALLED: "
     "check against your release; abaqus_vfriction gives the same friction with a verified one. "
     "fCoef = tau_R/pressure, so that a law with a shear limit gets a coefficient that falls with "
-    "pressure, and a large one at small pressures: force = fCoef*pressure is tau_R all the "
-    "same. Below 1e-3 MPa the coefficient is the one there: the limit of a law that rises with "
+    "pressure, and a large one at small pressures, at most 10: up to that force = "
+    "fCoef*pressure is tau_R all the same. Below 1e-3 MPa the coefficient is the one there: the "
+    "limit of a law that rises with "
     "pressure, while tau_R of one that does not (shear, m k) goes to 0 with the pressure. "
     "fCoefDeriv is set to 0. There is no history: sliding distance, friction work and peak "
     "pressure are properties or fields (VUFIELD). There are no state variables (DEPVAR), so "

@@ -115,7 +115,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .result = coefficient_kind(request)};
+  return {.gives = gives(request), .result = coefficient_kind(request), .peak_presses = true};
 }
 
 const char* const source_of_signature =

@@ -23,7 +23,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 std::string keywords(const frictab::table::Table& table, const std::vector<SolverInput>& inputs) {
-  const std::vector<std::string> values = property_values(inputs);
+  const std::vector<std::string> values = property_placeholders(inputs);
   std::string deck = fmt::format(
       "*CONTROL_CONTACT\n"
       "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
@@ -37,7 +37,10 @@ std::string keywords(const frictab::table::Table& table, const std::vector<Solve
       std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
       state_count(table, inputs));
   for (std::size_t i = 0; i < values.size(); ++i)
-    deck += fmt::format("{:>10}{}", values[i], i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
+    deck += fmt::format("$ UA({}): {}\n", i + 1, values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    deck += fmt::format("{:>10}{}", fmt::format("<UA({})>", i + 1),
+                        i % 8 == 7 || i + 1 == values.size() ? "\n" : "");
   return deck;
 }
 
@@ -104,7 +107,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .most_points = 128};
+  return {.gives = gives(request), .most_points = 128, .pressure = 1};
 }
 
 const char* const source_of_signature =
@@ -122,8 +125,8 @@ const char* const notes =
     "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
     "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
     "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
-    "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where "
-    "nothing is tabulated); two more for each further history of a traced law (energy, times, "
+    "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where no "
+    "state has a tested range); two more for each further history of a traced law (energy, times, "
     "means, peaks, friction power). Surface expansion and flow stress are not known to the "
     "solver: "
     "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
