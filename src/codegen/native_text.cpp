@@ -79,7 +79,7 @@ std::vector<std::string> native_comments(const Exporter& exporter, const ExportR
   texts.push_back(grid_text(request, table));
   texts.push_back("Worst drift of the frictab table it is made from: " + drift_text(request.table));
   texts.push_back("Read by the solver: " + form.interpolation +
-                  ". Beyond the ends it keeps the value there, whatever `outside` says.");
+                  ". Beyond the ends it keeps the value there; no coefficient is above 10.");
   texts.push_back("Source: " + exporter.signature_source);
   std::vector<std::string> lines;
   for (const std::string& text : texts) {

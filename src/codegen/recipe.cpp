@@ -104,6 +104,12 @@ bool is_direct_recipe(const std::string& text, const std::string& file) {
   return recipe.is_object() && recipe.value("form", json("table")) == "direct";
 }
 
+std::string model_of_recipe(const std::string& text, const std::string& file) {
+  const json recipe = io::parse_json(text, file);
+  const json model = recipe.is_object() ? recipe.value("model", json("")) : json("");
+  return model.is_string() ? model.get<std::string>() : "";
+}
+
 std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file) {
   const json recipe = io::parse_json(text, file);
   std::vector<std::string> files;

@@ -17,6 +17,9 @@ nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest
 // The table's axes with ranges, how the value becomes tau_R, and the drift it is known for.
 nlohmann::ordered_json recipe_table(const ExportRequest& request);
 
+// Whose law it is about; empty where it does not say.
+std::string model_of_recipe(const std::string& text, const std::string& file);
+
 // Whether a recipe's sources hold the law itself.
 bool is_direct_recipe(const std::string& text, const std::string& file);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "table/bound.h"
+#include "table/outside.h"
 #include "table/states.h"
 
 namespace frictab::codegen {
@@ -33,7 +34,10 @@ std::string range_text(const InputArgument& input, const table::Table& table) {
   std::string text = fmt::format("{:.6g} .. {:.6g}", unit.from_canonical(known->first),
                                  unit.from_canonical(known->second));
   if (unit.name != "1") text += " " + unit.name;
-  return input.axis ? text : text + " (no axis: any value, verified there)";
+  if (input.axis) return text;
+  for (const table::AxisEnds& held : table::held_input_ends(table))
+    if (held.name == input.name) return text + " (no axis; beyond it counts as outside)";
+  return text + " (no axis: any value, verified there)";
 }
 
 std::vector<std::string> outside_lines(const table::Table& table) {

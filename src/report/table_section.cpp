@@ -103,11 +103,18 @@ std::string outside_text(const DriftRecord& r) {
   return text;
 }
 
-// A solver's own table says what it holds, and what that costs; a routine, what it was not asked.
+std::string below_text(const DriftRecord& r) {
+  if (!r.below) return "";
+  return fmt::format("sigma_n_MPa {:.4g} to {:.4g} MPa, below the range ({}): up to {} MPa off",
+                     r.below->low_MPa, r.below->high_MPa, r.below->outside,
+                     figures(r.below->max_abs_MPa));
+}
+
+// What holds states says which, and what that costs; a routine, what it was not asked.
 std::string subject_text(const DriftRecord& r) {
   std::string text = svg::escape(r.subject);
   for (const std::string& remark :
-       {r.held ? verify::cost_text(r) : std::string(), verify::not_posed_text(r)})
+       {r.held ? verify::cost_text(r) : std::string(), verify::not_posed_text(r), below_text(r)})
     if (!remark.empty()) text += "<br>" + svg::escape(remark);
   return text;
 }

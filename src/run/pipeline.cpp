@@ -39,8 +39,37 @@ void Pipeline::load_calibration() {
   if (!calibration_) calibration_ = earlier_.calibration();
 }
 
+namespace {
+
+// Of the tables in the directory those that table.model names; all of them where it says best or
+// all, which is what the earlier run has resolved.
+void keep_named(std::vector<Table>& tables, const table::TableOptions& options) {
+  const std::vector<std::string>& names = options.model;
+  if (std::count(names.begin(), names.end(), "best") +
+      std::count(names.begin(), names.end(), "all"))
+    return;
+  std::string there;
+  for (const Table& table : tables)
+    there += (there.empty() ? "" : ", ") + table.model;
+  const auto is_named = [&](const Table& table) {
+    const models::ModelName name = models::read_model_name(table.model);
+    std::string law = table.model; // without its quantile
+    if (name.base) law = name.base->name + (name.traced ? "_traced" : "");
+    return std::find(names.begin(), names.end(), law) != names.end() ||
+           std::find(names.begin(), names.end(), table.model) != names.end();
+  };
+  std::erase_if(tables, [&](const Table& table) { return !is_named(table); });
+  if (tables.empty())
+    throw InputError(options.place, "there is no table of " + join(names, ", "),
+                     "there are tables of " + there + "; frictab tabulate makes others");
+}
+
+} // namespace
+
 void Pipeline::load_tables() {
-  if (tables_.empty()) tables_ = earlier_.tables(job_.table.memory_limit_MiB);
+  if (!tables_.empty()) return;
+  tables_ = earlier_.tables(job_.table.memory_limit_MiB);
+  keep_named(tables_, job_.table);
 }
 
 // ---- calibrate ----
@@ -157,8 +186,7 @@ void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
     missed_.push_back(fmt::format("the table of {} drifts by up to {:.3g} MPa, more than the {:g} "
                                   "MPa allowed: more nodes in [table.axes], or a larger "
                                   "table.tolerance_MPa",
-                                  table.model, std::max(drift.worst_case_MPa, drift.rows.max_abs),
-                                  drift_allowed()));
+                                  table.model, verify::largest_drift_MPa(drift), drift_allowed()));
   table.record.worst_case_MPa = drift.worst_case_MPa;
   table.record.proven_drift_MPa = drift.proven_MPa;
   for (const auto& [name, value] : drift.worst_state)
@@ -231,9 +259,12 @@ std::string Pipeline::export_directory(const std::string& target, const Table& t
 
 void Pipeline::generate() {
   const auto targets = codegen::exporters_named(job_.exports.targets);
-  if (tables_.empty() && !targets.empty())
-    for (const Table& table : earlier_.table_descriptions()) // before anything large is read
+  if (tables_.empty() && !targets.empty()) {
+    std::vector<Table> described = earlier_.table_descriptions(); // before anything large is read
+    keep_named(described, job_.table);
+    for (const Table& table : described)
       codegen::check_request_size(table, targets, job_.exports.options);
+  }
   load_tables();
   for (const std::string& file : earlier_.source_files())
     output_.remove_old(file);
@@ -285,7 +316,9 @@ const codegen::SourceBundle& Pipeline::sources_in(const std::string& directory) 
 std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, const Table& direct) {
   std::vector<verify::GeneratedSource> sources;
   for (const codegen::Exporter* exporter : codegen::exporters_named(job_.exports.targets)) {
-    const std::string directory = export_directory(exporter->name, table);
+    std::string directory = export_directory(exporter->name, table);
+    if (!sources_.count(directory)) // of a run that may have had more tables
+      directory = earlier_.source_directory(exporter->name, table.model);
     const codegen::SourceBundle& bundle = sources_in(directory);
     const bool of_law =
         codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");

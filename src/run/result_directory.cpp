@@ -72,6 +72,15 @@ std::vector<table::Table> ResultDirectory::table_descriptions() const {
   return tables;
 }
 
+std::string ResultDirectory::source_directory(const std::string& target,
+                                              const std::string& model) const {
+  const std::string all = "export/" + target, own = all + "/" + model;
+  const fs::path recipe = directory_ / all / "recipe.json";
+  if (fs::exists(directory_ / own) || !fs::exists(recipe)) return own;
+  return codegen::model_of_recipe(io::read_file(recipe.string()), recipe.string()) == model ? all
+                                                                                            : own;
+}
+
 codegen::SourceBundle ResultDirectory::sources(const std::string& name) const {
   const fs::path directory = directory_ / name;
   if (!fs::is_directory(directory))

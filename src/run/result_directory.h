@@ -27,6 +27,8 @@ public:
   tables(double memory_limit_MiB) const;                // by name; larger ones stay on disk
   std::vector<table::Table> table_descriptions() const; // without values
   codegen::SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
+  // The one of these two that holds this model's sources; where none does, the second.
+  std::string source_directory(const std::string& target, const std::string& model) const;
   std::vector<trace::Trace> traces() const;
   std::optional<verify::Verification> verification() const;
 

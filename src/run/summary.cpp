@@ -181,7 +181,7 @@ void add_to(DriftLine& line, const verify::DriftRecord& r) {
   line.passed = line.passed && r.passed;
   if (!r.passed)
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
-                              std::max(r.worst_case_MPa, r.rows.max_abs));
+                              verify::largest_drift_MPa(r));
   if (const std::string left = verify::not_posed_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own

@@ -43,7 +43,7 @@ struct Probe {
   States states;
   std::vector<double> law;
   std::vector<double> table;
-  std::vector<unsigned> outside; // bits of the axes that were clamped
+  std::vector<unsigned> outside; // bits of table/outside.h, all_ends
 };
 Probe with_law(const LawFunction& law, States states);     // no table yet
 double compare(Probe& probed, const TableFunction& table); // fills it in; the largest |table - law|

@@ -166,7 +166,7 @@ OutsideRule::Answer OutsideRule::prepare(std::span<const double> state, double* 
 }
 
 std::optional<double> OutsideRule::tau(std::span<const double> state, unsigned* outside) const {
-  double row[2 * 16];
+  double row[2 * most_inputs];
   const Answer answer = prepare(state, row, outside);
   if (answer == Answer::table) return std::nullopt;
   const bool missing =
@@ -177,7 +177,7 @@ std::optional<double> OutsideRule::tau(std::span<const double> state, unsigned* 
 
 std::optional<double> OutsideRule::gradient(std::span<const double> state,
                                             std::span<double> derivative, unsigned* outside) const {
-  double row[2 * 16], by_row[2 * 16];
+  double row[2 * most_inputs], by_row[2 * most_inputs];
   const Answer answer = prepare(state, row, outside);
   if (answer == Answer::table) return std::nullopt;
   if (answer == Answer::none) {

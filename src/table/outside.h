@@ -49,7 +49,7 @@ struct AxisEnds {
 std::vector<AxisEnds> axis_ends(const Table& table);
 
 // Inputs that are no axis and were tested over a range only: those that `combine` holds at its ends
-// (traced effects), and numbers of levels. The formula answers beyond it, with what holds there.
+// (traced effects), and numbers of levels. Beyond it the formula answers as the law does.
 std::vector<AxisEnds> held_input_ends(const Table& table);
 
 // Both, in this order: bit i of `outside` is the i-th of them.

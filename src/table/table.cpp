@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "core/parallel.h"
 #include "data/quantity.h"
 #include "expr/program.h"
@@ -192,6 +195,9 @@ void TableFunction::Data::add_axes(const Table& table) {
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.inputs = table.inputs();
+  if (d.inputs.size() > most_inputs)
+    throw InputError({table.model, 0, 0}, fmt::format("this table needs {} states, more than {}",
+                                                      d.inputs.size(), most_inputs));
   if (OutsideRule::needed(table)) d.rule = std::make_unique<OutsideRule>(table);
   d.n_axes = table.axes.size();
   d.held = held_input_ends(table);
@@ -226,7 +232,7 @@ double TableFunction::Data::gradient(std::span<const double> state, std::span<do
                                      unsigned* outside) const {
   if (rule)
     if (const auto answer = rule->gradient(state, derivative, outside)) return *answer;
-  double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + 16], by_row[1 + 16];
+  double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + most_inputs], by_row[1 + most_inputs];
   coordinates(state.data(), u);
   const double x = raw(u, by_u, outside);
   row[0] = log_value ? std::exp(x) : x;
@@ -278,7 +284,7 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
   constexpr std::size_t per_task = 32 * Program::block;
   parallel_for((rows + per_task - 1) / per_task, [&](std::size_t task) {
     const std::size_t first = task * per_task, count = std::min(rows - first, per_task);
-    double state[16];
+    double state[most_inputs];
     const auto read_state = [&](std::size_t i) {
       for (std::size_t c = 0; c < columns.size(); ++c)
         state[c] = columns[c][i];

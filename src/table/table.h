@@ -79,9 +79,13 @@ struct Table {
   std::size_t bytes() const;              // values, nodes and constants as doubles
 };
 
+// States that a table may need, axes included.
+inline constexpr std::size_t most_inputs = 24;
+
 // Evaluates a table by the kernel that the generated sources contain.
 class TableFunction {
 public:
+  // Throws InputError where the table needs more than most_inputs.
   explicit TableFunction(const Table& table);
   ~TableFunction();
   TableFunction(const TableFunction&) = delete;
@@ -90,7 +94,7 @@ public:
   const std::vector<std::string>& inputs() const;
 
   // tau_R in MPa for one state, in the order of inputs(). Bit d of *outside: the state lies beyond
-  // axis d.
+  // the d-th of all_ends (table/outside.h): the axes, then inputs that are held.
   double operator()(std::span<const double> state, unsigned* outside = nullptr) const;
 
   // The same value, and its derivatives by each state (MPa per canonical unit) in one pass. At a

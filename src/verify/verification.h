@@ -1,6 +1,7 @@
 // Drift: how far a table, and each source generated from it, are from the law.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,6 +62,13 @@ struct DriftRecord {
   std::optional<std::map<std::string, double>> held = {};
   double cost_mean_abs_MPa = 0, cost_max_abs_MPa = 0; // over the rows inside the range
 };
+
+// What decides whether it passed, but for answers where there should be none: over the range, on
+// the rows, and below the range where the law is followed there.
+inline double largest_drift_MPa(const DriftRecord& r) {
+  const double below = r.below && r.below->outside == "law" ? r.below->max_abs_MPa : 0;
+  return std::max({r.worst_case_MPa, r.rows.max_abs, below});
+}
 
 struct Verification {
   double max_drift_MPa = 0;

@@ -24,7 +24,9 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
           : fmt::format("; {} rows answered by a number where outside = error",
                         record.n_not_refused);
   const std::string below =
-      record.below ? fmt::format("; {:.6g} MPa below the range", record.below->max_abs_MPa) : "";
+      record.below && record.below->outside == "law"
+          ? fmt::format("; {:.6g} MPa below the range", record.below->max_abs_MPa)
+          : "";
   return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows{}; "
                      "allowed {:.6g} MPa{}",
                      record.worst_case_MPa, state, record.rows.max_abs, below, max_drift_MPa,

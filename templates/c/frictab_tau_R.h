@@ -35,7 +35,7 @@ double frictab_tau_R_gradient(
     @{parameters},
     double* derivative);
 
-/* The axes beyond whose range the state lies, as bits:
+/* The states beyond whose tested range this one lies, as bits:
 @for line in bits
  *   @{line.text}
 @end

@@ -129,7 +129,7 @@ contains
     end do
   end subroutine frictab_tau_R_gradient_batch
 
-  ! The axes beyond whose range the state lies, as bits:
+  ! The states beyond whose tested range this one lies, as bits:
 @for line in bits
   !   @{line.text}
 @end

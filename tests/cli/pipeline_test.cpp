@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -240,6 +241,33 @@ TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAt
                         "  hint: known: constant:VALUE, solver\n"
                         "--set 2: error: qform_lua: 'field:1' is no source of a state\n"
                         "  hint: known: constant:VALUE, property\n");
+}
+
+TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  const auto verified = run_frictab({"verify", job, "--set", "table.model=levanov"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.err;
+  const auto records = nlohmann::json::parse(directory.read("out/verify.json")).at("records");
+  EXPECT_EQ(records.size(), 4U) << "table, C, VFRIC in two precisions";
+  for (const auto& record : records)
+    EXPECT_EQ(record.at("model"), "levanov");
+  const auto none = run_frictab({"export", job, "--set", "table.model=shear"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, testing::HasSubstr("error: there is no table of shear\n  hint: there are "
+                                           "tables of "));
+  EXPECT_TRUE(fs::exists(directory.path("out/export/c/levanov/recipe.json"))) << "nothing is lost";
+  const auto quantiles = run_frictab(
+      {"run", job, "--set", "table.model=levanov", "--set", "table.quantile=[0.25, 0.5]"});
+  ASSERT_EQ(quantiles.exit_code, 0) << quantiles.err;
+  EXPECT_EQ(run_frictab({"export", job, "--set", "table.model=levanov"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(directory.path("out/export/c/levanov_q25/recipe.json")));
+  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  EXPECT_EQ(run_frictab({"export", job, "--set", "table.model=levanov"}).exit_code, 0);
+  const auto others = run_frictab({"verify", job});
+  EXPECT_EQ(others.exit_code, 2) << "the sources there are levanov's";
+  EXPECT_THAT(others.err, testing::HasSubstr("there are no generated sources"));
+  EXPECT_EQ(nlohmann::json::parse(directory.read("out/export/c/recipe.json")).at("model"),
+            "levanov");
 }
 
 TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {

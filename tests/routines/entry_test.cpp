@@ -49,6 +49,19 @@ TEST_P(SlowEntryOf, TellsByBitsWhichAxesAreLeft) {
   EXPECT_EQ(outside(inf, inf, inf, inf, 0, 480), 15u);
 }
 
+TEST_P(SlowEntryOf, TellsByBitsWhichHeldInputsAreLeft) {
+  static const table::Table table = test::held_inputs_table();
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  const codegen::Exporter& exporter = *codegen::find_exporter(GetParam());
+  const codegen::Library& held =
+      *test::compiled("held", exporter, request, exporter.variants(request)[0].name);
+  const auto outside = held.find<unsigned(double, double, double, double, double, double, double)>(
+      "frictab_outside");
+  EXPECT_EQ(outside(1000, 2, 50, 100, 0, 480, 45), 0u);
+  EXPECT_EQ(outside(1000, 2, 50, 100, 0, 480, 29), 1u);
+  EXPECT_EQ(outside(1000, 2, 50, 100, 0, 480, 61), 1u);
+}
+
 TEST_P(SlowEntryOf, GivesTheSameBitsInBatchAndTakesNullForWhatItDoesNotUse) {
   const table::Table table = test::four_axis_table();
   const test::States states(table, 1000, 5);

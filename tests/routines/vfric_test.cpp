@@ -282,6 +282,19 @@ TYPED_TEST(Vfric, WritesNoStateBeyondDEPVAR) {
   }
 }
 
+TYPED_TEST(Vfric, CountsIncrementsInWhichAHeldInputIsOutsideWhatWasTested) {
+  static const table::Table table = test::held_inputs_table();
+  auto c = this->call(1);
+  c.states = 6;
+  c.resize(1, 1);
+  this->set(c, 0, 1000, 50, 100);
+  for (const double humidity : {45.0, 29.0, 61.0}) {
+    c.properties = {TypeParam(humidity)};
+    this->run(c, this->routine("held", table));
+  }
+  EXPECT_EQ(c.state[3], 2);
+}
+
 TYPED_TEST(Vfric, TakesTheIncrementsSlipAloneWithoutStateVariables) {
   static const TableFunction table(test::branching_table());
   auto c = this->call(1);

@@ -237,6 +237,15 @@ Table history_table() {
   return table;
 }
 
+Table held_inputs_table() {
+  Table table = constant_table();
+  table.model = "held";
+  table.combine =
+      table.combine * (1.0 + 0.01 * minimum(maximum(Expr::symbol("humidity_pct"), 30.0), 60.0));
+  table.record.inputs["humidity_pct"] = {.low = 30, .high = 60, .unit = "%"};
+  return table;
+}
+
 Table example_table() {
   Table table;
   table.model = "example";
@@ -256,17 +265,13 @@ Table example_table() {
 }
 
 const std::vector<NamedTable>& sample_tables() {
-  static const std::vector<NamedTable> tables = {{"constant", constant_table()},
-                                                 {"one_axis", one_axis_table()},
-                                                 {"four_axes", four_axis_table()},
-                                                 {"branching", branching_table()},
-                                                 {"traced", traced_table()},
-                                                 {"further_histories", further_histories_table()},
-                                                 {"spline", spline_table()},
-                                                 {"spline_axis", spline_axis_table()},
-                                                 {"sides", sides_table()},
-                                                 {"direct", direct_table()},
-                                                 {"direct_network", direct_network()}};
+  static const std::vector<NamedTable> tables = {
+      {"constant", constant_table()},   {"one_axis", one_axis_table()},
+      {"four_axes", four_axis_table()}, {"branching", branching_table()},
+      {"traced", traced_table()},       {"further_histories", further_histories_table()},
+      {"spline", spline_table()},       {"spline_axis", spline_axis_table()},
+      {"held", held_inputs_table()},    {"sides", sides_table()},
+      {"direct", direct_table()},       {"direct_network", direct_network()}};
   return tables;
 }
 

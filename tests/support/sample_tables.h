@@ -23,6 +23,9 @@ table::Table
 spline_table(); // cubic: axes of 7 (with a kink), 5, 3 and 2 nodes; ln value; shear limit
 table::Table spline_axis_table(); // cubic, one axis
 
+// No axis; what a traced effect brought in: a number held at 30 and 60.
+table::Table held_inputs_table();
+
 table::Table sides_table();    // each way to go on beyond an end; uneven nodes; ln value
 table::Table direct_table();   // no values: a closed form, on some sides held at its range
 table::Table direct_network(); // no values: three nets of four units

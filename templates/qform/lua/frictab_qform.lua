@@ -262,7 +262,7 @@ function frictab_tau_R(@{entry})
   return ft_tau(@{converted})@{to_solver}
 end
 
--- True where a state lies outside the range of an axis.
+-- True where a state lies outside the range that was tested.
 function frictab_outside(@{entry})
 @for axis in ends
   do
