@@ -113,7 +113,7 @@ TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
   expect_law(test::network_model(20, 8));
 }
 
-TEST(DirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
+TEST(SlowDirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {
   models::Model model = test::network_model(4, 3);
   // 40 times the slope: tanh is 1 on most of the box.
   Expr steep = model.law->build(model.conventions).value;

@@ -92,7 +92,7 @@ bool names(const BetweenResult& result, std::size_t column) {
   });
 }
 
-TEST(Between, ThreeColumnsThatHideEachOtherAreNamedTogether) {
+TEST(SlowBetween, ThreeColumnsThatHideEachOtherAreNamedTogether) {
   int all = 0, others = 0;
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -127,7 +127,7 @@ TEST(SlowBetween, NoiseIsNamedNoMoreOftenThanAsked) {
   EXPECT_LE(alarms, 7) << "binomial, 200 at 0.01: 99.9 % lie below 8";
 }
 
-TEST(Between, ALevelOfFourTestsThatScatterMoreIsNotNamedForThat) {
+TEST(SlowBetween, ALevelOfFourTestsThatScatterMoreIsNotNamedForThat) {
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Campaign c(24, 0.05, seed);

@@ -72,7 +72,7 @@ double tau(const Law& law, double sigma, double column, double second = 0.25) {
                        models::parameter_names(law))(row, starts_of(law));
 }
 
-TEST(ExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
+TEST(SlowExtendedLaw, NeutralEffectsLeaveEveryBitOfEveryLaw) {
   for (const Law& law : models::all_laws())
     for (const effects::EffectForm& form : effects::all_effects())
       for (const ActsOn place : {ActsOn::mu, ActsOn::m, ActsOn::mu_m, ActsOn::tau}) {

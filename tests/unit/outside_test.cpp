@@ -248,7 +248,7 @@ TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
   EXPECT_TRUE(law.passed);
 }
 
-TEST(Verify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
+TEST(SlowVerify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
   for (const char* target : {"c", "abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"})
     for (const char* words : {"clamp", "error", "law"}) {
       const DriftRecord r = verified(words, target);

@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"form=logarithmic,column=dwell_s,strength=0.6", "dwell_s", ActsOn::mu}),
     name_of);
 
-TEST(Trace, DriftAlongADeclaredOrderIsReportedNotShipped) {
+TEST(SlowTrace, DriftAlongADeclaredOrderIsReportedNotShipped) {
   const TwinOptions options =
       campaign("log_coulomb", 6, "form=linear,column=latent,latent=drift,strength=0.6");
   const Trace t = traced(options, declared_order());
@@ -311,7 +311,7 @@ TEST(SlowTrace, WearMayBeShippedWhereTheUserDeclaresTheToolDistance) {
 }
 
 // Not the twin's: its effects act on one of the two branches.
-TEST(Trace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
+TEST(SlowTrace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
   // Orowan's kink is Shaw's law with an exponent beyond any bound.
   const Data data = data_of(campaign("orowan", 5, "form=power,column=humidity_pct,strength=0.8"));
   const Trace t = traced(data, "shaw");
@@ -323,7 +323,7 @@ TEST(Trace, AParameterOfTheTracedLawThatABoundHoldsHasNoErrorAndSaysSo) {
   EXPECT_THAT(fit.remarks, Contains(StartsWith("n is at its bound 20: experiments with sigma_N")));
 }
 
-TEST(Trace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
+TEST(SlowTrace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
   Data data = data_of(campaign("orowan", 6));
   for (Dataset* part : {&data.training, &data.validation}) {
     const auto humidity = part->values("humidity_pct");
@@ -505,7 +505,7 @@ TEST(Trace, SaysWhatItCouldHaveSeen) {
       << "what changes within every experiment is seen better";
 }
 
-TEST(Trace, FewExperimentsProveNothingAndSaySo) {
+TEST(SlowTrace, FewExperimentsProveNothingAndSaySo) {
   TwinOptions options = campaign("coulomb", 1, "form=saturation,column=s_mm,amplitude=0.8");
   options.design = parse_design("p=500,2750;psi=1;v=5;T=20,200;points=60;validation=3",
                                 twin::default_design(twin::twin_set("D")));
