@@ -35,15 +35,13 @@ std::string field_lines(const std::vector<SolverInput>& inputs) {
   std::string lines;
   for (const SolverInput& input : inputs) {
     if (input.source != Source::field) continue;
-    const std::string unit =
-        input.argument.solver.name == "1" ? "" : ", " + input.argument.solver.name;
-    lines += fmt::format("** field variable {0}: {1}{2}; both surfaces need it\n"
+    lines += fmt::format("** field variable {0}: {1}; both surfaces need it\n"
                          "*Initial Conditions, type=FIELD, variable={0}\n"
-                         " <nodes of both surfaces>, <{1} at the start>\n"
+                         " <nodes of both surfaces>, <{1}, at the start>\n"
                          "** and in the step:\n"
                          "*Field, variable={0}\n"
                          " <nodes of both surfaces>, <{1}>\n",
-                         input.field, input.argument.meaning, unit);
+                         input.field, meaning_and_unit(input));
   }
   return lines;
 }

@@ -68,8 +68,9 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
     lines.push_back(fmt::format("The law needs {}({}) and on: with a smaller DEPVAR "
                                 "integrals are 0, peaks and means the present value.",
                                 routine.state_name, explicit_states + 1));
-  lines.push_back(fmt::format("NaN in gives NaN out; such a point's {} stay as they were. A point "
-                              "without area has no pressure to look up, and no friction.",
+  lines.push_back(fmt::format("NaN in gives NaN out, and such a point's {} stay as they were; NaN "
+                              "in fTangPrev counts as the present force. A point without area "
+                              "has no pressure to look up, and no friction.",
                               routine.state_name));
   return lines;
 }

@@ -19,6 +19,9 @@ namespace frictab::codegen {
 namespace {
 
 constexpr double some_flow_stress = 480; // MPa, where a law does not ask for one
+// MPa, likewise: far above those where a coefficient is cut; a power of two, which changes no bits
+// in mm-t-s.
+constexpr double usual_pressure = 1024;
 
 using Ftdriv = void(const std::int32_t* points, const std::int32_t* states, const double* v,
                     const std::int32_t* properties, const double* property,
@@ -106,12 +109,12 @@ private:
 
   // Below it no peak is one, where the law does not say the pressure.
   double lowest_pressure() const {
-    return driver_.peak_presses ? std::numeric_limits<double>::denorm_min() : driver_.pressure;
+    return driver_.peak_presses ? std::numeric_limits<double>::denorm_min() : usual_pressure;
   }
 
   double pressure(std::size_t row) const {
     if (pressure_) return pressure_[row];
-    return driver_.peak_presses && peak_ ? peak_[row] : driver_.pressure;
+    return driver_.peak_presses && peak_ ? peak_[row] : usual_pressure;
   }
 
   double flow_stress(std::size_t row) const {

@@ -25,10 +25,7 @@ struct Driver {
   const SolverGives& gives;
   fortran::Coefficient result = fortran::Coefficient::stress; // what the routine says
   std::size_t most_points = 1;                                // in a call of ftdriv
-  // MPa: at the points of laws that ask for no pressure, far above those where a coefficient is
-  // cut; a power of two, which changes no bits in mm-t-s.
-  double pressure = 1024;
-  // Where such a law takes the peak pressure, that is the pressure instead.
+  // Where a law asks for the peak pressure and not for the pressure, the one stands for both.
   bool peak_presses = false;
   // A temperature of exactly 0 says that there is none: no such row can be posed.
   bool zero_is_no_temperature = false;

@@ -92,11 +92,10 @@ private:
   std::set<const Expr::Node*> seen_;
 };
 
-bool holds_tanh(const Expr& e, std::set<const Expr::Node*>& seen) {
-  if (!seen.insert(e.id()).second) return false;
-  return e.op() == Op::tanh ||
-         std::any_of(e.operands().begin(), e.operands().end(),
-                     [&](const Expr& operand) { return holds_tanh(operand, seen); });
+bool holds_tanh(const Expr& formula) {
+  bool holds = false;
+  for_each_part(formula, [&](const Expr& part) { holds = holds || part.op() == Op::tanh; });
+  return holds;
 }
 
 // Adds one unit; false where its sum holds another unit: that would be a second layer.
@@ -104,8 +103,7 @@ bool add_unit(UnitLayer& layer, const Expr& unit, double gain) {
   const Sum sum = sum_of(unit.operands()[0]);
   const std::size_t u = layer.units();
   for (const auto& [feature, factor] : sum.terms) {
-    std::set<const Expr::Node*> seen;
-    if (holds_tanh(feature, seen)) return false;
+    if (holds_tanh(feature)) return false;
     const auto known = std::find_if(layer.features.begin(), layer.features.end(),
                                     [&](const Expr& f) { return f.id() == feature.id(); });
     const auto f = static_cast<std::size_t>(known - layer.features.begin());
@@ -140,13 +138,6 @@ std::optional<UnitLayer> layer_of(const Outputs& outputs) {
   return layer;
 }
 
-void collect_numbers(const Expr& e, std::set<double>& numbers, std::set<const Expr::Node*>& seen) {
-  if (!seen.insert(e.id()).second) return;
-  if (e.op() == Op::constant) numbers.insert(e.value());
-  for (const Expr& operand : e.operands())
-    collect_numbers(operand, numbers, seen);
-}
-
 } // namespace
 
 std::size_t UnitLayer::numbers() const {
@@ -170,8 +161,9 @@ LayeredFormula split_layer(const Expr& formula) {
 
 std::size_t count_numbers(const Expr& formula) {
   std::set<double> numbers;
-  std::set<const Expr::Node*> seen;
-  collect_numbers(formula, numbers, seen);
+  for_each_part(formula, [&](const Expr& part) {
+    if (part.op() == Op::constant) numbers.insert(part.value());
+  });
   return numbers.size();
 }
 

@@ -17,6 +17,7 @@
 #include "io/atomic_file.h"
 #include "io/number.h"
 #include "table/drift.h"
+#include "table/outside.h"
 
 namespace frictab::codegen {
 
@@ -261,12 +262,6 @@ double limit_as_written(double limit, const ExportRequest& request) {
   return stress.to_canonical(as_written(stress.from_canonical(limit)));
 }
 
-// Whether the law itself is asked below the pressures that were tested.
-bool follows_law_below(const table::Table& table) {
-  const table::TableAxis* axis = table::find_axis(table, "sigma_n_MPa");
-  return !axis || axis->below == table::Outside::law;
-}
-
 // Solvers keep the coefficient below the first pressure of their table. So the table goes down to
 // where that is no matter: where tau_R of every state is below the aim, or every coefficient at its
 // largest.
@@ -330,7 +325,8 @@ NativeTable native_table(const ExportRequest& request, const NativeForm& form) {
   out.aim_MPa = aim_of(request.table);
   NativeProblem problem = problem_of(request, form, out.columns, out.held);
   for (std::size_t c = 0; c < out.columns.size(); ++c)
-    if (out.columns[c].argument.name == "sigma_n_MPa" && follows_law_below(request.table))
+    if (out.columns[c].argument.name == "sigma_n_MPa" &&
+        table::below_pressures(request.table) == table::Outside::law)
       problem.axes[c].low = first_pressure(problem, c, out.aim_MPa);
   NativeGoal goal;
   goal.aim_MPa = out.aim_MPa;

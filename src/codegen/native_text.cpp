@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/coefficient.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/native_table.h"
 #include "codegen/number_text.h"
@@ -78,8 +79,10 @@ std::vector<std::string> native_comments(const Exporter& exporter, const ExportR
                     "cost_max_abs_MPa.");
   texts.push_back(grid_text(request, table));
   texts.push_back("Worst drift of the frictab table it is made from: " + drift_text(request.table));
-  texts.push_back("Read by the solver: " + form.interpolation +
-                  ". Beyond the ends it keeps the value there; no coefficient is above 10.");
+  texts.push_back(
+      fmt::format("Read by the solver: {}. Beyond the ends it keeps the value there; no "
+                  "coefficient is above {:g}.",
+                  form.interpolation, fortran::largest_coefficient));
   texts.push_back("Source: " + exporter.signature_source);
   std::vector<std::string> lines;
   for (const std::string& text : texts) {

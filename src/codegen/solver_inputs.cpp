@@ -18,6 +18,7 @@
 #include "core/text.h"
 #include "data/meaning.h"
 #include "data/quantity.h"
+#include "table/outside.h"
 
 namespace frictab::codegen {
 
@@ -42,9 +43,8 @@ template <class Number> std::optional<Number> number(std::string_view text) {
 }
 
 // The table's answer is not the law's there.
-bool clamps(const table::TableAxis& axis, double value) {
-  return (value < axis.nodes.front() && axis.below != table::Outside::law) ||
-         (value > axis.nodes.back() && axis.above != table::Outside::law);
+bool clamps(const table::AxisEnds& axis, double value) {
+  return axis.leaves(value) && !axis.extends(value);
 }
 
 // One state's choice.
@@ -133,7 +133,7 @@ private:
     input_.fallback = value;
     if (!value || !std::isfinite(*value))
       fault(fmt::format("'{}' is not a number", text), "constant:1.5");
-    else if (axis_ && clamps(*axis_, *value))
+    else if (axis_ && clamps(table::AxisEnds(*axis_), *value))
       fault(fmt::format("{} lies beyond the table's {:.6g} .. {:.6g}", text, axis_->nodes.front(),
                         axis_->nodes.back()),
             "a value inside, a wider range, or [table.axes." + name + "] outside = \"law\"");
@@ -252,13 +252,15 @@ bool uses(const std::vector<SolverInput>& inputs, Source source) {
                      [&](const SolverInput& input) { return input.source == source; });
 }
 
+std::string meaning_and_unit(const SolverInput& input) {
+  const InputArgument& of = input.argument;
+  return of.solver.name == "1" ? of.meaning : of.meaning + ", " + of.solver.name;
+}
+
 std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs) {
   std::vector<std::string> places;
-  for (const SolverInput& input : inputs) {
-    const InputArgument& of = input.argument;
-    const std::string unit = of.solver.name == "1" ? "" : ", " + of.solver.name;
-    if (input.property) places.push_back("<" + of.meaning + unit + ">");
-  }
+  for (const SolverInput& input : inputs)
+    if (input.property) places.push_back("<" + meaning_and_unit(input) + ">");
   return places;
 }
 

@@ -81,8 +81,10 @@ std::size_t property_count(const std::vector<SolverInput>& inputs);
 bool uses(const std::vector<SolverInput>& inputs, Source source);
 bool takes(const std::vector<SolverInput>& inputs, const std::string& state); // from the solver
 
-// What a deck has in their places, for the user to replace: "<flow stress of the workpiece, MPa>".
-// A number would be taken for one that belongs to the process.
+std::string meaning_and_unit(const SolverInput& input); // "contact temperature, degC"
+
+// What a deck has in the properties' places, for the user to replace: "<flow stress of the
+// workpiece, MPa>". A number would be taken for one that belongs to the process.
 std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs);
 
 // "/1.0D6": what turns the solver's unit into the canonical one; empty where they are one.

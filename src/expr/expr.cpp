@@ -131,11 +131,12 @@ Expr rebuild(Op op, const std::vector<Expr>& a) {
 
 namespace {
 
-void collect(const Expr& e, std::set<std::string>& names, std::set<const Expr::Node*>& seen) {
+void visit(const Expr& e, const std::function<void(const Expr&)>& use,
+           std::set<const Expr::Node*>& seen) {
   if (!seen.insert(e.id()).second) return;
-  if (e.op() == Op::symbol) names.insert(e.name());
+  use(e);
   for (const Expr& operand : e.operands())
-    collect(operand, names, seen);
+    visit(operand, use, seen);
 }
 
 using Replaced = std::unordered_map<const Expr::Node*, Expr>;
@@ -157,10 +158,16 @@ Expr replace(const Expr& e, const std::map<std::string, Expr>& with, Replaced& d
 
 } // namespace
 
+void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use) {
+  std::set<const Expr::Node*> seen;
+  visit(formula, use, seen);
+}
+
 std::set<std::string> symbols(const Expr& formula) {
   std::set<std::string> names;
-  std::set<const Expr::Node*> seen;
-  collect(formula, names, seen);
+  for_each_part(formula, [&](const Expr& part) {
+    if (part.op() == Op::symbol) names.insert(part.name());
+  });
   return names;
 }
 

@@ -3,6 +3,7 @@
 // taylor_model.h).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -70,6 +71,9 @@ Expr acos(const Expr& a);
 Expr minimum(const Expr& a, const Expr& b);
 Expr maximum(const Expr& a, const Expr& b);
 Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y);
+
+// Calls `use` once for each subformula, the formula itself first.
+void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use);
 
 // Names of all symbols in the formula, sorted.
 std::set<std::string> symbols(const Expr& formula);

@@ -275,9 +275,8 @@ void add_costs(std::string& out, const verify::Verification& verification) {
     line->worst_MPa = std::max(line->worst_MPa, r.worst_case_MPa);
   }
   if (!lines.empty())
-    out += "Where states are held, by a solver's own table or by a constant of the job: drift from "
-           "the "
-           "law there, and what holding costs:\n";
+    out += "Where states are held, by a solver's own table or by a constant of the job: "
+           "drift from the law there, and what holding costs:\n";
   for (const HeldLine& line : lines)
     out += text_of(line);
 }

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
+
+#include "table/states.h"
 
 namespace frictab::table {
 
@@ -40,6 +41,11 @@ Outside usual_below(std::string_view axis) {
   return axis == "sigma_n_MPa" ? Outside::law : Outside::clamp;
 }
 
+Outside below_pressures(const Table& table) {
+  const TableAxis* axis = find_axis(table, "sigma_n_MPa");
+  return axis ? axis->below : Outside::law;
+}
+
 AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
     : name(axis.name), input(number_of_input), low(axis.nodes.front()), high(axis.nodes.back()),
       below(axis.below), above(axis.above),
@@ -49,7 +55,7 @@ AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
 AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
                    std::pair<double, double> range)
     : name(held_input), input(number_of_input), low(range.first), high(range.second),
-      below(Outside::clamp), above(Outside::clamp), refused_below(-infinite),
+      below(Outside::clamp), above(Outside::clamp), held(true), refused_below(-infinite),
       refused_above(infinite) {}
 
 namespace {
@@ -75,25 +81,22 @@ std::optional<Hold> hold_of(const Expr& e) {
 }
 
 // The narrowest range at which the formula holds each of its inputs.
-void find_holds(const Expr& e, std::map<std::string, std::pair<double, double>>& ranges,
-                std::set<const Expr::Node*>& seen) {
-  if (e.op() == expr::Op::constant || e.op() == expr::Op::symbol || !seen.insert(e.id()).second)
-    return;
-  if (const auto hold = hold_of(e)) {
+std::map<std::string, std::pair<double, double>> held_ranges(const Expr& formula) {
+  std::map<std::string, std::pair<double, double>> ranges;
+  expr::for_each_part(formula, [&](const Expr& part) {
+    const auto hold = hold_of(part);
+    if (!hold) return;
     auto& [low, high] = ranges.try_emplace(hold->name, hold->low, hold->high).first->second;
     low = std::max(low, hold->low);
     high = std::min(high, hold->high);
-  }
-  for (const Expr& operand : e.operands())
-    find_holds(operand, ranges, seen);
+  });
+  return ranges;
 }
 
 } // namespace
 
 std::vector<AxisEnds> held_input_ends(const Table& table) {
-  std::map<std::string, std::pair<double, double>> ranges;
-  std::set<const Expr::Node*> seen;
-  find_holds(table.combine, ranges, seen);
+  std::map<std::string, std::pair<double, double>> ranges = held_ranges(table.combine);
   for (const auto& [name, record] : table.record.inputs)
     if (record.levels && record.low && record.high)
       ranges.try_emplace(name, *record.low, *record.high);
@@ -101,9 +104,8 @@ std::vector<AxisEnds> held_input_ends(const Table& table) {
   std::vector<AxisEnds> ends;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto range = ranges.find(inputs[i]);
-    const bool is_axis = std::any_of(table.axes.begin(), table.axes.end(),
-                                     [&](const TableAxis& axis) { return axis.name == inputs[i]; });
-    if (range != ranges.end() && !is_axis) ends.emplace_back(inputs[i], i, range->second);
+    if (range != ranges.end() && !find_axis(table, inputs[i]))
+      ends.emplace_back(inputs[i], i, range->second);
   }
   return ends;
 }

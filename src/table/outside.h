@@ -19,6 +19,9 @@ namespace frictab::table {
 // the high end of every axis: clamp.
 Outside usual_below(std::string_view axis);
 
+// What holds below the contact normal stresses that were tested; the law where they are no axis.
+Outside below_pressures(const Table& table);
+
 // The range of one axis, or of an input that is held, with what holds on either side of it.
 struct AxisEnds {
   explicit AxisEnds(const TableAxis& axis, std::size_t number_of_input = 0);
@@ -29,6 +32,7 @@ struct AxisEnds {
   std::size_t input; // of Table::inputs()
   double low, high;
   Outside below, above;
+  bool held = false; // no axis: the law holds this input at the same ends
   // Beyond these a query is refused: by more than a millionth of the end's own value, since a
   // solver in single precision misses an end by rounding. Infinite where the side does not refuse.
   double refused_below, refused_above;

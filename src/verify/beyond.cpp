@@ -26,9 +26,8 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
   out.kinds.assign(rows, RowKind::compared);
   std::vector<BeyondEnd> ends;
   for (const table::AxisEnds& axis : axes) {
-    const bool is_axis = ends.size() < 2 * table.axes.size();
     const auto name = [&](table::Outside side) {
-      return is_axis ? table::outside_name(side) : "held";
+      return axis.held ? "held" : table::outside_name(side);
     };
     ends.push_back({axis.name, "below", name(axis.below), axis.low, 0, 0});
     ends.push_back({axis.name, "above", name(axis.above), axis.high, 0, 0});
@@ -43,7 +42,7 @@ RowsBeyond rows_beyond(const table::Table& table, const table::States& states) {
         count(ends[2 * a], axes[a].low - x);
       else
         count(ends[2 * a + 1], x - axes[a].high);
-      if (a >= table.axes.size()) continue; // the law holds it as well: compared
+      if (axes[a].held) continue; // by the law as well: compared
       if (axes[a].refuses(x))
         out.kinds[i] = RowKind::refused;
       else if (!axes[a].extends(x) && out.kinds[i] != RowKind::refused)

@@ -58,8 +58,7 @@ void add_below(Subjects& s, const VerifyInput& input, std::vector<table::StateRa
   const auto range = std::find_if(ranges.begin(), ranges.end(),
                                   [](const auto& one) { return one.name == pressure; });
   if (range == ranges.end() || !(range->low > 0)) return;
-  const table::TableAxis* axis = table::find_axis(input.table, pressure);
-  const table::Outside outside = axis ? axis->below : table::Outside::law;
+  const table::Outside outside = table::below_pressures(input.table);
   if (outside == table::Outside::error) return;
   range->high = range->low;
   range->low = 0.1 * range->low;

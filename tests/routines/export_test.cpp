@@ -191,7 +191,7 @@ TEST(Export, InputDeckHasTheLinesOfTheFieldsTheLawTakes) {
     EXPECT_THAT(
         std::string(out["input_deck"]),
         HasSubstr("*Initial Conditions, type=FIELD, variable=2\n"
-                  " <nodes of both surfaces>, <surface expansion ratio A1/A0 at the start>\n"
+                  " <nodes of both surfaces>, <surface expansion ratio A1/A0, at the start>\n"
                   "** and in the step:\n"
                   "*Field, variable=2\n"
                   " <nodes of both surfaces>, <surface expansion ratio A1/A0>\n"))

@@ -1,6 +1,8 @@
 // One node under penalty contact, driven through VFRIC and VFRICTION as Abaqus/Explicit does: the
 // stick force is the friction force before, carried on by the penalty stiffness along the motion.
+// And single increments of it, beside the table's own answer.
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -32,6 +34,7 @@ template <class Call> class SlowPenaltyNode : public testing::Test {
 protected:
   using Real = typename decltype(Call::stick)::value_type;
   static constexpr bool single = sizeof(Real) == 4;
+  static constexpr double bound = single ? 2e-5 : 1e-13; // as in vfric_test.cpp
 
   void SetUp() override {
     if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
@@ -48,7 +51,7 @@ protected:
     call_.time_increment = static_cast<Real>(time_step);
     call_.properties = {Real(2.5), Real(60), Real(480)}; // psi, a temperature, sigma_f
     Routine<Call>::resize(call_);
-    call_.normal[0] = 1000;
+    call_.normal[0] = 1000; // an area of 1
     call_.temperature[0] = call_.temperature_main[0] = 100;
   }
 
@@ -64,13 +67,22 @@ protected:
     friction_ = static_cast<double>(call_.tangential[0]) * along;
   }
 
-  // Largest friction of a node that moves this fast.
-  double limit(double speed) {
+  // After one increment at 50 mm/s.
+  Call moved(double stick, double previous) {
     Call c = call_;
-    c.slip[0] = static_cast<Real>(speed * time_step);
-    c.stick[0] = Real(1e30);
+    c.slip[0] = static_cast<Real>(50 * time_step);
+    c.stick[0] = static_cast<Real>(stick);
+    c.previous[0] = static_cast<Real>(previous);
+    const test::FloatTraps traps;
     c.run(function_);
-    return -static_cast<double>(c.tangential[0]);
+    return c;
+  }
+
+  // Largest friction of a node that moves this fast, mm/s.
+  double limit(double speed) {
+    const table::TableFunction tau(test::four_axis_table());
+    const double state[] = {1000, 2.5, speed, 100, 480};
+    return tau(state);
   }
 
   double kept_slip() const { return static_cast<double>(call_.state[0] + call_.state[4]); }
@@ -90,6 +102,24 @@ struct CallName {
   }
 };
 TYPED_TEST_SUITE(SlowPenaltyNode, Calls, CallName);
+
+TYPED_TEST(SlowPenaltyNode, GivesTheStickForceWithItsSignAsFarAsFrictionHoldsIt) {
+  const double limit = this->limit(50);
+  EXPECT_EQ(this->moved(10, -10).tangential[0], -10);
+  EXPECT_EQ(this->moved(0, 0).tangential[0], 0);
+  EXPECT_EQ(this->moved(-5, 5).tangential[0], 5);
+  EXPECT_NEAR(this->moved(1e30, 0).tangential[0], -limit, TestFixture::bound * limit);
+  EXPECT_NEAR(this->moved(-1e30, 0).tangential[0], limit, TestFixture::bound * limit);
+}
+
+TYPED_TEST(SlowPenaltyNode, AForceBeforeThatIsNaNCountsAsTheOneNow) {
+  const double limit = this->limit(50);
+  const TypeParam c = this->moved(1e30, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NEAR(c.tangential[0], -limit, TestFixture::bound * limit);
+  EXPECT_EQ(c.state[0], c.slip[0]);
+  const double work = limit * static_cast<double>(c.slip[0]);
+  EXPECT_NEAR(c.state[1], work, TestFixture::bound * work);
+}
 
 // Half of what friction holds, give or take 10 %, for 24,000 increments: the node moves back in
 // every period, where the stick force turns against the motion.
@@ -119,9 +149,9 @@ TYPED_TEST(SlowPenaltyNode, SlidingOneKeepsItsMotionLessTheElasticPart) {
   const double slip = this->moved_ + this->friction_ / stiffness;
   EXPECT_GT(slip, 1000 * this->limit(0) / stiffness) << "it did not slide";
   // The limit falls as the node gains speed: what that releases is not counted.
-  const double bound = TestFixture::single ? 1e-4 : 1e-5;
-  EXPECT_NEAR(this->kept_slip(), slip, bound * slip);
-  EXPECT_NEAR(this->kept_work(), dissipated, bound * dissipated);
+  const double share = TestFixture::single ? 1e-4 : 1e-5;
+  EXPECT_NEAR(this->kept_slip(), slip, share * slip);
+  EXPECT_NEAR(this->kept_work(), dissipated, share * dissipated);
 }
 
 } // namespace

@@ -35,8 +35,9 @@ C     4 increments in which the state was outside the range
 C     5 what the solver's precision rounds off 1 (mm)
 C     6 what the solver's precision rounds off 2 (MPa*mm)
 C     With a smaller DEPVAR those that it leaves out are not kept.
-C     NaN in gives NaN out; such a point's STATEV stay as they were. A
-C       point without area has no pressure to look up, and no friction.
+C     NaN in gives NaN out, and such a point's STATEV stay as they
+C       were; NaN in fTangPrev counts as the present force. A point
+C       without area has no pressure to look up, and no friction.
 C
 C     Argument list:
 C     verified: full text of the argument list in a public copy of the

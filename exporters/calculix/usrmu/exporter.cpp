@@ -104,29 +104,26 @@ Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
 }
 
 const char* const source_of_signature =
-    "the list is our own: CalculiX has no user routine for friction. verified: what the "
-    "arguments "
+    "the list is our own: CalculiX has no user routine for friction. verified: what the arguments "
     "hold where frictab_hook.sh puts the calls, in the source of 2.20 and by running it "
     "(springforc_f2f.f, springstiff_f2f.f and their n2f twins, resultsmech.f, e_c3d.f, "
     "frictionheating.f)";
 
 const char* const notes =
-    "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine "
-    "lines "
+    "*FRICTION of CalculiX knows one number. frictab_hook.sh, beside the routine, puts nine lines "
     "into the source of 2.20 that ask USRMU instead: mu = tau_R/p, below 0.001 MPa that of 0.001 "
     "MPa; the law's shear limit holds as mu falls with pressure. *FRICTION has to be in the deck "
     "with any number above 0. Increments need the time they take (speed = slip/time). The "
     "stiffness that CalculiX forms leaves out how mu changes: more iterations, the same result. "
     "|T| is where the point has slid to, not how far it went, where a slide turns back. The "
     "temperature is the mean of the spring's first two nodes; exactly 0 stands for none: then the "
-    "middle of the range is taken. Surface "
-    "expansion, flow stress and further histories are not at hand there: they are constants, "
-    "[export.inputs] says constant:VALUE, else the middle of the range the table was made for; "
-    "they lie in COMMON /FTCONS/. The contact's edges have pressures that no campaign measured: "
-    "there the law itself answers, where the job does not ask for something else. Beyond a side "
-    "with outside = error the routine "
-    "writes state and value to the standard output and stops. CalculiX is under the GPL, and so "
-    "is a program linked from both when it is passed on.";
+    "middle of the range is taken. Surface expansion, flow stress and further histories are not at "
+    "hand there: they are constants, [export.inputs] says constant:VALUE, else the middle of the "
+    "range the table was made for; they lie in COMMON /FTCONS/. The contact's edges have pressures "
+    "that no campaign measured: there the law itself answers, where the job does not ask for "
+    "something else. Beyond a side with outside = error the routine writes state and value to the "
+    "standard output and stops. CalculiX is under the GPL, and so is a program linked from both "
+    "when it is passed on.";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter({.about = {.name = "calculix_usrmu",

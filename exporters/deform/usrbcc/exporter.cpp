@@ -119,33 +119,25 @@ Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
 }
 
 const char* const source_of_signature =
-    "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies "
-    "only, "
-    "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, "
-    "/USRCTL/ "
+    "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies only, "
+    "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, /USRCTL/ "
     "and /SSTU/ as declared in public routines for v12. Recalled or inferred, check against your "
     "release: STRCH is the surface expansion, EFSTS the flow stress, DTMAXC the step's time "
     "increment; the signs of PRESS and PRESR(2)";
 
 const char* const notes =
     "deform_friction says what VARIABLE is: \"coulomb\" mu = tau_R/p, \"shear\" m = tau_R/k, "
-    "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to "
-    "be "
-    "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and "
-    "with "
-    "0 in both mu is that of the smallest pressure, m and tau are 0. mu below 0.001 MPa is that "
-    "of "
+    "\"constant\" tau_R itself; the friction type of FRCFAC has to be the same. The die has to be "
+    "an ELASTIC (meshed) object: for rigid ones DEFORM computes neither SLDVEL nor PRESS, and with "
+    "0 in both mu is that of the smallest pressure, m and tau are 0. mu below 0.001 MPa is that of "
     "0.001 MPa. Sliding distance, friction work and peak pressure come from USRNOD(1..3), which "
     "FTUPD (frictab_usrupd.f, called in USRUPD) accumulates once per converged step, so friction "
     "sees them one step late; further histories of a traced law (energy, times, means, peaks, "
     "friction power) follow from USRNOD(4) on; [export.inputs] takes field:N for another "
-    "USRNOD(N), "
-    "constant:VALUE "
-    "for a number in the source. DEFORM's own SI units are mm-t-s: MPa, mm/s, mm, degC. USRBCC "
-    "keeps its states in COMMON blocks, so DEFORM itself cannot call it in threads. Beyond a "
-    "side "
-    "with outside = error the routine writes state and value to the standard output and stops "
-    "(FTQUIT). There is no USRBCC in DEFORM-3D.";
+    "USRNOD(N), constant:VALUE for a number in the source. DEFORM's own SI units are mm-t-s: MPa, "
+    "mm/s, mm, degC. USRBCC keeps its states in COMMON blocks, so DEFORM itself cannot call it in "
+    "threads. Beyond a side with outside = error the routine writes state and value to the "
+    "standard output and stops (FTQUIT). There is no USRBCC in DEFORM-3D.";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter(

@@ -107,7 +107,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
-  return {.gives = gives(request), .most_points = 128, .pressure = 1};
+  return {.gives = gives(request), .most_points = 128, .peak_presses = true};
 }
 
 const char* const source_of_signature =

@@ -96,17 +96,16 @@ const char* const source_of_signature =
 
 const char* const notes =
     "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
-    "tau_R/(YIEL/sqrt(3)). "
-    "The friction model of the job has to be of the same kind. FN is a stress in stress-based "
-    "models only; with marc_normal = \"force\" a law is refused whose coefficient depends on the "
-    "pressure (every one with a shear limit, if mu is asked for), because UFRIC gives no area to "
-    "divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it would be 0/0. Marc keeps no "
-    "history for this routine, so sliding distance, surface expansion and whatever else is not "
-    "among its arguments are constants: [export.inputs] says constant:VALUE, else the middle of "
-    "the range the table was made for. They lie in COMMON /FTCONS/ and can be read and changed "
-    "at "
-    "one place. Temperatures have to be degC. Beyond a side with outside = error the routine "
-    "writes state and value to the standard output and ends the analysis through QUIT(1234).";
+    "tau_R/(YIEL/sqrt(3)). The friction model of the job has to be of the same kind. FN is a "
+    "stress in stress-based models only; with marc_normal = \"force\" a law is refused whose "
+    "coefficient depends on the pressure (every one with a shear limit, if mu is asked for), "
+    "because UFRIC gives no area to divide by. mu below 0.001 MPa is that of 0.001 MPa: at 0 it "
+    "would be 0/0. Marc keeps no history for this routine, so sliding distance, surface expansion "
+    "and whatever else is not among its arguments are constants: [export.inputs] says "
+    "constant:VALUE, else the middle of the range the table was made for. They lie in COMMON "
+    "/FTCONS/ and can be read and changed at one place. Temperatures have to be degC. Beyond a "
+    "side with outside = error the routine writes state and value to the standard output and ends "
+    "the analysis through QUIT(1234).";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter(
