@@ -29,7 +29,11 @@ TEST(ToyTarget, IsListedExplainedAndAllowedInJobsBecauseItIsLinked) {
 
 TEST(SlowToyTarget, IsGeneratedDrivenAndVerifiedByTheMainJob) {
   const test::TemporaryDirectory directory;
-  ASSERT_EQ(toy({"twin", "data", "-q"}, directory.path()).exit_code, 0);
+  ASSERT_EQ(toy({"twin", "data", "-q", "--design",
+                 "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=6"},
+                directory.path())
+                .exit_code,
+            0);
   directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
                               "validation = \"data/validation.csv\"\n"
                               "[models]\nuse = [\"coulomb\", \"orowan\"]\n"

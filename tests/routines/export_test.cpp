@@ -41,21 +41,6 @@ nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
   return nlohmann::json::parse(find_exporter(target)->generate(request).at("recipe.json"));
 }
 
-TEST(SlowExport, FortranOfEveryTargetAndTableCompilesWithoutAWarning) {
-  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  for (const Exporter& exporter : all_exporters())
-    for (const test::NamedTable& sample : test::sample_tables()) {
-      const test::SampleRequest sampled(exporter, sample.table, "mm-t-s");
-      const ExportRequest request = sampled.get();
-      for (const BuildVariant& variant : exporter.variants(request)) {
-        if (variant.program() != "gfortran") continue;
-        SCOPED_TRACE(exporter.name + " " + sample.name + " " + variant.name);
-        EXPECT_NO_THROW(test::compiled(sample.name + " warnings", exporter, request, variant.name,
-                                       test::no_warnings));
-      }
-    }
-}
-
 class SlowSourcesOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {
