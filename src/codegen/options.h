@@ -23,9 +23,19 @@ struct ExportOptions {
   // constant), "field:2" (predefined field variable) or what the target gives by itself ("state",
   // "temperature", "solver"). By canonical name, or by the symbol of a traced law's further input.
   std::map<std::string, std::string> inputs;
-  std::map<std::string, Place> input_places;
+  std::map<std::string, std::map<std::string, std::string>> inputs_of_target; // instead of those
+  std::map<std::string, Place> input_places;  // of "export.inputs.psi", "export.c.inputs.psi"
   std::map<std::string, std::string> options; // choices that targets offer, by their names
   Place place;
+
+  // What holds for one target.
+  std::map<std::string, std::string> inputs_for(const std::string& target) const {
+    std::map<std::string, std::string> all = inputs;
+    if (const auto own = inputs_of_target.find(target); own != inputs_of_target.end())
+      for (const auto& [name, choice] : own->second)
+        all[name] = choice;
+    return all;
+  }
 };
 
 } // namespace frictab::codegen

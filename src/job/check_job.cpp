@@ -129,8 +129,14 @@ void check_models(JobReader& reader, const std::string& path,
 }
 
 void remember_inputs(JobReader& reader) {
-  for (const auto& [name, choice] : reader.job.exports.inputs)
-    reader.job.exports.input_places[name] = reader.place_of("export.inputs." + name);
+  codegen::ExportOptions& exports = reader.job.exports;
+  const auto remember = [&](const std::string& section, const auto& inputs) {
+    for (const auto& [name, choice] : inputs)
+      exports.input_places[section + name] = reader.place_of(section + name);
+  };
+  remember("export.inputs.", exports.inputs);
+  for (const auto& [target, inputs] : exports.inputs_of_target)
+    remember("export." + target + ".inputs.", inputs);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // A job file that explains itself, written from the schema.
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -54,6 +55,12 @@ void add_named_keys(std::string& out, const std::string& section) {
   }
 }
 
+bool has_keys(const std::string& section) {
+  return std::any_of(key_rules().begin(), key_rules().end(), [&](const KeyRule& rule) {
+    return parent(rule.path) == section && last_part(rule.path) != "*";
+  });
+}
+
 void add_named_section(std::string& out, const SectionRule& section) {
   out += "\n";
   add_prose(out, section.meaning);
@@ -76,7 +83,7 @@ std::string job_template() {
                     "KEY` says more.\n";
   for (const SectionRule& section : section_rules()) {
     if (section.path.find('*') != std::string::npos) continue;
-    if (section.children) {
+    if (section.children && !has_keys(section.path)) {
       add_named_section(out, section);
       continue;
     }

@@ -163,6 +163,7 @@ std::vector<std::string> option_names();
 std::vector<std::string> constant_names();
 std::vector<std::string> laws_or_all();
 std::vector<std::string> laws_best_or_all();
+std::vector<std::string> target_names();
 std::vector<std::string> targets_or_all();
 
 data::DropRule& drop_rule(Job& job, const std::string& name); // added where absent

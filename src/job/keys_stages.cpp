@@ -294,6 +294,14 @@ std::vector<KeyRule> export_keys() {
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
       named<std::string>(
+          "export.*.inputs.*", [](Job & job, const std::string& name) -> auto& {
+            const std::size_t dot = name.find('.');
+            return job.exports.inputs_of_target[name.substr(0, dot)][name.substr(dot + 1)];
+          },
+          "where one target alone takes a state from; as export.inputs",
+          "what export.inputs says, else what the target offers", "\"field:1\"") |
+          input_problem,
+      named<std::string>(
           "export.options.*",
           [](Job & job, const std::string& name) -> auto& { return job.exports.options[name]; },
           "a choice that a target offers; `frictab explain TARGET` lists them",
@@ -361,10 +369,15 @@ std::vector<std::string> laws_best_or_all() {
   return names;
 }
 
-std::vector<std::string> targets_or_all() {
+std::vector<std::string> target_names() {
   std::vector<std::string> names;
   for (const codegen::Exporter& exporter : codegen::all_exporters())
     names.push_back(exporter.name);
+  return names;
+}
+
+std::vector<std::string> targets_or_all() {
+  std::vector<std::string> names = target_names();
   names.push_back("all");
   return names;
 }

@@ -18,7 +18,8 @@ std::string below(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-std::vector<std::string> known_children(const std::string& rule_path) {
+// The keys and sections of fixed names in a section.
+std::vector<std::string> fixed_children(const std::string& rule_path) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& path) {
     const std::size_t dot = path.rfind('.');
@@ -47,7 +48,10 @@ std::string in_quotes(const std::string& text) {
 void unknown_key(JobReader& reader, const std::string& rule_path, const std::string& path,
                  const TomlNode& entry) {
   const std::string where = path.empty() ? "at the top of the file" : "in [" + path + "]";
-  const auto known = known_children(rule_path);
+  std::vector<std::string> known = fixed_children(rule_path);
+  if (const SectionRule* here = find_section(rule_path); here && here->children)
+    for (const std::string& name : here->children())
+      known.push_back(name);
   std::string hint = suggest(entry.key, known);
   const std::string home = home_of(entry.key);
   if (nearest_name(entry.key, known).empty() && !home.empty())
@@ -65,37 +69,45 @@ bool is_symbol(const std::string& name) {
   });
 }
 
-bool known_name(JobReader& reader, const SectionRule& section, const TomlNode& entry) {
+bool known_name(JobReader& reader, const SectionRule& section, const std::string& path,
+                const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
   if (section.others && is_symbol(entry.key) && !data::is_measured(entry.key)) return true;
   if (data::find_quantity(entry.key))
-    reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, section.path),
+    reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, path),
                  "possible: " + join(names, ", "));
   else
-    reader.fault(
-        entry.key_place,
-        fmt::format("unknown {} {} in [{}]", section.child, in_quotes(entry.key), section.path),
-        suggest(entry.key, names));
+    reader.fault(entry.key_place,
+                 fmt::format("unknown {} {} in [{}]", section.child, in_quotes(entry.key), path),
+                 suggest(entry.key, names));
   return false;
 }
 
-// `rule_path` has '*' where `path` has a name; `name` is the last such name.
+// Whether an entry of this section is found by a name of the user's and not by its own.
+bool is_by_name(const SectionRule* section, const std::string& rule_path, const std::string& key) {
+  if (!section || !section->children) return false;
+  if (fixed_children(rule_path).empty()) return true;
+  const std::vector<std::string> names = section->children();
+  return std::find(names.begin(), names.end(), key) != names.end();
+}
+
+// `rule_path` has '*' where `path` has a name; `name` is those names, with dots between them.
 void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
           const std::string& path, const std::string& name) {
   const SectionRule* here = find_section(rule_path);
   if (here && here->place) *here->place(reader.job, name) = table.place;
   reader.places[path] = table.place;
   for (const TomlNode& entry : table.items) {
-    const bool by_name = here && here->children;
+    const bool by_name = is_by_name(here, rule_path, entry.key);
     if (!by_name && entry.key.find('.') != entry.key.npos) { // "data.training" in quotes
       unknown_key(reader, rule_path, path, entry);
       continue;
     }
-    if (by_name && !known_name(reader, *here, entry)) continue;
+    if (by_name && !known_name(reader, *here, path, entry)) continue;
     const std::string rule_below = below(rule_path, by_name ? "*" : entry.key);
     const std::string path_below = below(path, entry.key);
-    const std::string& name_below = by_name ? entry.key : name;
+    const std::string name_below = by_name ? below(name, entry.key) : name;
     if (find_section(rule_below)) {
       if (entry.type == TomlNode::Type::table) {
         walk(reader, entry, rule_below, path_below, name_below);

@@ -48,7 +48,7 @@ struct Problem {
   std::string hint;
 };
 
-// One key. `name` below is what a '*' of the path stands for.
+// One key. `name` below is what the '*' of the path stand for, with dots between them.
 struct KeyRule {
   std::string path; // "data.skip_rows", "data.columns.*.unit"
   KeyType type = KeyType::text;
@@ -63,7 +63,8 @@ struct KeyRule {
   Problem (*problem)(const std::string& name, const KeyValue&) = nullptr;
 };
 
-// A table of keys. Where its children are names of the user's ('*'), they are among `children`.
+// A table of keys. Where its children are names of the user's ('*'), they are among `children`;
+// beside them there may be keys of fixed names.
 struct SectionRule {
   std::string path;
   std::string meaning;

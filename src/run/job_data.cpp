@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "calibrate/calibration.h"
 #include "calibrate/folds.h"
 #include "core/error.h"
@@ -40,10 +42,15 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
   for (const data::Column& column : data.columns)
     known.push_back(effects::symbol_of(column.name));
   FaultList faults;
-  for (const auto& [name, place] : exports.input_places)
+  for (const auto& [key, place] : exports.input_places) {
+    const std::size_t dot = key.rfind('.');
+    const std::string name = key.substr(dot + 1);
     if (std::find(known.begin(), known.end(), name) == known.end())
-      faults.add(place, "'" + name + "' in [export.inputs] is no state, history or column",
-                 suggest(name, known));
+      faults.add(
+          place,
+          fmt::format("'{}' in [{}] is no state, history or column", name, key.substr(0, dot)),
+          suggest(name, known));
+  }
   faults.throw_if_any();
 }
 

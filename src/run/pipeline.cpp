@@ -249,16 +249,40 @@ Table Pipeline::direct_for_sources(const Table& table) {
   return direct;
 }
 
-codegen::ExportRequest Pipeline::request_for(const Table& form) const {
-  return {form, job_.exports.units, job_.exports.inputs, job_.exports.options};
+codegen::ExportRequest Pipeline::request_for(const std::string& target, const Table& form) const {
+  return {form, job_.exports.units, job_.exports.inputs_for(target), job_.exports.options};
 }
 
 std::string Pipeline::export_directory(const std::string& target, const Table& table) const {
   return "export/" + target + (tables_.size() > 1 ? "/" + table.model : "");
 }
 
+namespace {
+
+// A target names the key at fault; the job knows where it stands, and that there may be others.
+Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportOptions& exports) {
+  fault.what = target + ": " + fault.what;
+  const std::string all = "export.inputs.";
+  if (!fault.place.file.starts_with(all)) return fault;
+  const std::string own = "export." + target + ".inputs";
+  for (const std::string& key : {own + "." + fault.place.file.substr(all.size()), fault.place.file})
+    if (const auto known = exports.input_places.find(key); known != exports.input_places.end()) {
+      fault.place = known->second;
+      if (key.starts_with(all)) fault.hint += "; for this target alone: [" + own + "]";
+      break;
+    }
+  return fault;
+}
+
+} // namespace
+
 void Pipeline::generate() {
   const auto targets = codegen::exporters_named(job_.exports.targets);
+  for (const auto& [target, inputs] : job_.exports.inputs_of_target)
+    if (std::find(targets.begin(), targets.end(), codegen::find_exporter(target)) == targets.end())
+      notes_.push_back(fmt::format("[export.{0}.inputs] is not used: {0} is not among "
+                                   "export.targets",
+                                   target));
   if (tables_.empty() && !targets.empty()) {
     std::vector<Table> described = earlier_.table_descriptions(); // before anything large is read
     keep_named(described, job_.table);
@@ -277,11 +301,13 @@ void Pipeline::generate() {
       const bool direct = job_.exports.form == codegen::ExportForm::direct || !exporter->whole();
       const Table form = direct ? direct_for_sources(table) : table;
       try {
-        generate_one(*exporter, request_for(form), directory);
+        generate_one(*exporter, request_for(exporter->name, form), directory);
       } catch (const InputError& error) {
         refused.insert(exporter);
-        for (const Fault& fault : error.faults())
-          faults.add(place_in_job(fault.place), exporter->name + ": " + fault.what, fault.hint);
+        for (const Fault& fault : error.faults()) {
+          const Fault said = said_in_job(fault, exporter->name, job_.exports);
+          faults.add(said.place, said.what, said.hint);
+        }
       }
     }
   faults.throw_if_any();
@@ -295,14 +321,6 @@ void Pipeline::generate_one(const codegen::Exporter& exporter,
     notes_.push_back(caution);
   for (const auto& [path, text] : sources_[directory])
     output_.write(directory + "/" + path, text);
-}
-
-// Targets name the key at fault; the job knows where it stands.
-Place Pipeline::place_in_job(const Place& place) const {
-  const std::string key = "export.inputs.";
-  if (!place.file.starts_with(key)) return place;
-  const auto known = job_.exports.input_places.find(place.file.substr(key.size()));
-  return known == job_.exports.input_places.end() ? place : known->second;
 }
 
 // ---- verify ----
@@ -322,7 +340,7 @@ std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, co
     const codegen::SourceBundle& bundle = sources_in(directory);
     const bool of_law =
         codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
-    sources.push_back({exporter, request_for(of_law ? direct : table), bundle});
+    sources.push_back({exporter, request_for(exporter->name, of_law ? direct : table), bundle});
   }
   return sources;
 }

@@ -72,10 +72,9 @@ private:
   const models::AssembledLaw& assembled(const models::Model& model);
   const models::AssembledLaw& law_of(const table::Table& table);
   table::Table direct_for_sources(const table::Table& table);
-  codegen::ExportRequest request_for(const table::Table& form) const;
+  codegen::ExportRequest request_for(const std::string& target, const table::Table& form) const;
   void generate_one(const codegen::Exporter& exporter, const codegen::ExportRequest& request,
                     const std::string& directory);
-  Place place_in_job(const Place& place) const;
   // "export/c" where there is one table, "export/c/<model>" where there are several.
   std::string export_directory(const std::string& target, const table::Table& table) const;
 

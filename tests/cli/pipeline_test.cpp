@@ -238,9 +238,41 @@ TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAt
                                    "--set", "export.inputs.sigma_f_MPa=field:1"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "--set 2: error: marc_ufric: 'field:1' is no source of a state\n"
-                        "  hint: known: constant:VALUE, solver\n"
+                        "  hint: known: constant:VALUE, solver; for this target alone: "
+                        "[export.marc_ufric.inputs]\n"
                         "--set 2: error: qform_lua: 'field:1' is no source of a state\n"
-                        "  hint: known: constant:VALUE, property\n");
+                        "  hint: known: constant:VALUE, property; for this target alone: "
+                        "[export.qform_lua.inputs]\n");
+}
+
+TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {
+  directory.write("job.toml", std::string(job_text) +
+                                  "[export]\n"
+                                  "targets = [\"abaqus_vfric\", \"marc_ufric\"]\n"
+                                  "[export.inputs]\n"
+                                  "sigma_f_MPa = \"constant:480\"\n"
+                                  "[export.abaqus_vfric.inputs]\n"
+                                  "sigma_f_MPa = \"field:1\"\n"
+                                  "[export.qform_lua.inputs]\n"
+                                  "sigma_f_MPa = \"property\"\n");
+  const auto result = run_frictab({"run", job, "--set", "table.model=levanov"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.err, testing::HasSubstr("[export.qform_lua.inputs] is not used: qform_lua is "
+                                             "not among export.targets"));
+  const auto source = [&](const std::string& target) {
+    const auto recipe =
+        nlohmann::json::parse(directory.read("out/export/" + target + "/recipe.json"));
+    for (const auto& argument : recipe.at("arguments"))
+      if (argument.at("quantity") == "sigma_f_MPa") return argument.at("source").dump();
+    return std::string();
+  };
+  EXPECT_THAT(source("abaqus_vfric"), testing::HasSubstr("field"));
+  EXPECT_THAT(source("marc_ufric"), testing::HasSubstr("480"));
+  const auto refused =
+      run_frictab({"export", job, "--set", "export.marc_ufric.inputs.sigma_f_MPa=\"field:1\""});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "--set 1: error: marc_ufric: 'field:1' is no source of a state\n"
+                         "  hint: known: constant:VALUE, solver\n");
 }
 
 TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {

@@ -220,6 +220,31 @@ TEST(JobMessages, LetWhatATracedEffectBringsInBeAnInputOfARoutine) {
             "  hint: possible: sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa");
 }
 
+TEST(JobMessages, LetOneTargetHaveInputsOfItsOwn) {
+  EXPECT_EQ(with("[export.abaqus_vfric.inputs]\n"
+                 "psi = \"field:1\"\n"
+                 "humidity_pct = \"field:2\""),
+            "accepted");
+  EXPECT_EQ(with("[export.abaqus_vfrc.inputs]\n"
+                 "psi = \"field:1\""),
+            "job.toml:3:9: error: unknown key 'abaqus_vfrc' in [export]\n"
+            "  hint: did you mean 'abaqus_vfric'?");
+  EXPECT_EQ(with("[export.c]\n"
+                 "psi = \"field:1\""),
+            "job.toml:4:1: error: unknown key 'psi' in [export.c]\n"
+            "  hint: known: inputs");
+  EXPECT_EQ(with("[export.c.inputs]\n"
+                 "tau_R_MPa = \"field:1\""),
+            "job.toml:4:1: error: tau_R_MPa cannot stand in [export.c.inputs]\n"
+            "  hint: possible: sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa");
+  EXPECT_EQ(with("[export.c.inputs]\n"
+                 "psi = \"const:1\""),
+            "job.toml:4:7: error: export.c.inputs.psi must be \"constant:NUMBER\", \"property\", "
+            "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
+            "\"solver\"), not the text \"const:1\"\n"
+            "  hint: for example psi = \"constant:1.0\"");
+}
+
 TEST(JobMessages, KnowALawWithTracedEffectsByItsName) {
   EXPECT_EQ(with("[table]\n"
                  "model = \"wzl_traced\""),

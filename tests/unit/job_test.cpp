@@ -75,6 +75,8 @@ nodes = 17
 spacing = "log"
 [export]
 targets = ["c", "abaqus_vfric"]
+[export.abaqus_vfric.inputs]
+psi = "constant:2.5"
 [verify]
 max_drift_MPa = 0.5
 [trace]
@@ -106,6 +108,8 @@ TEST(Job, AcceptsEveryKeyOfTheContract) {
   EXPECT_EQ(axis.range, std::pair(5.0, 500.0));
   EXPECT_EQ(axis.nodes, 17u);
   EXPECT_EQ(axis.spacing, "log");
+  EXPECT_TRUE(job.exports.inputs_for("c").empty());
+  EXPECT_EQ(job.exports.inputs_for("abaqus_vfric").at("psi"), "constant:2.5");
   EXPECT_EQ(job.verify.max_drift_MPa, 0.5);
   EXPECT_THAT(job.trace.ignore, ElementsAre("room_C"));
 }
