@@ -150,8 +150,7 @@ Explanation about_table_layout() {
       "datasets and attributes",
       {}};
   out.fields = {
-      {"tau_R", "the formula `combine` of the interpolated value (exp of it where its "
-                "transform is log), the states and the constants"},
+      {"tau_R", "the formula `combine` of the interpolated value, the states and the constants"},
       {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used, or what "
                "outside_low and outside_high say"},
       {"not needed", "all other attributes; frictab writes model, data_hash, "
@@ -160,7 +159,9 @@ Explanation about_table_layout() {
   out.items = {
       {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
       {"value: quantity", "mu or tau_R: what is tabulated", {}},
-      {"value: transform", "linear, or log where ln of it is stored", {}},
+      {"value: transform",
+       "linear, or log where it is interpolated in ln; log needs the schema",
+       {}},
       {"value: interpolation",
        "linear (in the axes' coordinates), or cubic (then `spline` is not-a-knot)",
        {}},
@@ -188,6 +189,9 @@ Explanation about_table_layout() {
        {}},
       {"/: units_STATE, long_name_STATE, levels_STATE",
        "optional: of such an input; levels: 0 = A, 1 = B of a text column",
+       {}},
+      {"/: schema",
+       "frictab/table/2; of /1 are files whose `value` holds ln where transform is log",
        {}},
       {"/: model", "optional: a name of letters, digits, '_', '.', '-'", {}}};
   return out;
@@ -219,7 +223,7 @@ std::optional<Explanation> explain(const std::string& name) {
   if (const data::Quantity* quantity = data::find_quantity(name)) return about(*quantity);
   if (name == "job")
     return about_section("", "the job file (TOML): every key, all optional but data.training; "
-                             "'*' stands for a canonical quantity");
+                             "'*' stands for a name: of a quantity, an option or a target");
   if (name == "table-layout") return about_table_layout();
   const std::string path = rule_path(name);
   if (const job::KeyRule* key = job::find_key(path)) return about(*key);

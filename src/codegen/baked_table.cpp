@@ -21,16 +21,11 @@ bool is_cubic(const table::Table& table) {
 }
 
 std::vector<double> baked_values(const table::Table& table) {
-  if (table.stored) { // linear always
-    std::vector<double> values(table.stored->size());
-    table.stored->read(0, values);
-    return values;
-  }
-  if (!is_cubic(table)) return table.value;
+  if (!is_cubic(table)) return table.value_coordinates();
   std::vector<table::SplineAxis> axes;
   for (const table::TableAxis& axis : table.axes)
     axes.push_back(table::spline_axis(axis));
-  return table::spline_coefficients(axes, table.value);
+  return table::spline_coefficients(axes, table.value_coordinates());
 }
 
 std::size_t baked_numbers(const table::Table& table) {

@@ -44,7 +44,7 @@ void add_coordinates(TemplateValues& values, const Table& table) {
   if (table.is_direct())
     only = "ftpiec(x)";
   else if (table.axes.empty())
-    only = fortran_number(table.value[0]);
+    only = fortran_number(table.coordinate(table.value[0]));
   values.flags["interpolates"] = !axes.empty();
   values.flags["uses_log"] = logarithm;
 }

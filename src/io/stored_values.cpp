@@ -52,16 +52,17 @@ void StoredValues::read(std::size_t first, std::span<double> values) const {
   }
 }
 
-std::size_t StoredValues::first_not_finite() const {
+std::size_t StoredValues::first_not_between(double above, double below) const {
   constexpr std::size_t block = std::size_t{1} << 17;
   std::atomic<std::size_t> found{size_};
   parallel_for((size_ + block - 1) / block, [&](std::size_t b) {
     if (b * block > found) return;
     std::vector<double> values(std::min(block, size_ - b * block));
     read(b * block, values);
-    const auto at = static_cast<std::size_t>(
-        std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }) -
-        values.begin());
+    const auto at =
+        static_cast<std::size_t>(std::find_if(values.begin(), values.end(),
+                                              [&](double v) { return !(v > above && v < below); }) -
+                                 values.begin());
     if (at == values.size()) return;
     std::size_t least = found;
     while (b * block + at < least && !found.compare_exchange_weak(least, b * block + at)) {

@@ -24,8 +24,8 @@ public:
   std::size_t size() const { return size_; }
   // values.size() numbers from the `first` one on; throws InputError where the disk fails.
   void read(std::size_t first, std::span<double> values) const;
-  // The first value that is not finite, or size(). Parallel.
-  std::size_t first_not_finite() const;
+  // The first value that does not lie between these (NaN never does), or size(). Parallel.
+  std::size_t first_not_between(double above, double below) const;
 
 private:
   std::string named_;

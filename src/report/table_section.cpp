@@ -24,14 +24,14 @@ std::string summary_of(const table::Table& table) {
   std::string grid;
   for (const table::TableAxis& axis : table.axes)
     grid += (grid.empty() ? "" : " \u00D7 ") + std::to_string(axis.nodes.size());
-  const std::string what = std::string(table.log_value ? "the logarithm of " : "") +
-                           models::quantity_name(table.quantity);
+  const std::string what = models::quantity_name(table.quantity);
   std::string text = "One constant, " + what + ". ";
   if (!table.axes.empty())
     text = fmt::format(
-        "{}{}, {}; holds {}, interpolated {}. ", table.axes.size() > 1 ? grid + " = " : "",
+        "{}{}, {}; holds {}, interpolated {}{}. ", table.axes.size() > 1 ? grid + " = " : "",
         count_of(table.nodes(), "node"), human_bytes(static_cast<double>(table.bytes())), what,
-        table.interpolation == table::Interpolation::cubic ? "cubically" : "linearly");
+        table.interpolation == table::Interpolation::cubic ? "cubically" : "linearly",
+        table.log_value ? " in its logarithm" : "");
   text += "Inputs: ";
   const std::vector<std::string> inputs = table.inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -103,8 +103,10 @@ std::string outside_text(const DriftRecord& r) {
   return text;
 }
 
+// Of the table, and of routines that are further off there than anywhere in the range: else it
+// would stand in every row.
 std::string below_text(const DriftRecord& r) {
-  if (!r.below) return "";
+  if (!r.below || (r.subject != "table" && r.below->max_abs_MPa <= r.worst_case_MPa)) return "";
   return fmt::format("sigma_n_MPa {:.4g} to {:.4g} MPa, below the range ({}): up to {} MPa off",
                      r.below->low_MPa, r.below->high_MPa, r.below->outside,
                      figures(r.below->max_abs_MPa));

@@ -99,9 +99,6 @@ Table sampled_table(const models::AssembledLaw& law, const Pieces& pieces,
                     const std::vector<StateRange>& ranges, std::vector<TableAxis> axes,
                     Interpolation interpolation, bool log_value) {
   std::vector<double> values = sample(pieces, ranges, axes);
-  if (log_value)
-    for (double& value : values)
-      value = std::log(value);
   Table table = describe_table(law, ranges, std::move(axes), interpolation, log_value);
   table.value = std::move(values);
   return table;

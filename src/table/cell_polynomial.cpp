@@ -48,7 +48,8 @@ CellPolynomials::CellPolynomials(const Table& table)
     }
     axes_.push_back(std::move(out));
   }
-  coefficients_ = support_ == 4 ? spline_coefficients(splines, table.value) : table.value;
+  coefficients_ = table.value_coordinates();
+  if (support_ == 4) coefficients_ = spline_coefficients(splines, coefficients_);
   stride_.assign(axes_.size(), 1);
   for (std::size_t a = axes_.size(); a-- > 1;)
     stride_[a - 1] = stride_[a] * axes_[a].nodes;

@@ -92,10 +92,10 @@ std::string info_text(const TableDescription& description, const std::string& fi
   std::string out =
       fmt::format("{}: table of {}{}\n", file, table.model, formula.empty() ? "" : ", " + formula);
   add_axes(out, table);
-  out += fmt::format("Value: {}{}, {}{}\n", table.log_value ? "ln " : "",
-                     models::quantity_name(table.quantity), interpolation_name(table.interpolation),
-                     table.quantile() == 0.5 ? std::string()
-                                             : fmt::format(", quantile {:g}", table.quantile()));
+  out += fmt::format(
+      "Value: {}, {}{}{}\n", models::quantity_name(table.quantity),
+      interpolation_name(table.interpolation), table.log_value ? " in its logarithm" : "",
+      table.quantile() == 0.5 ? std::string() : fmt::format(", quantile {:g}", table.quantile()));
   out += "tau_R_MPa = " + expr::to_text(table.combine) + "\n";
   for (const auto& [name, value] : table.constants)
     out += fmt::format("  {} = {}\n", name, shortest(value));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t rows_at_once = 4096;
 
-// The values as they are tabulated, a block at a time.
+// The values, a block at a time.
 template <class Body> void for_values(const Table& table, const Body& body) {
   std::vector<double> block;
   for (std::size_t first = 0; first < table.nodes(); first += rows_at_once) {
@@ -72,7 +72,7 @@ void write_csv(const PlainRequest& request, std::ostream& out) {
         state[static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), name) -
                                        inputs.begin())] = x;
       }
-      row.push_back(shortest(table.log_value ? std::exp(block[i]) : block[i]));
+      row.push_back(shortest(block[i]));
       if (known) row.push_back(shortest(function(state)));
       out << join(row, ",") << '\n';
     }
@@ -97,8 +97,7 @@ void write_txt(const PlainRequest& request, std::ostream& out) {
   const std::size_t last = table.axes.empty() ? 1 : table.axes.back().nodes.size();
   for_values(table, [&](std::size_t first, const std::vector<double>& block) {
     for (std::size_t i = 0; i < block.size(); ++i)
-      out << shortest(table.log_value ? std::exp(block[i]) : block[i])
-          << ((first + i + 1) % last == 0 ? '\n' : ' ');
+      out << shortest(block[i]) << ((first + i + 1) % last == 0 ? '\n' : ' ');
   });
 }
 

@@ -50,7 +50,7 @@ std::string job_line(const models::AssembledLaw& law, const Table& table) {
       text += " " + shortest(node);
   }
   text += table.log_value ? "\nlog" : "";
-  return fmt::format("frictab/partial/1 {} {} nodes, {} per chunk", hex_hash(text), table.nodes(),
+  return fmt::format("frictab/partial/2 {} {} nodes, {} per chunk", hex_hash(text), table.nodes(),
                      chunk_nodes);
 }
 
@@ -104,8 +104,7 @@ public:
       const auto block = std::span(out).subspan(i, std::min(sample_block, out.size() - i));
       sample_nodes(pieces_, ranges_, table.axes, first(chunk) + i, block);
       for (double& value : block) {
-        if (table.log_value) value = std::log(value);
-        if (std::isfinite(value)) continue;
+        if (std::isfinite(table.coordinate(value))) continue;
         const auto node = first(chunk) + static_cast<std::size_t>(&value - out.data());
         throw InputError(place_,
                          fmt::format("{}{} is not finite at {}", table.log_value ? "ln " : "",

@@ -54,6 +54,21 @@ std::optional<std::pair<double, double>> Table::range(const std::string& name) c
   return {{*input.low, *input.high}};
 }
 
+double Table::coordinate(double value_at_a_node) const {
+  return log_value ? std::log(value_at_a_node) : value_at_a_node;
+}
+
+std::vector<double> Table::value_coordinates() const {
+  std::vector<double> out = value;
+  if (stored) {
+    out.resize(stored->size());
+    stored->read(0, out);
+  }
+  for (double& one : out)
+    one = coordinate(one);
+  return out;
+}
+
 std::vector<std::size_t> Table::shape() const {
   std::vector<std::size_t> shape;
   for (const TableAxis& axis : axes)
@@ -129,7 +144,8 @@ struct StoredCell {
   ft_axis axis[FT_MAX_AXES];
   double value[1 << FT_MAX_AXES];
 
-  StoredCell(const io::StoredValues& stored, const std::vector<ft_axis>& grid, const double* u) {
+  StoredCell(const io::StoredValues& stored, bool log_value, const std::vector<ft_axis>& grid,
+             const double* u) {
     std::size_t stride[FT_MAX_AXES], first = 0, size = 1;
     const std::size_t axes = grid.size();
     for (std::size_t d = axes; d-- > 0;) {
@@ -155,6 +171,8 @@ struct StoredCell {
       for (std::size_t i = 0; i < (four ? 4U : 2U); ++i)
         value[corner + i] = row[(i / 2) * step + i % 2];
     }
+    for (std::size_t corner = 0; log_value && corner < (std::size_t{1} << axes); ++corner)
+      value[corner] = std::log(value[corner]);
   }
 };
 
@@ -167,7 +185,7 @@ double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside
                 : interpolate(n, axis, values, u, outside);
   };
   if (stored) {
-    const StoredCell cell(*stored, linear, u);
+    const StoredCell cell(*stored, log_value, linear, u);
     return at(cell.axis, cell.value);
   }
   return is_cubic ? at(cubic.data(), value.data()) : at(linear.data(), value.data());
@@ -189,7 +207,9 @@ void TableFunction::Data::add_axes(const Table& table) {
       cubic.push_back({linear.back(), splines[a].first.data(), splines[a].basis.data()});
   }
   stored = table.stored;
-  if (!stored) value = is_cubic ? spline_coefficients(splines, table.value) : table.value;
+  if (stored) return;
+  value = table.value_coordinates();
+  if (is_cubic) value = spline_coefficients(splines, value);
 }
 
 TableFunction::TableFunction(const Table& table) : data_(std::make_unique<Data>()) {

@@ -54,12 +54,12 @@ struct Drift {
 struct Table {
   std::string model;           // law name
   std::vector<TableAxis> axes; // none: the value is one constant
-  std::vector<double> value;   // row-major, last axis fastest; ln(value) where log_value. Empty:
-                               // the direct form, whose axes say only over which range it holds
+  std::vector<double> value;   // row-major, last axis fastest. Empty: the direct form, whose axes
+                               // say only over which range it holds
   // Set: the values of a linear table that is too large for memory, and `value` is empty.
   std::shared_ptr<const io::StoredValues> stored;
   models::PieceQuantity quantity = models::PieceQuantity::mu;
-  bool log_value = false;
+  bool log_value = false; // interpolate in ln value; every value is then > 0
   Interpolation interpolation = Interpolation::linear;
   expr::Expr combine; // tau_R_MPa of "value", state names and constants
   std::optional<expr::Expr>
@@ -74,9 +74,11 @@ struct Table {
   // Of the experiments; 0.5 is the law itself.
   double quantile() const { return record.quantile.value_or(0.5); }
   bool is_direct() const { return interpolation == Interpolation::none; }
-  std::vector<std::size_t> shape() const; // nodes per axis
-  std::size_t nodes() const;              // their product; 0 in the direct form
-  std::size_t bytes() const;              // values, nodes and constants as doubles
+  double coordinate(double value_at_a_node) const; // it, or its ln: what is interpolated
+  std::vector<double> value_coordinates() const;   // of all values, wherever they lie
+  std::vector<std::size_t> shape() const;          // nodes per axis
+  std::size_t nodes() const;                       // their product; 0 in the direct form
+  std::size_t bytes() const;                       // values, nodes and constants as doubles
 };
 
 // States that a table may need, axes included.

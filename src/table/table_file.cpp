@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -32,6 +33,10 @@ std::string numbers_text(const std::vector<double>& numbers) {
 // HDF5 keeps less than 64 KiB in one attribute; a network's formula is longer. It goes on in
 // extension_2, extension_3, ...
 constexpr std::size_t attribute_characters = 60000;
+
+// What `value` holds where its transform is log.
+constexpr const char* schema = "frictab/table/2";               // values, as their units say
+constexpr const char* schema_of_logarithms = "frictab/table/1"; // their logarithms: of 0.1
 
 std::string part_name(std::size_t part) {
   return part == 0 ? "extension" : fmt::format("extension_{}", part + 1);
@@ -84,7 +89,7 @@ void write_attributes(io::Hdf5Writer& out, const Table& table) {
     names.push_back(name);
   }
   out.attribute("value", "constants", join(names, " "));
-  out.attribute("/", "schema", std::string("frictab/table/1"));
+  out.attribute("/", "schema", std::string(schema));
   const TableAttributes attributes = root_attributes(table);
   for (const auto& [name, text] : attributes.texts)
     out.attribute("/", name, text);
@@ -208,35 +213,56 @@ private:
                           ? models::PieceQuantity::tau_R
                           : models::PieceQuantity::mu;
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
+    const std::string layout = in_.text_attribute("/", "schema").value_or("");
+    if (layout.starts_with("frictab/table/") && layout != schema && layout != schema_of_logarithms)
+      fault("the layout is " + layout,
+            fmt::format("this version reads {} and {}", schema, schema_of_logarithms));
+    holds_logarithms_ = table_.log_value && layout == schema_of_logarithms;
+    if (table_.log_value && layout.empty())
+      fault("the root has no attribute 'schema', which says what 'value' holds where its transform "
+            "is log",
+            fmt::format("{}: values as their units say; {}: their logarithms", schema,
+                        schema_of_logarithms));
     table_.interpolation = find_interpolation(text("value", "interpolation", {"linear", "cubic"}))
                                .value_or(Interpolation::linear);
     if (table_.interpolation == Interpolation::cubic) text("value", "spline", {spline_name});
   }
 
   void read_numbers(Table& table, std::size_t in_memory) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double above = table.log_value ? 0 : -infinite;
     std::size_t bad = 0;
     if (table.interpolation == Interpolation::linear && !table.axes.empty() &&
         table.nodes() > in_memory / sizeof(double)) {
       table.stored = stored(table.nodes());
-      bad = table.stored->first_not_finite();
+      bad = table.stored->first_not_between(above, infinite);
     } else {
       table.value = in_.values("value");
+      undo_logarithm(table.value);
       bad = static_cast<std::size_t>(
           std::find_if(table.value.begin(), table.value.end(),
-                       [](double value) { return !std::isfinite(value); }) -
+                       [&](double value) { return !(value > above && value < infinite); }) -
           table.value.begin());
     }
-    if (bad < table.nodes()) fault(fmt::format("value {} of {} is not finite", bad, table.nodes()));
+    if (bad < table.nodes())
+      fault(fmt::format("value {} of {} is not finite{}", bad, table.nodes(),
+                        table.log_value ? " and above 0, as its logarithm asks" : ""));
+  }
+
+  void undo_logarithm(std::span<double> values) const {
+    for (double& value : values)
+      if (holds_logarithms_) value = std::exp(value);
   }
 
   // Where they lie, or a copy in a file without a name, gone with its last reader.
   std::shared_ptr<const io::StoredValues> stored(std::size_t nodes) {
-    if (const auto offset = in_.raw_offset("value"))
+    const auto offset = in_.raw_offset("value");
+    if (offset && !holds_logarithms_)
       return std::make_shared<const io::StoredValues>(file_, named_, *offset, nodes);
     const auto directory = std::filesystem::absolute(file_).parent_path();
     io::check_disk_space(
         directory, nodes * sizeof(double), "unpacking " + named_,
-        "its values are in chunks, and states are looked up in a copy that is not");
+        "its values are in chunks or logarithms, and states are looked up in a plain copy");
     std::string name = (directory / ".frictab-unpacked-XXXXXX").string();
     const int file = ::mkstemp(name.data());
     if (file < 0)
@@ -247,7 +273,11 @@ private:
     try {
       const io::ValuesFile out(name, 0, nodes);
       in_.blocks("value", std::size_t{1} << 22,
-                 [&](std::size_t first, std::span<const double> part) { out.write(first, part); });
+                 [&](std::size_t first, std::span<const double> part) {
+                   std::vector<double> values(part.begin(), part.end());
+                   undo_logarithm(values);
+                   out.write(first, values);
+                 });
       copy = std::make_shared<const io::StoredValues>(name, named_, 0, nodes);
     } catch (...) {
       ::unlink(name.c_str());
@@ -379,6 +409,7 @@ private:
   io::Hdf5Reader in_;
   FaultList faults_;
   Table table_;
+  bool holds_logarithms_ = false; // instead of values
   std::vector<std::size_t> shape_;
 };
 

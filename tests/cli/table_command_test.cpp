@@ -92,7 +92,7 @@ TEST_F(TableCommand, InfoTellsKinksGradedAxesChunksAndFilters) {
   const std::string text = out({"info", "b.h5"});
   EXPECT_THAT(text, HasSubstr("5 .. 500 mm/s, 7 nodes, even in ln v_rel; kinks at 23.2"));
   EXPECT_THAT(text, HasSubstr("500 .. 2750 MPa, 5 nodes, graded in ln sigma_N\n"));
-  EXPECT_THAT(text, HasSubstr("Value: ln mu, cubic\n"));
+  EXPECT_THAT(text, HasSubstr("Value: mu, cubic in its logarithm\n"));
   EXPECT_THAT(text, HasSubstr("in the file, chunks of 1 x 5 x 3 x 2, shuffle, deflate 4, "
                               "fletcher32\n"));
 }

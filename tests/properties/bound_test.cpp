@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(models::la
 TEST(Bound, IsAboveATableThatIsWrong) {
   for (const Interpolation interpolation : table::grid_interpolations) {
     Case one = of_law("wanheim_bay", interpolation, 0.1);
-    one.table.value[one.table.value.size() / 2] += 0.05; // of ln tau
+    one.table.value[one.table.value.size() / 2] *= std::exp(0.05);
     const table::TableFunction function(one.table);
     const table::WorstCase worst =
         table::worst_case(table::LawFunction(AssembledLaw(one.model), function.inputs()), function,

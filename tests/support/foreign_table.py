@@ -1,7 +1,7 @@
 """Writes a friction table in the documented layout with h5py alone, as someone without frictab does.
 
 Usage: foreign_table.py small OUT.h5             mu over psi (log) and v_rel_mm_s, three by two nodes
-       foreign_table.py MODEL.json OUT.h5 [F]    ln mu of a calibrated exp_coulomb, times F
+       foreign_table.py MODEL.json OUT.h5 [F]    mu of a calibrated exp_coulomb, times F; in ln
 """
 import json
 import sys
@@ -19,6 +19,7 @@ def write(path, axes, value, transform, combine, **constants):
             f["value"].dims[d].attach_scale(f[name])
             f[name].attrs["units"] = units
             f[name].attrs["transform"] = coordinate
+        f.attrs["schema"] = "frictab/table/2"
         attributes = dict(quantity="mu", transform=transform, interpolation="linear",
                           combine=combine, **constants)
         for name, attribute in attributes.items():
@@ -37,7 +38,7 @@ def exp_coulomb(model, path, factor):
     mu = (law["mu0"] * factor * (pressure[:, None] / 1000) ** law["a"]
           * np.exp(law["b"] * (temperature[None, :] - 20)))
     write(path, [("sigma_n_MPa", "MPa", "log", pressure),
-                 ("T_contact_C", "degC", "linear", temperature)], np.log(mu), "log",
+                 ("T_contact_C", "degC", "linear", temperature)], mu, "log",
           "minimum(maximum(value*sigma_n_MPa, 0), 0.5773502691896258*sigma_f_MPa)")
     with h5py.File(path, "a") as f: # a state that is no axis: optional, where verify has no data
         f.attrs["range_low_sigma_f_MPa"], f.attrs["range_high_sigma_f_MPa"] = 300.0, 900.0

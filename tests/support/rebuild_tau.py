@@ -82,6 +82,8 @@ def by_scipy_and_xarray(path, points, tabulated):
     value = data["value"].assign_coords({d: c.data for d, c in coordinates.items()})
     edges = [np.clip(x, c.data[0], c.data[-1]) for x, c in zip(points, coordinates.values())]
     at = {d: xr.DataArray(x, dims="row") for d, x in zip(value.dims, edges)}
+    if data["value"].attrs["transform"] == "log":
+        value = np.log(value)
     grid = RegularGridInterpolator([c.data for c in coordinates.values()], value.data)
     answers = value.interp(at, method="linear").data, grid(np.transpose(edges))
     scale = np.maximum(np.abs(tabulated), 1e-300)
@@ -106,14 +108,16 @@ def rebuild(path, states):
             law, refused = law | goes_on, refused | ends
             bends = np.array(text(scale.attrs.get("kinks", "")).split(), float)
             kinks.append(np.flatnonzero(np.isin(scale[:], bends)))
+        in_ln = text(attributes["transform"]) == "log"
+        values = np.log(value[()]) if in_ln else value[()]
         if text(attributes["interpolation"]) == "cubic":
             assert text(attributes["spline"]) == "not-a-knot"
-            tabulated = spline(nodes, kinks, value[()], points)
+            tabulated = spline(nodes, kinks, values, points)
         else:
-            tabulated = multilinear(nodes, value[()], points)
+            tabulated = multilinear(nodes, values, points)
             if value.ndim > 0:
                 others = by_scipy_and_xarray(path, points, tabulated)
-        if text(attributes["transform"]) == "log":
+        if in_ln:
             tabulated = np.exp(tabulated)
         names = {c: states[c].to_numpy() for c in states.columns}
         for constant in text(attributes["constants"]).split():

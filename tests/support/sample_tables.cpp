@@ -46,8 +46,7 @@ void fill(Table& table, double low, double high) {
     count *= a.nodes.size();
   Random random(7);
   for (std::size_t i = 0; i < count; ++i)
-    table.value.push_back(table.log_value ? std::log(random.uniform(low, high))
-                                          : random.uniform(low, high));
+    table.value.push_back(random.uniform(low, high));
 }
 
 Expr shear_limit(const Expr& tau) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -249,6 +250,64 @@ TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
           "axis 'psi' does not ascend at node 1", "axis 'psi' is in '%'"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part;
   }
+}
+
+// ln mu over psi at 1, 2 and 4, as version 0.1 wrote it, with `layout` as its schema.
+std::string file_of_logarithms(const test::TemporaryDirectory& directory,
+                               const std::string& layout) {
+  std::string file = directory.path("logarithms.h5");
+  io::Hdf5Writer out(file);
+  const std::size_t shape[] = {3};
+  const std::vector<double> nodes{1, 2, 4}, mu{0.1, 0.2, 0.4};
+  std::vector<double> value;
+  for (const double one : mu)
+    value.push_back(std::log(one));
+  out.dataset("psi", shape, nodes);
+  out.attribute("psi", "units", std::string("1"));
+  out.attribute("psi", "transform", std::string("log"));
+  out.dataset("value", shape, value);
+  out.dimension_scale("value", 0, "psi");
+  out.attribute("value", "quantity", std::string("mu"));
+  out.attribute("value", "units", std::string("1"));
+  out.attribute("value", "transform", std::string("log"));
+  out.attribute("value", "interpolation", std::string("linear"));
+  out.attribute("value", "combine", std::string("value*sigma_n_MPa"));
+  if (!layout.empty()) out.attribute("/", "schema", layout);
+  out.close();
+  return file;
+}
+
+TEST(TableFile, FirstLayoutHoldsLogarithmsAndIsReadWhereverItsValuesLie) {
+  const test::TemporaryDirectory directory;
+  const std::string file = file_of_logarithms(directory, "frictab/table/1");
+  for (const std::size_t in_memory : {table::most_bytes_in_memory, std::size_t{0}}) {
+    const Table table = read_table(file, in_memory);
+    EXPECT_EQ(table.stored == nullptr, in_memory > 0);
+    const table::TableFunction function(table);
+    const double state[] = {1000, 3}; // mu = 0.1 psi
+    EXPECT_NEAR(function(state), 300, 1e-9);
+    EXPECT_EQ(function.inputs()[0], "sigma_n_MPa");
+  }
+  const Table read = read_table(file);
+  EXPECT_NEAR(read.value[2], 0.4, 1e-15);
+  write_table(read, directory.path("now.h5"));
+  EXPECT_EQ(read_table(directory.path("now.h5")).value, read.value);
+}
+
+TEST(TableFile, LayoutThatDoesNotSayWhetherItHoldsLogarithmsIsRefused) {
+  const test::TemporaryDirectory directory;
+  const auto what = [&](const std::string& layout) {
+    try {
+      read_table(file_of_logarithms(directory, layout));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(what(""), testing::HasSubstr("the root has no attribute 'schema'"));
+  EXPECT_THAT(what("frictab/table/3"), testing::HasSubstr("the layout is frictab/table/3"));
+  EXPECT_THAT(what("frictab/table/2"),
+              testing::HasSubstr("value 0 of 3 is not finite and above 0, as its logarithm asks"));
 }
 
 TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {

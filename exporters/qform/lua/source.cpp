@@ -211,7 +211,7 @@ std::string only_value(const Table& table) {
   if (table.is_direct())
     return fmt::format("ft_piece({})", join(names_up_to(table.inputs().size()), ", "));
   if (!table.axes.empty()) return "";
-  const std::string value = number(table.value[0]);
+  const std::string value = number(table.coordinate(table.value[0]));
   return table.log_value ? "exp(" + value + ")" : value;
 }
 
