@@ -1,12 +1,12 @@
 // The commands that explain: init, list, explain, doctor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/explanation.h"
 #include "codegen/exporter.h"
 #include "effects/effect.h"
 #include "job/schema.h"
+#include "support/json.h"
 #include "support/run_command.h"
 
 namespace frictab {
@@ -59,7 +59,7 @@ TEST(ListCommand, NamesEveryLawEffectAndTarget) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     std::vector<std::string> out;
-    for (const auto& item : nlohmann::json::parse(result.out)) {
+    for (const auto& item : test::parse_json(result.out)) {
       EXPECT_FALSE(item.at("title").get<std::string>().empty());
       out.push_back(item.at("name"));
     }
@@ -119,7 +119,7 @@ TEST(ExplainCommand, ShowsEveryKeyOfTheJob) {
 }
 
 TEST(ExplainCommand, ShowsAQuantityAsJson) {
-  const auto json = nlohmann::json::parse(run_frictab({"explain", "psi", "--json"}).out);
+  const auto json = test::parse_json(run_frictab({"explain", "psi", "--json"}).out);
   EXPECT_EQ(json.at("kind"), "quantity");
   EXPECT_EQ(json.at("unit"), "1");
   EXPECT_EQ(json.at("range of the paper"), "1 .. 20");
@@ -145,7 +145,7 @@ TEST(DoctorCommand, SaysWhatThisMachineHas) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   std::map<std::string, nlohmann::json> found;
-  for (const auto& item : nlohmann::json::parse(result.out))
+  for (const auto& item : test::parse_json(result.out))
     found[item.at("name")] = item;
   for (const char* library : {"HDF5", "NLopt", "Eigen"})
     EXPECT_TRUE(found.at(library).at("ok")) << library;

@@ -1,8 +1,8 @@
 // What a run says about its laws beside their ranking: comparison, noise floor, conditional use.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "support/run_command.h"
 
 namespace frictab {
@@ -30,7 +30,7 @@ struct Judgement : testing::Test {
     return result.out;
   }
   nlohmann::json calibration() const {
-    return nlohmann::json::parse(directory.read("data/out/calibration.json"));
+    return test::parse_json(directory.read("data/out/calibration.json"));
   }
   std::string design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=100;validation=12";
   const std::string two_laws = "models.use=[\"log_coulomb\", \"coulomb_0.04\"]";
@@ -54,7 +54,7 @@ TEST_F(Judgement, SummaryHoldsTheFloorOfTheOracleAndWhoIsBest) {
   EXPECT_EQ(floor.at("method"), "oracle");
   EXPECT_EQ(floor.at("part"), "validation");
   EXPECT_EQ(floor.at("synthetic_only"), true);
-  const auto twin = nlohmann::json::parse(directory.read("data/twin.json"));
+  const auto twin = test::parse_json(directory.read("data/twin.json"));
   EXPECT_NEAR(floor.at("mae_MPa").get<double>(),
               twin.at("validation").at("errors").at("oracle").at("mae_MPa").get<double>(), 1e-9);
   const auto pair = calibration().at("comparisons").at("pairs").at(0);

@@ -6,8 +6,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "support/run_command.h"
 
 namespace frictab {
@@ -117,7 +117,11 @@ TEST_F(SlowMainJob, DriftOverToleranceIsExitCode1AndNamedInJUnit) {
 }
 
 TEST_F(MainJob, VerifyAloneChecksATableForAPipeline) {
-  ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
+  for (const char* stage : {"calibrate", "tabulate"})
+    ASSERT_EQ(run_frictab({stage, job, "--set", "models.use=[\"coulomb\", \"levanov\"]", "--set",
+                           "table.model=levanov"})
+                  .exit_code,
+              0);
   const std::vector<std::string> call = {"verify",
                                          "--table",
                                          directory.path("out/tables/levanov.h5"),
@@ -174,13 +178,13 @@ TEST_F(SlowMainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
   const std::vector<std::string> set = {"--set", "export.form=direct"};
   ASSERT_EQ(run_frictab({"run", job, set[0], set[1]}).exit_code, 0);
   for (const char* target : {"c", "abaqus_vfric"}) {
-    const auto recipe = nlohmann::json::parse(
+    const auto recipe = test::parse_json(
         directory.read(std::string("out/export/") + target + "/levanov/recipe.json"));
     EXPECT_EQ(recipe.at("form"), "direct");
   }
   // The job file still says table: what counts is what was exported.
   ASSERT_EQ(run_frictab({"verify", job}).exit_code, 0);
-  const auto verified = nlohmann::json::parse(directory.read("out/verify.json"));
+  const auto verified = test::parse_json(directory.read("out/verify.json"));
   std::size_t direct = 0;
   for (const auto& record : verified.at("records"))
     if (std::string(record.at("subject")).ends_with("/double direct") ||
@@ -201,7 +205,7 @@ TEST_F(SlowMainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
   const bool verdict = result.out.find("export.form = \"direct\"") != std::string::npos ||
                        result.out.find("times faster than the law") != std::string::npos;
   EXPECT_TRUE(verdict) << result.out;
-  const auto json = nlohmann::json::parse(run_frictab({"run", job, "--json"}).out);
+  const auto json = test::parse_json(run_frictab({"run", job, "--json"}).out);
   for (const auto& form : json.at("forms")) {
     EXPECT_GT(form.at("table").at("bytes"), 0);
     EXPECT_GT(form.at("direct").at("bytes"), 0);
@@ -260,8 +264,7 @@ TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {
   EXPECT_THAT(result.err, testing::HasSubstr("[export.qform_lua.inputs] is not used: qform_lua is "
                                              "not among export.targets"));
   const auto source = [&](const std::string& target) {
-    const auto recipe =
-        nlohmann::json::parse(directory.read("out/export/" + target + "/recipe.json"));
+    const auto recipe = test::parse_json(directory.read("out/export/" + target + "/recipe.json"));
     for (const auto& argument : recipe.at("arguments"))
       if (argument.at("quantity") == "sigma_f_MPa") return argument.at("source").dump();
     return std::string();
@@ -279,7 +282,7 @@ TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   const auto verified = run_frictab({"verify", job, "--set", "table.model=levanov"});
   EXPECT_EQ(verified.exit_code, 0) << verified.err;
-  const auto records = nlohmann::json::parse(directory.read("out/verify.json")).at("records");
+  const auto records = test::parse_json(directory.read("out/verify.json")).at("records");
   EXPECT_EQ(records.size(), 4U) << "table, C, VFRIC in two precisions";
   for (const auto& record : records)
     EXPECT_EQ(record.at("model"), "levanov");
@@ -298,8 +301,7 @@ TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {
   const auto others = run_frictab({"verify", job});
   EXPECT_EQ(others.exit_code, 2) << "the sources there are levanov's";
   EXPECT_THAT(others.err, testing::HasSubstr("there are no generated sources"));
-  EXPECT_EQ(nlohmann::json::parse(directory.read("out/export/c/recipe.json")).at("model"),
-            "levanov");
+  EXPECT_EQ(test::parse_json(directory.read("out/export/c/recipe.json")).at("model"), "levanov");
 }
 
 TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
@@ -357,7 +359,7 @@ TEST_F(MainJob, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
 TEST_F(SlowMainJob, JsonSummaryIsJson) {
   const auto result = run_frictab({"run", job, "--json"});
   ASSERT_EQ(result.exit_code, 0);
-  const auto j = nlohmann::json::parse(result.out);
+  const auto j = test::parse_json(result.out);
   EXPECT_EQ(j.at("schema"), "frictab/summary/1");
   EXPECT_TRUE(j.at("synthetic_data"));
   EXPECT_EQ(j.at("verification").at("passed"), true);
@@ -404,7 +406,7 @@ TEST(SlowExample, SyntheticCampaignReproducesThePublishedLevelsOfError) {
   const auto result = run_frictab({"run", directory.path("job.toml")});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   std::map<std::string, double> mae;
-  const auto calibration = nlohmann::json::parse(directory.read("out/calibration.json"));
+  const auto calibration = test::parse_json(directory.read("out/calibration.json"));
   for (const auto& model : calibration.at("models"))
     mae[model.at("name")] = model.at("validation").at("mae_MPa");
   EXPECT_EQ(mae.size(), 16U);
@@ -449,7 +451,7 @@ TEST_P(SlowMeasured, ExampleRunsEndToEnd) {
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.out.find("SYNTHETIC"), std::string::npos);
-  const auto calibration = nlohmann::json::parse(directory.read("out/calibration.json"));
+  const auto calibration = test::parse_json(directory.read("out/calibration.json"));
   EXPECT_EQ(calibration.at("models").size(), laws);
   const auto best = calibration.at("models").at(0).at("validation");
   for (const auto& model : calibration.at("models")) {
@@ -460,7 +462,7 @@ TEST_P(SlowMeasured, ExampleRunsEndToEnd) {
   }
   EXPECT_TRUE(fs::exists(directory.path("out/export/abaqus_vfric/coulomb/recipe.json")));
   const auto scatter =
-      nlohmann::json::parse(directory.read("out/trace.json")).at("scatter_between_experiments");
+      test::parse_json(directory.read("out/trace.json")).at("scatter_between_experiments");
   EXPECT_LT(scatter.at("interval_95").at(1).get<double>(), 32 * scatter.at("share").get<double>())
       << "one degree of freedom, the least there is: 1 over the root of 0.00098";
 }
@@ -480,7 +482,7 @@ TEST(MeasuredExample, FillerOfTheCompositesIsFoundAndPredictsTestsThatWereLeftOu
   const auto result = run_command({directory.path("run"), fs::canonical(measured).string()}, "",
                                   {"FRICTAB=" FRICTAB_BINARY});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
-  const auto trace = nlohmann::json::parse(directory.read("out/trace.json"));
+  const auto trace = test::parse_json(directory.read("out/trace.json"));
   EXPECT_EQ(trace.at("verdict"), "effect_added");
   EXPECT_EQ(trace.at("unseen"), "nested_cross_validation");
   ASSERT_EQ(trace.at("effects").size(), 1u);

@@ -1,8 +1,8 @@
 // The commands below `frictab table`, and tables made by others: exact output, faults, exit codes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 #include "table/table_file.h"
@@ -98,7 +98,7 @@ TEST_F(TableCommand, InfoTellsKinksGradedAxesChunksAndFilters) {
 }
 
 TEST_F(TableCommand, InfoAsJsonHoldsEveryNodeOfTheAxes) {
-  const auto j = nlohmann::json::parse(out({"info", "a.h5", "--json"}));
+  const auto j = test::parse_json(out({"info", "a.h5", "--json"}));
   EXPECT_EQ(j.at("schema"), "frictab/table_info/1");
   EXPECT_EQ(j.at("axes")[0].at("nodes"), (std::vector<double>{1, 2, 4}));
   EXPECT_EQ(j.at("axes")[0].at("transform"), "log");
@@ -207,7 +207,7 @@ TEST_F(TableCommand, DiffFindsTheLargestDifferenceAndWhereItIs) {
   arguments.back() = "10.1";
   EXPECT_THAT(out(arguments), testing::EndsWith("Allowed: 10.1 MPa: ok\n"));
   arguments.push_back("--json");
-  const auto j = nlohmann::json::parse(out(arguments));
+  const auto j = test::parse_json(out(arguments));
   EXPECT_NEAR(j.at("max_abs_MPa"), 10, 1e-9);
   EXPECT_NEAR(j.at("mean_abs_MPa"), 2.5, 0.01); // mean of the product of two weights, times 10
   EXPECT_NEAR(j.at("rms_MPa"), 10.0 / 3, 0.01);

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "support/run_command.h"
 
 namespace frictab {
@@ -40,7 +40,7 @@ TEST(SlowToyTarget, IsGeneratedDrivenAndVerifiedByTheMainJob) {
                               "[table]\nmodel = \"all\"\n[export]\ntargets = \"toy\"\n");
   const CommandResult run = toy({"run", "job.toml", "-q"}, directory.path());
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto verification = nlohmann::json::parse(directory.read("out/verify.json"));
+  const auto verification = test::parse_json(directory.read("out/verify.json"));
   std::size_t driven = 0;
   for (const auto& record : verification.at("records"))
     if (record.at("subject") == "toy/text") {

@@ -4,11 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "support/json.h"
 
 namespace frictab {
 namespace {
@@ -73,7 +73,7 @@ TEST_F(TwinCommand, WritesCampaignJobAndSettings) {
                          "sigma_f_MPa,tau_R_MPa,run_order,humidity_pct,film_um,Ra_um,tool,origin\n"
                          "E001,0,500,1,50,20,20,0,"));
   EXPECT_THAT(content("job.toml"), HasSubstr("validation = \"validation.csv\""));
-  const auto json = nlohmann::json::parse(content("twin.json"));
+  const auto json = test::parse_json(content("twin.json"));
   EXPECT_EQ(json["synthetic"], true);
   EXPECT_EQ(json["schema"], "frictab/twin/1");
   EXPECT_GT(json["training"]["errors"]["oracle"]["mae_MPa"], 0.0);
@@ -97,7 +97,7 @@ TEST_F(TwinCommand, RecordsPlantedEffects) {
                    {"--effect", "form=saturation,column=s_mm,strength=0.5", "--effect",
                     "form=linear,column=friction_work,amplitude=0.1,on=tau"});
   EXPECT_THAT(run(arguments), HasSubstr("saturation of s_mm on mu"));
-  const auto effects = nlohmann::json::parse(content("twin.json"))["effects"];
+  const auto effects = test::parse_json(content("twin.json"))["effects"];
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0]["columns"], nlohmann::json({"s_mm"}));
   EXPECT_NEAR(effects[0]["strength"].get<double>(), 0.5, 1e-6);
@@ -137,12 +137,12 @@ TEST_F(TwinCommand, RecordsLawProfileAndScatter) {
   auto arguments = small_;
   EXPECT_THAT(run(arguments), testing::Not(HasSubstr("truth ")));
   for (const char* key : {"law", "profile", "more_bystanders"})
-    EXPECT_FALSE(nlohmann::json::parse(content("twin.json")).contains(key)) << key;
+    EXPECT_FALSE(test::parse_json(content("twin.json")).contains(key)) << key;
   arguments.insert(arguments.end(), {"--law", "orowan", "--profile", "varied", "--scatter",
                                      "test=0.04,rho=0.9", "--more-bystanders", "--effect",
                                      "form=category,column=direction,strength=0.1,on=m"});
   EXPECT_THAT(run(arguments, true), HasSubstr("truth       orowan: mu 0."));
-  const auto json = nlohmann::json::parse(content("twin.json"));
+  const auto json = test::parse_json(content("twin.json"));
   EXPECT_EQ(json["law"]["name"], "orowan");
   EXPECT_GT(json["law"]["parameters"]["m"], 0.1);
   EXPECT_EQ(json["constants"]["base_law"].size(), 2u);

@@ -8,13 +8,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "core/error.h"
 #include "routines/deform_case.h"
 #include "support/calls/usrbcc.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/sample_tables.h"
 
 namespace frictab {
@@ -317,7 +317,7 @@ TEST_F(SlowDeform, NamesTheKeywordOfItsFrictionType) {
       {"constant", "FRCFAC <workpiece>, <die>, 3, -1, 0\n"}};
   for (const auto& [friction, keyword] : keywords) {
     const auto recipe =
-        nlohmann::json::parse(deform().generate(request(four_axis(), friction)).at("recipe.json"));
+        test::parse_json(deform().generate(request(four_axis(), friction)).at("recipe.json"));
     EXPECT_EQ(recipe["input_deck"], keyword);
   }
 }

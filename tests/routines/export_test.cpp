@@ -4,11 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "models/law.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/build.h"
@@ -38,7 +38,7 @@ std::string refusal(const ExportRequest& request, const std::string& target = "a
 }
 
 nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
-  return nlohmann::json::parse(find_exporter(target)->generate(request).at("recipe.json"));
+  return test::parse_json(find_exporter(target)->generate(request).at("recipe.json"));
 }
 
 class SlowSourcesOf : public testing::TestWithParam<std::string> {};

@@ -5,12 +5,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "routines/standard_case.h"
 #include "support/calls/fric_coef.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/sample_tables.h"
 
 namespace frictab {
@@ -334,7 +334,7 @@ TEST(FricCoefRecipe, SaysTheReleaseAndRefusesToKeepACoefficientWithoutStateVaria
   for (const std::string release : {"2024", "2020"}) {
     const codegen::ExportRequest request{four_axis(), "mm-t-s", {}, {{"abaqus_release", release}}};
     const codegen::SourceBundle files = exporter.generate(request);
-    const auto out = nlohmann::json::parse(files.at("recipe.json"));
+    const auto out = test::parse_json(files.at("recipe.json"));
     EXPECT_EQ(out["options"]["abaqus_release"], release);
     EXPECT_EQ(out["state_variables"].size(), release == "2024" ? 11U : 0U);
     EXPECT_THAT(std::string(out["input_deck"]),

@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "routines/fric_case.h"
+#include "support/json.h"
 
 namespace frictab {
 
@@ -385,8 +385,8 @@ TEST_F(Fric, MayRunInThreadsAtOnce) {
 
 TEST(FricRecipe, TellsDepvarPropertiesAndTheUnsymmetricSolver) {
   const codegen::ExportRequest request{four_axis(), "m-kg-s", {}};
-  const auto out = nlohmann::json::parse(
-      codegen::find_exporter("abaqus_fric")->generate(request).at("recipe.json"));
+  const auto out =
+      test::parse_json(codegen::find_exporter("abaqus_fric")->generate(request).at("recipe.json"));
   EXPECT_EQ(out["entry"], "fric");
   EXPECT_THAT(std::string(out["input_deck"]),
               testing::AllOf(testing::HasSubstr("*Friction, user, depvar=15, properties=3\n"

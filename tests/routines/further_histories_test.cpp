@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "routines/deform_case.h"
 #include "routines/fric_case.h"
@@ -15,6 +14,7 @@
 #include "support/calls/vfric.h"
 #include "support/calls/vfriction.h"
 #include "support/generated.h"
+#include "support/json.h"
 
 namespace frictab {
 
@@ -396,7 +396,7 @@ TYPED_TEST(FurtherHistories, AreNumbersAfterAnInfinitePressureOrALongRest) {
 
 TYPED_TEST(FurtherHistories, AreToldInTheRecipeWithTheirNumbers) {
   static const Table table = further_histories_table();
-  const auto recipe = nlohmann::json::parse(
+  const auto recipe = test::parse_json(
       find_exporter(TypeParam::target)->generate({table, "m-kg-s", {}}).at("recipe.json"));
   const auto& states = recipe.at("state_variables");
   std::map<std::string, std::string> unit_of;

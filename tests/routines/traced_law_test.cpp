@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "calibrate/calibration.h"
 #include "calibrate/calibration_file.h"
@@ -15,6 +14,7 @@
 #include "models/law.h"
 #include "support/calls/vfric.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
@@ -264,7 +264,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(models::
 TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
   const Case& c = with_all_effects();
   const codegen::SourceBundle bundle = find_exporter("c")->generate({c.table, "m-kg-s", {}});
-  const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
+  const auto recipe = test::parse_json(bundle.at("recipe.json"));
   std::vector<std::string> names, units;
   for (const auto& argument : recipe.at("arguments")) {
     names.push_back(argument.at("quantity"));

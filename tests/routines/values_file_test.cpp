@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "codegen/baked_table.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "support/generated.h"
+#include "support/json.h"
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 
@@ -80,9 +80,13 @@ protected:
   }
 };
 
+// What reads the file is one text in C and one in Fortran: every table through both, and through
+// each solver's routine one with each kind of interpolation.
 TEST_P(SlowValuesFileOf, GivesTheBitsThatTheSourceGives) {
+  const bool every = exporter().name == "c" || exporter().name == "abaqus_vfric";
   for (const test::NamedTable& sample : samples()) {
     SCOPED_TRACE(sample.name);
+    if (!every && sample.name != "four_axes" && sample.name != "spline") continue;
     const ExportRequest source = request_of(exporter(), sample.table, "source");
     const ExportRequest file = request_of(exporter(), sample.table, "file");
     const test::States states(sample.table, 3000, 23);
@@ -126,7 +130,7 @@ TEST_P(SlowValuesFileOf, GivesNoStressFromAFileThatIsMissingCutLongerDamagedOrAn
 TEST_P(SlowValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
   const Table table = test::four_axis_table();
   const SourceBundle bundle = exporter().generate(request_of(exporter(), table, "file"));
-  const auto recipe = nlohmann::json::parse(bundle.at("recipe.json"));
+  const auto recipe = test::parse_json(bundle.at("recipe.json"));
   EXPECT_THAT(recipe["files"].get<std::vector<std::string>>(),
               testing::Contains(std::string(values_file_name)));
   const nlohmann::json& file = recipe["values_file"];
