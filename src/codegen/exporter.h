@@ -72,8 +72,9 @@ struct Exporter {
   std::function<void(const Built&, const ExportRequest&, std::size_t rows,
                      std::span<const double* const> columns, std::span<double> tau)>
       drive = {};
-  // A solver's own table, which has fewer axes than the law, instead of a routine.
-  bool own_table = false;
+  // A solver's own table, which has fewer axes than the law, instead of a routine: what the solver
+  // makes of these files, with the states that it holds as numbers. Null: a routine.
+  std::function<table::Table(const ExportRequest&, const SourceBundle&)> own_table = {};
   // The states of request.table.inputs() that these files hold, at which values (canonical): those
   // that the solver's own table has no column for; those that the job says are constants. Null:
   // none ever.

@@ -61,7 +61,7 @@ struct NativeProblem {
 
 struct NativeGoal {
   double aim_MPa = 0.5;            // largest difference from the problem's tau_R
-  std::size_t most_values = 20000; // lines that an input deck should hold
+  std::size_t most_values = 30000; // lines that an input deck should hold
 };
 
 struct NativeGrid {

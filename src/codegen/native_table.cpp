@@ -132,7 +132,7 @@ table::HeldStates native_held(const ExportRequest& request, const NativeForm& fo
 
 namespace {
 
-double shear_yield(double flow_stress) {
+template <class Number> Number shear_yield(const Number& flow_stress) {
   return flow_stress / std::sqrt(3.0);
 }
 
@@ -382,6 +382,34 @@ void drive_native(const NativeForm& form, const NativeValues& values, const Expo
   }
 }
 
+table::Table native_as_table(const NativeForm& form, const NativeValues& values,
+                             const ExportRequest& request) {
+  const std::vector<NativeColumn> columns = native_columns(request, form);
+  const table::HeldStates held = native_held(request, form);
+  table::Table out;
+  out.model = request.table.model;
+  out.value = values.value;
+  for (std::size_t c = columns.size(); c-- > 0;) { // the first varies fastest: the last axis
+    if (values.nodes[c].size() < 2) continue;
+    table::TableAxis axis;
+    axis.name = columns[c].argument.name;
+    for (const double node : values.nodes[c])
+      axis.nodes.push_back(columns[c].argument.solver.to_canonical(node));
+    out.axes.push_back(std::move(axis));
+  }
+  Expr factor = Expr::symbol("sigma_n_MPa");
+  if (form.factor == NativeFactor::shear_yield) {
+    const auto flow = held.find("sigma_f_MPa");
+    factor = flow == held.end() ? shear_yield(Expr::symbol("sigma_f_MPa"))
+                                : Expr(shear_yield(flow->second));
+  }
+  out.combine = Expr::symbol("value") * factor;
+  if (values.limit)
+    out.combine =
+        minimum(out.combine, solver_unit("MPa", request.units).to_canonical(*values.limit));
+  return out;
+}
+
 namespace {
 
 std::vector<BuildVariant> native_variants() {
@@ -416,7 +444,10 @@ Exporter native_exporter(const NativeTarget& target) {
   out.gives_mu = [target](const ExportRequest& request) {
     return target.form(request).factor == NativeFactor::pressure;
   };
-  out.own_table = true;
+  out.own_table = [target](const ExportRequest& request, const SourceBundle& files) {
+    return native_as_table(target.form(request), target.read(files.at(target.file), request),
+                           request);
+  };
   out.held = [target](const ExportRequest& request) {
     return native_held(request, target.form(request));
   };

@@ -68,6 +68,11 @@ std::string native_recipe(const Exporter& exporter, const ExportRequest& request
                           const SourceBundle& files, const std::string& entry,
                           const std::string& input_deck);
 
+// The same as a table of ours: linear between the nodes of its columns, tau_R from the coefficient.
+// Its inputs are the columns on which the coefficient depends, and those of the factor.
+table::Table native_as_table(const NativeForm& form, const NativeValues& values,
+                             const ExportRequest& request);
+
 // tau_R as the solver computes it from values read back from a text. Throws std::runtime_error
 // where they do not fit the request.
 void drive_native(const NativeForm& form, const NativeValues& values, const ExportRequest& request,

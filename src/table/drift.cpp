@@ -17,19 +17,21 @@ LawFunction::LawFunction(const models::AssembledLaw& law, std::vector<std::strin
 
 namespace {
 
-// Middles between the nodes of the axis of this name; ends and middle of the range where none.
+// Middles between the nodes of the axis of this name, as far as they lie in the range; its ends and
+// middle where none does.
 std::vector<double> middles(const StateRange& range, const std::vector<TableAxis>& axes) {
+  std::vector<double> x;
   for (const TableAxis& axis : axes) {
     if (axis.name != range.name) continue;
-    std::vector<double> x;
     const std::vector<double> u = axis.coordinates();
     for (std::size_t i = 0; i + 1 < u.size(); ++i) {
       const double middle = 0.5 * (u[i] + u[i + 1]);
       x.push_back(axis.log ? std::exp(middle) : middle);
     }
-    return x;
   }
-  return {range.low, 0.5 * (range.low + range.high), range.high};
+  std::erase_if(x, [&](double one) { return one < range.low || one > range.high; });
+  if (x.empty()) x = {range.low, 0.5 * (range.low + range.high), range.high};
+  return x;
 }
 
 } // namespace

@@ -280,6 +280,72 @@ Subjects with_largest_mu(const Subjects& s) {
   return out;
 }
 
+// The law as a solver's own table holds it: with some states as numbers, and no larger mu than
+// there is.
+models::AssembledLaw law_of_own_table(const models::AssembledLaw& law,
+                                      const table::HeldStates& held, bool gives_mu) {
+  models::AssembledLaw out = law;
+  if (gives_mu)
+    out.tau_R =
+        minimum(out.tau_R, codegen::fortran::largest_coefficient * expr::Expr::symbol(pressure));
+  std::map<std::string, expr::Expr> numbers;
+  for (const auto& [name, value] : held)
+    numbers.emplace(name, value);
+  out.tau_R = substitute(out.tau_R, numbers);
+  return out;
+}
+
+// The states at which the search finds a solver's own table furthest from the law: its errors peak
+// inside cells, where the samples of another table need not lie. `ranges` are those of all states.
+table::States furthest_states(const table::Table& own, const models::AssembledLaw& law,
+                              const table::HeldStates& held,
+                              const std::vector<table::StateRange>& ranges, std::size_t samples) {
+  const std::vector<std::string> inputs = own.inputs();
+  std::vector<table::StateRange> searched;
+  for (const std::string& name : inputs) {
+    const auto known = std::find_if(ranges.begin(), ranges.end(),
+                                    [&](const auto& range) { return range.name == name; });
+    if (known != ranges.end())
+      searched.push_back(*known);
+    else if (const auto ends = own.range(name)) // a pressure that the law does not ask for
+      searched.push_back({name, ends->first, ends->second, ""});
+    else
+      return {};
+  }
+  const table::States peaks =
+      table::worst_case(table::LawFunction(law, inputs), table::TableFunction(own), searched,
+                        table::probe_points(searched, own.axes, samples))
+          .peaks;
+  table::States states;
+  for (const table::StateRange& range : ranges) {
+    const auto at = std::find(inputs.begin(), inputs.end(), range.name) - inputs.begin();
+    const auto value = held.find(range.name);
+    if (static_cast<std::size_t>(at) < inputs.size())
+      states.push_back(peaks[static_cast<std::size_t>(at)]);
+    else
+      states.emplace_back(peaks.front().size(), value == held.end() ? range.low : value->second);
+  }
+  return states;
+}
+
+// Adds those states, of the range and of the decade below it.
+void add_furthest(Subjects& s, const VerifyInput& input, const table::Table& own,
+                  const table::HeldStates& held, bool gives_mu) {
+  const models::AssembledLaw own_law = law_of_own_table(input.law, held, gives_mu);
+  const table::LawFunction law(input.law, s.names);
+  const table::TableFunction table(input.table);
+  const auto add = [&](Probe& to, const std::vector<table::StateRange>& ranges) {
+    table::States states = furthest_states(own, own_law, held, ranges, input.samples);
+    if (!states.empty()) table::append(to, probe(law, table, std::move(states)));
+  };
+  add(s.range, s.ranges);
+  if (!s.where) return;
+  std::vector<table::StateRange> below = s.ranges;
+  for (table::StateRange& range : below)
+    if (range.name == pressure) range.low = s.where->low_MPa, range.high = s.where->high_MPa;
+  add(s.below, below);
+}
+
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
 
 DriftRecord compare_reduced(const VerifyInput& input, const Subjects& s, const Subjects& at_held,
@@ -326,8 +392,10 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const table::HeldStates held =
       exporter.held ? exporter.held(source.request) : table::HeldStates{};
   if (exporter.whole() && held.empty()) return compare(input, given(s), subject, answer);
-  return compare_reduced(input, s, given(at_held(input, s, held, exporter.own_table)), held,
-                         exporter.own_table, subject, answer);
+  Subjects reduced = at_held(input, s, held, !exporter.whole());
+  if (!exporter.whole())
+    add_furthest(reduced, input, exporter.own_table(source.request, source.bundle), held, gives_mu);
+  return compare_reduced(input, s, given(reduced), held, !exporter.whole(), subject, answer);
 }
 
 } // namespace

@@ -125,7 +125,7 @@ const char* const notes =
     "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
     "run say; verify.json has what that costs on the validation rows. A column the law does not "
     "depend on stays blank. TAUMAX holds the law's shear limit at the held flow stress. The "
-    "grid is made to table.tolerance_MPa with at most 20,000 lines. Beyond the ends Abaqus keeps "
+    "grid is made to table.tolerance_MPa with at most 30,000 lines. Beyond the ends Abaqus keeps "
     "the coefficient there; downwards the table goes to where tau_R is below the tolerance.";
 
 NativeTarget target() {

@@ -110,7 +110,7 @@ const char* const notes =
     "run say; verify.json has what that costs on the validation rows. RMODIF sets TAUMAX to the "
     "law's shear limit at the held flow stress: without it the friction exceeds the limit. Set "
     "ft_mat and ft_real to your material and real constant set. The grid is made to "
-    "table.tolerance_MPa with at most 20,000 values.";
+    "table.tolerance_MPa with at most 30,000 values.";
 
 NativeTarget target() {
   return {.about = {.name = "ansys_table",

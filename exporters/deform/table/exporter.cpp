@@ -112,7 +112,7 @@ const char* const notes =
     "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
     "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
     "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
-    "at most 20,000 values.";
+    "at most 30,000 values.";
 
 NativeTarget target() {
   return {.about = {.name = "deform_table",

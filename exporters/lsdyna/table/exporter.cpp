@@ -114,7 +114,7 @@ const char* const notes =
     "and the run say; verify.json has what that costs on the validation rows. The shear limit "
     "is part of the table, at the held flow stress. Table and curves are numbered from 90000: "
     "renumber them where your deck has these. The grid is made to table.tolerance_MPa with at "
-    "most 20,000 points.";
+    "most 30,000 points.";
 
 NativeTarget target() {
   return {
