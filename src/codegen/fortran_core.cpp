@@ -150,8 +150,10 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
 }
 
 // ftload and what it calls.
-std::string values_unit(const std::vector<double>& numbers, const CoreOptions& options) {
+std::string values_unit(const ExportRequest& request, const std::vector<double>& numbers,
+                        const CoreOptions& options) {
   TemplateValues values;
+  values.flags["windows"] = values_for_windows(request);
   add_values_file(values, numbers);
   values.text["crc32"] = std::to_string(values_crc32(numbers));
   values.flags["externals"] = options.units == Units::external;
@@ -181,7 +183,7 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
       values.flags["interpolates"] ? baked_values(table) : std::vector<double>{};
   const Piece looked_up = interpolation(request, numbers, options.gradient, options.units);
   values.text["interpolation"] = looked_up.text;
-  values.text["values_file"] = file ? values_unit(numbers, options) : "";
+  values.text["values_file"] = file ? values_unit(request, numbers, options) : "";
   std::string& stops = values.text["stop"];
   if (external && !options.quit.empty() && refuses(table)) stops = stop(table) + "\n";
   if (!stops.empty() || file || options.quits) stops += options.quit;

@@ -132,7 +132,7 @@ Strings cubic_names(std::size_t axes) {
 Strings counters(std::size_t axes) {
   Strings out;
   for (std::size_t d = 1; d + 2 <= axes; ++d)
-    out.push_back(fmt::format("integer*8 i{0}, j{0}", d));
+    out.push_back(fmt::format("integer(8) i{0}, j{0}", d));
   return out;
 }
 

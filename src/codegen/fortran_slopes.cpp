@@ -129,7 +129,7 @@ std::string dot(const std::string& weight, std::size_t axis, std::size_t column)
 void name_slopes(std::size_t axes, Slopes& out) {
   for (std::size_t d = 1; d <= axes; ++d) {
     out.names.push_back(fmt::format("double precision g{}", d));
-    out.names.push_back(fmt::format("integer*8 k{}", d));
+    out.names.push_back(fmt::format("integer(8) k{}", d));
   }
 }
 

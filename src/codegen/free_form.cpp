@@ -16,7 +16,7 @@ std::string unit_of(const std::string& line) {
 }
 
 std::string statement(const std::string& line) {
-  static const std::regex bytes(R"(\binteger\*8)"),
+  static const std::regex bytes(R"(\binteger\(8\))"),
       implied(R"(data \((\w+)\(i\),i=(\d+),(\d+)\)/)");
   const std::string kinds = std::regex_replace(line, bytes, "integer(c_int64_t)");
   return std::regex_replace(kinds, implied, "data $1($2:$3)/");

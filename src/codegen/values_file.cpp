@@ -59,18 +59,23 @@ void check_size(const ExportRequest& request) {
 
 ExportOption values_option() {
   return {option_name,
-          {"auto", "source", "file"},
+          {"auto", "source", "file", "file_windows"},
           fmt::format("where the table's values lie: in the source, or in {}, which the routine "
-                      "reads at its first call (POSIX threads; the choice of \"auto\" above {} "
-                      "numbers)",
+                      "reads at its first call (the choice of \"auto\" above {} numbers); Fortran "
+                      "for Windows has to be told",
                       values_file_name, thousands(most_baked_numbers))};
 }
 
 bool values_in_file(const ExportRequest& request) {
   if (request.table.is_direct() || request.table.axes.empty()) return false;
   const auto said = request.options.find(option_name);
-  if (said != request.options.end() && said->second != "auto") return said->second == "file";
+  if (said != request.options.end() && said->second != "auto") return said->second != "source";
   return baked_numbers(request.table) > most_baked_numbers;
+}
+
+bool values_for_windows(const ExportRequest& request) {
+  const auto said = request.options.find(option_name);
+  return said != request.options.end() && said->second == "file_windows";
 }
 
 void check_request(const ExportRequest& request) {
@@ -98,8 +103,8 @@ nlohmann::ordered_json values_file_json(const std::string& bytes) {
           {"numbers", bytes.size() / sizeof(double)},
           {"type", "float64, lowest byte first, last axis fastest"},
           {"crc32", fmt::format("{:08x}", crc32_of(bytes.data(), bytes.size()))},
-          {"read", "once per process, at the first call, while other threads wait "
-                   "(pthread_once); from the directory given to frictab_directory, else "
+          {"read", "once per process, at the first call, while other threads wait; "
+                   "from the directory given to frictab_directory, else "
                    "FRICTAB_DIR of the environment, else where the solver says the job lies, else "
                    "the current directory. Missing, of another size or with another CRC-32: the "
                    "analysis ends, functions give NaN"}};

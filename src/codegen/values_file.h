@@ -21,8 +21,10 @@ inline constexpr const char* values_file_name = "frictab_values.bin";
 inline constexpr std::size_t most_filed_values = 50000000;
 
 // The option of every target that can read the file: "auto" (where the source would hold more than
-// most_baked_numbers), "source", "file".
+// most_baked_numbers), "source", "file", "file_windows": threads wait for the one that reads it by
+// what their system has. (C asks its compiler which one that is.)
 ExportOption values_option();
+bool values_for_windows(const ExportRequest& request);
 
 // Whether this request's values go to a file. Never those of the direct form, or of a table
 // without axes, which has one.

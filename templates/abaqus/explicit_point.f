@@ -19,7 +19,7 @@ C     is no sum add is the value itself.
       double precision speed, limit, past, trial, before, slip, fttau
       logical lkeep, ftnan
       integer i
-      integer*8 bits, most
+      integer(8) bits, most
       external fttau, ftnan
 @if has_ends
       logical ftout
@@ -156,7 +156,7 @@ C     against their sum.
       include 'vaba_param.inc'
       dimension st(nst,ncol)
       double precision add(@{n_add}), both, part, lost
-      integer*8 bits, nofin
+      integer(8) bits, nofin
 @if has_histories
       integer grows(@{n_histories})
       data grows /@{grows}/

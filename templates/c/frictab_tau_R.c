@@ -7,10 +7,14 @@
 #include "frictab_tau_R.h"
 
 @if in_file
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <pthread.h>
+#endif
 
 @end
 @{kernel}

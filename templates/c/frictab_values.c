@@ -1,7 +1,11 @@
 /* @{value_comment}: @{file}, 8-byte numbers, lowest byte first */
 static double ft_value[@{n_values}];
 static const ft_values ft_table = {ft_value, 0};
+#ifdef _WIN32
+static INIT_ONCE ft_begun = INIT_ONCE_STATIC_INIT;
+#else
 static pthread_once_t ft_begun = PTHREAD_ONCE_INIT;
+#endif
 static int ft_good = 0;
 static char ft_directory[4000] = "";
 
@@ -50,6 +54,17 @@ static void ft_read(void) {
 }
 
 /* True once the values are there: the first call reads them while other threads wait. */
+#ifdef _WIN32
+static BOOL CALLBACK ft_task(PINIT_ONCE begun, PVOID given, PVOID* got) {
+  (void)begun, (void)given, (void)got;
+  ft_read();
+  return TRUE;
+}
+static int ft_ready(void) {
+  return InitOnceExecuteOnce(&ft_begun, ft_task, NULL, NULL) && ft_good;
+}
+#else
 static int ft_ready(void) {
   return pthread_once(&ft_begun, ft_read) == 0 && ft_good;
 }
+#endif

@@ -41,8 +41,8 @@ C     @{constant.comment}
       double precision ftqnan
 @end
 @end
-      integer*8 i
-      integer*8 bits, most
+      integer(8) i
+      integer(8) bits, most
       most = 0
       do i = 1, @{n_x}
         most = max(most, ibclr(transfer(x(i), bits), 63))
@@ -180,7 +180,7 @@ C
 C     A quiet NaN, without arithmetic that could trap.
       @{pure}double precision function ftqnan()
       implicit none
-      integer*8 bits
+      integer(8) bits
       parameter (bits = 9221120237041090560_8)
       ftqnan = transfer(bits, ftqnan)
       return
@@ -192,7 +192,7 @@ C     like fast arithmetic can interfere.
       @{pure}logical function ftnan(x)
       implicit none
       double precision@{in} x
-      integer*8 bits
+      integer(8) bits
       bits = ibclr(transfer(x, bits), 63)
       ftnan = bits .gt. 9218868437227405312_8
       return

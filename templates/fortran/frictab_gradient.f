@@ -39,7 +39,7 @@ C     @{constant.comment}
       logical beyond
 @end
       integer i, j
-      integer*8 bits, most
+      integer(8) bits, most
       most = 0
       do i = 1, @{n_x}
         most = max(most, ibclr(transfer(x(i), bits), 63))

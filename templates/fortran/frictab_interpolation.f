@@ -38,9 +38,9 @@ C     the ends of an axis.
       double precision x, t
 @end
 C     8 bytes, as addresses have: no place is converted first.
-      integer*8 i, at
+      integer(8) i, at
 @if uses_bisection
-      integer*8 high, middle
+      integer(8) high, middle
 @end
 @for axis in axes
 @if axis.scaled

@@ -2,9 +2,37 @@ C     True once the values of @{file} are in memory: the first
 C     call reads them while other threads wait. Where that fails it
 C     says why, and every stress is NaN.
       logical function ftload()
+@if windows
+      use, intrinsic :: iso_c_binding, only: c_int, c_funloc, c_funptr,
+     &  c_intptr_t, c_null_ptr, c_ptr
+@else
       use, intrinsic :: iso_c_binding, only: c_int, c_funloc, c_funptr
+@end
       implicit none
       interface
+@if windows
+@if externals
+        integer(c_int) function fttask(begun, given, got)
+     &    bind(c, name='frictab_once')
+          import :: c_int, c_intptr_t, c_ptr
+          integer(c_intptr_t) begun
+          type(c_ptr), value :: given, got
+        end function fttask
+@end
+        integer(c_int) function ftonce(begun, task, given, got)
+     &    bind(c, name='InitOnceExecuteOnce')
+          import :: c_int, c_funptr, c_intptr_t, c_ptr
+          integer(c_intptr_t), intent(inout) :: begun
+          type(c_funptr), value :: task
+          type(c_ptr), value :: given, got
+        end function ftonce
+      end interface
+      integer(c_intptr_t), save :: begun = 0
+      logical good
+      common /ftdone/ good
+      ftload = ftonce(begun, c_funloc(fttask), c_null_ptr, c_null_ptr)
+     &  .ne. 0
+@else
 @if externals
         subroutine ftfile() bind(c, name='frictab_read_values')
         end subroutine ftfile
@@ -20,10 +48,31 @@ C     says why, and every stress is NaN.
       logical good
       common /ftdone/ good
       ftload = ftonce(begun, c_funloc(ftfile)) .eq. 0
+@end
       if (ftload) ftload = good
       return
       end
 C
+@if windows
+C     What Windows calls once for all threads; 1: that was done.
+      integer(c_int) function fttask(begun, given, got)
+     &  bind(c, name='frictab_once')
+      use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr
+      implicit none
+      integer(c_intptr_t) begun
+      type(c_ptr), value :: given, got
+@if externals
+      interface
+        subroutine ftfile() bind(c, name='frictab_read_values')
+        end subroutine ftfile
+      end interface
+@end
+      call ftfile()
+      fttask = 1
+      return
+      end function fttask
+C
+@end
       subroutine ftfile() bind(c, name='frictab_read_values')
       use, intrinsic :: iso_c_binding, only: c_int64_t
       implicit none

@@ -41,6 +41,31 @@ nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
   return test::parse_json(find_exporter(target)->generate(request).at("recipe.json"));
 }
 
+// What ifort and ifx take as well: nothing beyond the standard but the solver's own includes.
+TEST(SlowExport, FixedFormSourcesAreFortran2008) {
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  const codegen::TemporaryDirectory work;
+  const std::vector<Table> tables = {test::four_axis_table(), test::spline_table(),
+                                     test::further_histories_table(), test::direct_network()};
+  for (const Exporter& exporter : all_exporters())
+    for (const Table& table : tables) {
+      ExportRequest request{table, "mm-t-s", test::sample_inputs(exporter)};
+      if (exporter.whole() && !table.is_direct()) request.options["values"] = "file";
+      codegen::SourceBundle files = exporter.generate(request);
+      for (const char* include : {"vaba_param.inc", "aba_param.inc"})
+        files[include] = "      implicit double precision (a-h,o-z)\n"
+                         "      parameter (j_sys_Dimension=2)\n";
+      for (const auto& [name, text] : files) {
+        if (!name.ends_with(".f")) continue;
+        SCOPED_TRACE(exporter.name + " " + table.model + " " + name);
+        BuildVariant build;
+        build.command = {"gfortran", "-std=f2008",    "-fsyntax-only", "-ffixed-line-length-72",
+                         "-I@{dir}", "@{dir}/" + name};
+        EXPECT_NO_THROW(codegen::compile_library(files, build, work.path()));
+      }
+    }
+}
+
 class SlowSourcesOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {

@@ -379,8 +379,8 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
 C     m
       parameter (c1 = 0.8D0)
       logical ftnan
-      integer*8 i
-      integer*8 bits, most
+      integer(8) i
+      integer(8) bits, most
       most = 0
       do i = 1, 4
         most = max(most, ibclr(transfer(x(i), bits), 63))
@@ -424,7 +424,7 @@ C     where x holds one.
 C     m
       parameter (c1 = 0.8D0)
       integer i, j
-      integer*8 bits, most
+      integer(8) bits, most
       most = 0
       do i = 1, 4
         most = max(most, ibclr(transfer(x(i), bits), 63))
@@ -505,7 +505,7 @@ C     the ends of an axis.
       double precision val, du(3)
       double precision x, t
 C     8 bytes, as addresses have: no place is converted first.
-      integer*8 i, at
+      integer(8) i, at
       double precision sc1, sh1
       parameter (sc1 = 0.014222222222222223D0)
       parameter (sh1 = 7.111111111111112D0)
@@ -522,11 +522,11 @@ C     8 bytes, as addresses have: no place is converted first.
       double precision p2b, q2b
       double precision w3, v3
       double precision g1
-      integer*8 k1
+      integer(8) k1
       double precision g2
-      integer*8 k2
+      integer(8) k2
       double precision g3
-      integer*8 k3
+      integer(8) k3
       double precision p1a1, q1a1
       double precision p1a2, q1a2
       double precision p2a2, q2a2
@@ -703,7 +703,7 @@ C
 C     A quiet NaN, without arithmetic that could trap.
       double precision function ftqnan()
       implicit none
-      integer*8 bits
+      integer(8) bits
       parameter (bits = 9221120237041090560_8)
       ftqnan = transfer(bits, ftqnan)
       return
@@ -714,7 +714,7 @@ C     like fast arithmetic can interfere.
       logical function ftnan(x)
       implicit none
       double precision x
-      integer*8 bits
+      integer(8) bits
       bits = ibclr(transfer(x, bits), 63)
       ftnan = bits .gt. 9218868437227405312_8
       return

@@ -157,7 +157,7 @@ C     a force along its motion, and would creep without it.
       double precision speed, limit, past, trial, before, slip, fttau
       logical lkeep, ftnan
       integer i
-      integer*8 bits, most
+      integer(8) bits, most
       external fttau, ftnan
       logical ftout
       external ftout
@@ -250,7 +250,7 @@ C     against their sum.
       include 'vaba_param.inc'
       dimension st(nst,ncol)
       double precision add(4), both, part, lost
-      integer*8 bits, nofin
+      integer(8) bits, nofin
 C     The bits of infinity; above them lies NaN.
       parameter (nofin = 9218868437227405312_8)
       do j = 1, ncol
@@ -300,8 +300,8 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
 C     m
       parameter (c1 = 0.8D0)
       logical ftnan
-      integer*8 i
-      integer*8 bits, most
+      integer(8) i
+      integer(8) bits, most
       most = 0
       do i = 1, 4
         most = max(most, ibclr(transfer(x(i), bits), 63))
@@ -348,7 +348,7 @@ C     are never changed: safe in threads and parallel domains.
       double precision u(3)
       double precision x, t
 C     8 bytes, as addresses have: no place is converted first.
-      integer*8 i, at
+      integer(8) i, at
       double precision sc1, sh1
       parameter (sc1 = 0.014222222222222223D0)
       parameter (sh1 = 7.111111111111112D0)
@@ -488,7 +488,7 @@ C     like fast arithmetic can interfere.
       logical function ftnan(x)
       implicit none
       double precision x
-      integer*8 bits
+      integer(8) bits
       bits = ibclr(transfer(x, bits), 63)
       ftnan = bits .gt. 9218868437227405312_8
       return

@@ -128,8 +128,8 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
 C     m
       parameter (c1 = 0.8D0)
       logical ftnan
-      integer*8 i
-      integer*8 bits, most
+      integer(8) i
+      integer(8) bits, most
       most = 0
       do i = 1, 4
         most = max(most, ibclr(transfer(x(i), bits), 63))
@@ -176,7 +176,7 @@ C     are never changed: safe in threads and parallel domains.
       double precision u(3)
       double precision x, t
 C     8 bytes, as addresses have: no place is converted first.
-      integer*8 i, at
+      integer(8) i, at
       double precision sc1, sh1
       parameter (sc1 = 0.014222222222222223D0)
       parameter (sh1 = 7.111111111111112D0)
@@ -316,7 +316,7 @@ C     like fast arithmetic can interfere.
       logical function ftnan(x)
       implicit none
       double precision x
-      integer*8 bits
+      integer(8) bits
       bits = ibclr(transfer(x, bits), 63)
       ftnan = bits .gt. 9218868437227405312_8
       return
