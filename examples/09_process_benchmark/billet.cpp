@@ -3,9 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/SparseLU>
 #include <getfem/getfem_generic_assembly.h>
 #include <getfem/getfem_regular_meshes.h>
+
+#include "linear_solver.h"
 
 namespace {
 
@@ -32,31 +33,6 @@ bgeot::multi_index length(size_type n) {
 Gradient<double> gradient_at(const Vector& H, size_type point) {
   const double* h = &H[5 * point];
   return {1 + h[0], h[1], h[2], 1 + h[3], 1 + h[4]};
-}
-
-// Solves K x = rhs with x = 0 where `fixed`.
-void solve(const getfem::model_real_sparse_matrix& K, const Vector& rhs,
-           const std::vector<bool>& fixed, Vector& x) {
-  const auto n = static_cast<int>(rhs.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (size_type column = 0; column < rhs.size(); ++column) {
-    if (fixed[column]) {
-      entries.emplace_back(static_cast<int>(column), static_cast<int>(column), 1);
-      continue;
-    }
-    const auto& values = gmm::mat_const_col(K, column);
-    for (auto i = gmm::vect_const_begin(values); i != gmm::vect_const_end(values); ++i)
-      if (!fixed[i.index()])
-        entries.emplace_back(static_cast<int>(i.index()), static_cast<int>(column), *i);
-  }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::VectorXd right(n);
-  for (int i = 0; i < n; ++i)
-    right[i] = fixed[static_cast<size_type>(i)] ? 0 : rhs[static_cast<size_type>(i)];
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
-  if (lu.info() != Eigen::Success) throw std::runtime_error("the tangent is singular");
-  Eigen::Map<Eigen::VectorXd>(x.data(), n) = lu.solve(right);
 }
 
 } // namespace
@@ -120,7 +96,7 @@ void Billet::make_model(double temperature) {
                                  ")-pressure/K)*Test_pressure)");
   getfem::add_nonlinear_term(model_, mim_,
                              "-" + ring + "Die_traction(" + strain +
-                                 ",X+u,X+u_before,Normal,memory).Test_u",
+                                 ",u,X,u_before,Normal,memory).Test_u",
                              contact_region);
 }
 
@@ -180,6 +156,7 @@ int Billet::newton() {
       next = residual();
       if (next < rest * (1 - 0.1 * part)) break;
     }
+    if (getenv("DBG")) fprintf(stderr,"  it %d rest %g part %g\n",iteration,next,part);
     if (!std::isfinite(next)) break;
     rest = next;
     double largest = 1;

@@ -56,7 +56,7 @@ void balances(Report& report, const Result& result) {
   report.at_most("  largest change of volume, share", volume, 0.003);
   report.at_most("  force of the die against force of the support, share", imbalance, 1e-6);
   std::printf("       %zu states of contact points\n", result.sliding_points);
-  report.at_most("  |tau - tau_R factor|, MPa", friction, 1e-9);
+  report.at_most("  |tau - tau_R factors|, MPa", friction, 1e-9);
 }
 
 void no_friction(Report& report, RingSize start) {

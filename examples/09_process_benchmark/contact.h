@@ -2,10 +2,11 @@
 //
 // Normal direction: penalty, p = c * depth where the point is inside the die (c in MPa/mm).
 // Friction opposes the slip of the step. With the slip speed v = du.e/dt along the die's tangent e,
-//   tau = tau_R(p, psi, |v|, T, s, sigma_f) v/sqrt(v^2 + v0^2):
-// the law times a factor that is 1 but for (v0/v)^2/2 where v is well above v0, and carries tau
-// smoothly through 0 where the material sticks (Chen, Kobayashi 1978 use an arc tangent). What the
-// law is asked:
+//   tau = tau_R(p, psi, |v|, T, s, sigma_f) v/sqrt(v^2 + v0^2) p/sqrt(p^2 + p0^2):
+// the law times two factors. The first is 1 but for (v0/v)^2/2 where v is well above v0, and carries
+// tau smoothly through 0 where the material sticks (Chen, Kobayashi 1978 use an arc tangent). The
+// second is 1 but for (p0/p)^2/2, and lets tau begin at 0 where a surface meets the die: shear
+// friction would jump there, and Newton's method with it. What the law is asked:
 //   psi      da/dA by Nanson's formula: n da = J F^-T N dA, so psi = |cof(F) N|,
 //   s        sum of the slip since the point first touched the die,
 //   sigma_f  flow stress at the point's own plastic strain, of the return mapping at the surface,
@@ -23,9 +24,10 @@ struct ContactSetting {
   const Material* material = nullptr;
   const FrictionLaw* law = nullptr;
   const Die* die = nullptr;
-  double penalty = 0;       // MPa/mm
+  double penalty = 0;        // MPa/mm
   double sticking_speed = 0; // v0, mm/s
-  double time_step = 0;     // s
+  double soft_pressure = 0;  // p0, MPa
+  double time_step = 0;      // s
 };
 
 // A surface point: where it is, how it has moved, what it remembers.
@@ -79,7 +81,8 @@ template <class S> Traction<S> traction(const ContactSetting& set, const Surface
   const S sigma_f =
       chain(dep, set.material->flow_stress(strain, T), set.material->hardening(strain, T));
   const S limit = evaluate(*set.law, p, psi, speed, T, point.slid, sigma_f);
-  const S tau = limit * v / sqrt(v * v + set.sticking_speed * set.sticking_speed);
+  const S tau = limit * v / sqrt(v * v + set.sticking_speed * set.sticking_speed) * p /
+                sqrt(p * p + set.soft_pressure * set.soft_pressure);
   return {-(p * die.normal_r + tau * e_r) * psi,
           -(p * die.normal_z + tau * e_z) * psi,
           true,

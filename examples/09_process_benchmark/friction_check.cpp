@@ -2,7 +2,7 @@
 // what GetFEM has assembled, split into p and tau by the die's normal; psi is det(F) |F^-T N| by
 // GetFEM's own determinant and inverse; the slip speed comes from the displacements; sigma_f from
 // the plastic strain that is kept after the step. The routine is called once more with these, its
-// value times the regularisation's factor is compared with tau. To be called before Billet::keep.
+// value times the factors of contact.h is compared with tau. To be called before Billet::keep.
 #include "billet.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 double Billet::friction_error() const {
   const std::string F = "(Id(2)+Grad_u)", H = "[Grad_u(1,1),Grad_u(1,2),Grad_u(2,1),Grad_u(2,2),"
                                               "u(1)/X(1)]";
-  const Vector t = at_contact("Die_traction(" + H + ",X+u,X+u_before,Normal,memory)", 2),
+  const Vector t = at_contact("Die_traction(" + H + ",u,X,u_before,Normal,memory)", 2),
                psi = at_contact("(1+u(1)/X(1))*Det(" + F + ")*Norm(Inv(" + F + "')*Normal)", 1),
                x = at_contact("X+u", 2), slip = at_contact("u-u_before", 2),
                strain = at_contact(H, 5);
@@ -30,7 +30,9 @@ double Billet::friction_error() const {
     const double limit =
         set_.law->stress({p, psi[i], std::abs(v), now.temperature, memory[m + history_size],
                           set_.material->flow_stress(now.strain, now.temperature)});
-    worst = std::max(worst, std::abs(tau - limit * v / std::hypot(v, set_.sticking_speed)));
+    const double factor =
+        v / std::hypot(v, set_.sticking_speed) * p / std::hypot(p, set_.soft_pressure);
+    worst = std::max(worst, std::abs(tau - limit * factor));
   }
   return worst;
 }

@@ -31,7 +31,7 @@ void print(const Setup& setup, const Result& result) {
               end.work / 1e3, end.energies.plastic / 1e3, end.energies.friction / 1e3,
               end.energies.elastic / 1e3, 100 * (spent / end.work - 1),
               100 * (end.volume / result.first_volume - 1));
-  std::printf("  |tau - tau_R factor| <= %.1e MPa at %zu contact points; forces balance to %.1e\n",
+  std::printf("  |tau - tau_R factors| <= %.1e MPa at %zu contact points; forces balance to %.1e\n",
               friction, result.sliding_points, imbalance);
 }
 

@@ -59,7 +59,7 @@ public:
 
 class DieTraction : public VectorOperator {
 public:
-  explicit DieTraction(const ContactSetting& setting) : VectorOperator(setting, 5, 2) {}
+  explicit DieTraction(const ContactSetting& setting) : VectorOperator(setting, 6, 2) {}
 
   void value(const arg_list& args, base_tensor& result) const override {
     const Traction<double> t =
@@ -82,10 +82,11 @@ public:
 
 private:
   template <class S>
-  SurfacePoint<S> point(const arg_list& args, const Gradient<S>& F, const S& r, const S& z) const {
-    const base_tensor &before = *args[2], &normal = *args[3], &memory = *args[4];
-    return {r,         z,         r - before[0],        z - before[1],
-            F,         normal[0], normal[1],            memory[history_size],
+  SurfacePoint<S> point(const arg_list& args, const Gradient<S>& F, const S& u_r,
+                        const S& u_z) const {
+    const base_tensor &X = *args[2], &before = *args[3], &normal = *args[4], &memory = *args[5];
+    return {X[0] + u_r,         X[1] + u_z, u_r - before[0], u_z - before[1],      F,
+            normal[0],          normal[1],  memory[history_size],
             unpack_history(memory, 0)};
   }
 };

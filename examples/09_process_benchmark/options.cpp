@@ -59,6 +59,7 @@ const std::vector<Number>& numbers() {
       {"--penalty", 1e3, 1e9, "MPa/mm", into(&Setup::penalty)},
       {"--sticking-speed", 1e-6, 100, "mm/s, v0 of the regularisation",
        into(&Setup::sticking_speed)},
+      {"--soft-pressure", 1e-6, 1000, "MPa, p0 of the regularisation", into(&Setup::soft_pressure)},
       {"--ccx-force", 0, 1e5, "kN, check: CalculiX's force with --ccx-mu",
        into(&Command::ccx_force)},
       {"--ccx-radius", 0, 1e3, "mm, check: CalculiX's inner radius at mid height",

@@ -15,8 +15,13 @@ class Run {
 public:
   explicit Run(const Setup& setup)
       : setup_(setup), platens_(setup.process != "rod"), parts_(platens_ ? 2 : 1), law_(friction_law(setup.law)),
-        die_(make_die(setup)), contact_{&setup_.material, law_.get(),           &die_,
-                                        setup.penalty,    setup.sticking_speed, 0},
+        die_(make_die(setup)), contact_{&setup_.material,
+                                        law_.get(),
+                                        &die_,
+                                        setup.penalty,
+                                        setup.sticking_speed,
+                                        setup.soft_pressure,
+                                        0},
         billet_(shape(setup), sides(setup), contact_, setup.temperature) {
     if (setup.heat.on) heat_ = std::make_unique<Heat>(billet_, setup.heat, setup.temperature);
     result_.first_volume = parts_ * billet_.volume();
@@ -59,10 +64,11 @@ private:
       part = std::min(part, stroke - stroke_);
       try {
         step(stroke_ + part);
-      } catch (const std::exception&) {
+      } catch (const std::exception& fault) {
+        if (getenv("DBG")) fprintf(stderr,"%g + %g: %s\n",stroke_,part,fault.what());
         if (++halvings > most_halvings)
           throw std::runtime_error("no equilibrium found at a stroke of " +
-                                   std::to_string(stroke_) + " mm");
+                                   std::to_string(stroke_) + " mm: " + fault.what());
         part /= 2;
       }
     }

@@ -25,7 +25,8 @@ struct Setup {
   HeatData heat;
   std::size_t columns = 12, rows = 6, steps = 40;
   double penalty = 1e6;        // MPa/mm
-  double sticking_speed = 0.3; // mm/s
+  double sticking_speed = 0.3; // v0 of contact.h, mm/s
+  double soft_pressure = 5;    // p0, MPa
 };
 
 struct StepRecord {
@@ -37,7 +38,7 @@ struct StepRecord {
   double volume = 0;                              // mm^3
   double work = 0;                                // of the force, N mm
   Energies energies;
-  double friction_error = 0; // largest |tau - tau_R factor| of a sliding point, MPa
+  double friction_error = 0; // largest |tau - tau_R factors| of a touching point, MPa
   double imbalance = 0;      // |force of the die - force of the bottom|, share of the force
   int iterations = 0;
 };
