@@ -156,7 +156,6 @@ int Billet::newton() {
       next = residual();
       if (next < rest * (1 - 0.1 * part)) break;
     }
-    if (getenv("DBG")) fprintf(stderr,"  it %d rest %g part %g\n",iteration,next,part);
     if (!std::isfinite(next)) break;
     rest = next;
     double largest = 1;
@@ -178,13 +177,25 @@ int Billet::step(double bottom_z, double squeeze) {
     if (at[0] == 0) fixed_[first + i] = true;
     if (at[1] == 0) fixed_[first + i + 1] = true;
   }
-  try {
-    start_guess(bottom_z, squeeze);
-    return newton();
-  } catch (const std::exception&) {
-    model_.to_variables(before);
-    throw;
+  const double sticking_speed = set_.sticking_speed;
+  int iterations = 0;
+  for (const bool gently : {false, true}) {
+    try {
+      start_guess(bottom_z, squeeze);
+      if (gently)
+        for (const double softer : {1000, 100, 10}) {
+          set_.sticking_speed = softer * sticking_speed;
+          iterations += newton();
+        }
+      set_.sticking_speed = sticking_speed;
+      return iterations + newton();
+    } catch (const std::exception&) {
+      set_.sticking_speed = sticking_speed;
+      model_.to_variables(before);
+      if (gently) throw;
+    }
   }
+  return iterations;
 }
 
 Vector Billet::at_volume(const std::string& expression, size_type size) const {

@@ -5,7 +5,9 @@
 // with displacements of second order and the pressure of first order, both continuous (Taylor-Hood
 // on quadrilaterals): without a pressure of its own such an element locks when the plastic flow
 // keeps the volume. Newton's method with the exact tangent starts from displacements extrapolated
-// from the last step; a step that does not lower the residual is halved.
+// from the last step; a step that does not lower the residual is halved. Where that fails, the step
+// is solved with friction spread over 1000, 100 and 10 times the sticking speed first: each solution
+// starts the next, the last is the one that is kept.
 #pragma once
 
 #include <memory>

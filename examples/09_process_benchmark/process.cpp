@@ -8,7 +8,7 @@
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int most_halvings = 8;
+constexpr int most_halvings = 6;
 
 // One process while it runs.
 class Run {
@@ -19,7 +19,7 @@ public:
                                         law_.get(),
                                         &die_,
                                         setup.penalty,
-                                        setup.sticking_speed,
+                                        setup.sticking_share * setup.speed,
                                         setup.soft_pressure,
                                         0},
         billet_(shape(setup), sides(setup), contact_, setup.temperature) {
@@ -65,7 +65,6 @@ private:
       try {
         step(stroke_ + part);
       } catch (const std::exception& fault) {
-        if (getenv("DBG")) fprintf(stderr,"%g + %g: %s\n",stroke_,part,fault.what());
         if (++halvings > most_halvings)
           throw std::runtime_error("no equilibrium found at a stroke of " +
                                    std::to_string(stroke_) + " mm: " + fault.what());

@@ -25,8 +25,8 @@ struct Setup {
   HeatData heat;
   std::size_t columns = 12, rows = 6, steps = 40;
   double penalty = 1e6;        // MPa/mm
-  double sticking_speed = 0.3; // v0 of contact.h, mm/s
-  double soft_pressure = 5;    // p0, MPa
+  double sticking_share = 0.006; // v0 of contact.h, share of the speed
+  double soft_pressure = 5;      // p0, MPa
 };
 
 struct StepRecord {
