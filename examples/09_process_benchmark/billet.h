@@ -18,6 +18,7 @@
 #include <getfem/getfem_models.h>
 
 #include "operators.h"
+#include "records.h"
 
 enum Side : std::size_t { inner = 1, outer, bottom, top };
 
@@ -25,20 +26,6 @@ enum Side : std::size_t { inner = 1, outer, bottom, top };
 struct Shape {
   double inner_radius, outer_radius, height;
   std::size_t columns, rows;
-};
-
-// One contact point after a step; `area` is what it stands for now, 0 where nothing touches.
-struct ContactRecord {
-  double r, z; // mm, now
-  bool touches;
-  double area; // mm^2
-  ContactState state;
-  double tau, velocity;
-  unsigned outside;
-};
-
-struct Energies { // N mm, sums since the start
-  double plastic = 0, friction = 0, elastic = 0;
 };
 
 class Billet {

@@ -1,5 +1,6 @@
 #include "checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -72,7 +73,7 @@ void no_friction(Report& report, RingSize start) {
 
 void shear(Report& report, RingSize start) {
   double before = frictionless_ring(start, 0.5).inner_radius;
-  for (const double m : {0.1, 0.2, 0.5}) {
+  for (const double m : {0.1, 0.2, 0.5, 1.0}) {
     char law[32];
     std::snprintf(law, sizeof law, "shear:%g", m);
     const Result result = ring(law);

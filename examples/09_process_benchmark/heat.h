@@ -8,15 +8,6 @@
 
 #include "billet.h"
 
-struct HeatData {
-  bool on = false;
-  double tool = 20;         // degC
-  double capacity = 3.6;    // MPa/K = N/(mm^2 K), steel
-  double conductivity = 45; // N/(s K) = W/(m K)
-  double film = 20;         // N/(mm s K) = kW/(m^2 K), between billet and tool under pressure
-  double plastic_share = 0.9;
-};
-
 class Heat {
 public:
   Heat(Billet& billet, const HeatData& data, double temperature);

@@ -1,4 +1,5 @@
 // Forming processes with the friction of a law: the command line.
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -44,7 +45,6 @@ int main(int count, char** words) {
       std::fputs(usage().c_str(), stdout);
       return 0;
     }
-    gmm::set_traces_level(0);
     if (command.setup.process == "check") return checks(command) ? 0 : 1;
     const Result result = run_process(command.setup);
     print(command.setup, result);

@@ -5,6 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "heat.h"
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -162,7 +164,10 @@ Setup default_setup(const std::string& process) {
   return setup;
 }
 
-Result run_process(const Setup& setup) { return Run(setup).go(); }
+Result run_process(const Setup& setup) {
+  gmm::set_traces_level(0);
+  return Run(setup).go();
+}
 
 void write_result(const Result& result, const std::string& name) {
   std::ofstream force(name + "_force.csv"), contact(name + "_contact.csv");

@@ -7,11 +7,11 @@
 // Strokes and forces are those of the whole process.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "heat.h"
+#include "material.h"
+#include "records.h"
 
 struct Setup {
   std::string process = "ring";
