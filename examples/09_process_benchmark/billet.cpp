@@ -40,8 +40,7 @@ Gradient<double> gradient_at(const Vector& H, size_type point) {
 Billet::Billet(const Shape& shape, const std::set<Side>& touching, ContactSetting& setting,
                double temperature)
     : set_(setting), shape_(shape), mf_u_(mesh_), mf_p_(mesh_), mim_(mesh_), volume_points_(mim_),
-      contact_points_(mim_, contact_region),
-      history_points_(mim_, length(history_size)),
+      contact_points_(mim_, contact_region), history_points_(mim_, length(history_size)),
       memory_points_(mim_, length(memory_size), contact_region) {
   register_operators(setting);
   make_mesh(shape, touching);
@@ -62,7 +61,7 @@ void Billet::make_mesh(const Shape& shape, const std::set<Side>& touching) {
   for (getfem::mr_visitor face(border); !face.finished(); ++face) {
     const auto normal = mesh_.normal_of_face_of_convex(face.cv(), face.f());
     const Side side = std::abs(normal[0]) > std::abs(normal[1]) ? (normal[0] > 0 ? outer : inner)
-                                                               : (normal[1] > 0 ? top : bottom);
+                                                                : (normal[1] > 0 ? top : bottom);
     mesh_.region(side).add(face.cv(), face.f());
     if (touching.count(side)) mesh_.region(contact_region).add(face.cv(), face.f());
   }
@@ -94,10 +93,9 @@ void Billet::make_model(double temperature) {
                              ring + "(Nominal_stress(" + strain + ",pressure,history)." +
                                  test_strain + "+(log(" + volume_ratio +
                                  ")-pressure/K)*Test_pressure)");
-  getfem::add_nonlinear_term(model_, mim_,
-                             "-" + ring + "Die_traction(" + strain +
-                                 ",u,X,u_before,Normal,memory).Test_u",
-                             contact_region);
+  getfem::add_nonlinear_term(
+      model_, mim_, "-" + ring + "Die_traction(" + strain + ",u,X,u_before,Normal,memory).Test_u",
+      contact_region);
 }
 
 void Billet::make_weights() {
@@ -214,16 +212,15 @@ Vector Billet::at_contact(const std::string& expression, size_type size) const {
 }
 
 std::vector<Traction<double>> Billet::tractions() const {
-  const Vector H = at_contact(strain, 5), x = at_contact("X+u", 2), move = at_contact("u-u_before", 2),
-               normal = at_contact("Normal", 2);
+  const Vector H = at_contact(strain, 5), x = at_contact("X+u", 2),
+               move = at_contact("u-u_before", 2), normal = at_contact("Normal", 2);
   const Vector& memory = model_.real_variable("memory");
   std::vector<Traction<double>> all;
   for (size_type i = 0; 2 * i < x.size(); ++i) {
     const size_type m = memory_size * i;
-    all.push_back(traction<double>(
-        set_, {x[2 * i], x[2 * i + 1], move[2 * i], move[2 * i + 1], gradient_at(H, i),
-               normal[2 * i], normal[2 * i + 1], memory[m + history_size],
-               unpack_history(memory, m)}));
+    all.push_back(traction<double>(set_, {x[2 * i], x[2 * i + 1], move[2 * i], move[2 * i + 1],
+                                          gradient_at(H, i), normal[2 * i], normal[2 * i + 1],
+                                          memory[m + history_size], unpack_history(memory, m)}));
   }
   return all;
 }
@@ -241,8 +238,8 @@ void Billet::keep() {
     plastic_work_[i] = 0.5 * (now.strain - old.strain) *
                        (material.flow_stress(old.strain, old.temperature) +
                         material.flow_stress(now.strain, now.temperature));
-    elastic[i] = shear_energy(material, now, F) +
-                 0.5 * pressure[i] * pressure[i] / material.bulk_modulus();
+    elastic[i] =
+        shear_energy(material, now, F) + 0.5 * pressure[i] * pressure[i] / material.bulk_modulus();
   }
   const std::vector<Traction<double>> points = tractions();
   const Vector surface_H = at_contact(strain, 5);
@@ -284,14 +281,8 @@ std::vector<ContactRecord> Billet::contact() const {
   std::vector<ContactRecord> records(points.size());
   for (size_type i = 0; i < points.size(); ++i) {
     const Traction<double>& t = points[i];
-    records[i] = {x[2 * i],
-                  x[2 * i + 1],
-                  t.touches,
-                  weights_[i] * t.state.expansion,
-                  t.state,
-                  t.tau,
-                  t.velocity,
-                  t.touches ? set_.law->outside(t.state) : 0};
+    records[i] = {x[2 * i], x[2 * i + 1], t.touches,  weights_[i] * t.state.expansion,
+                  t.state,  t.tau,        t.velocity, t.touches ? set_.law->outside(t.state) : 0};
   }
   return records;
 }

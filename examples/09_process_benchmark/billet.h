@@ -1,13 +1,14 @@
 // The billet as a finite-element model: mesh, unknowns, one implicit step, what it remembers.
 //
 // Weak form on the undeformed billet (total Lagrange), axisymmetric, quasi-static:
-//   int (P : grad v) 2 pi r dr dz = int t.v 2 pi r dL,   int (ln J - pressure/K) q 2 pi r dr dz = 0,
+//   int (P : grad v) 2 pi r dr dz = int t.v 2 pi r dL,   int (ln J - pressure/K) q 2 pi r dr dz =
+//   0,
 // with displacements of second order and the pressure of first order, both continuous (Taylor-Hood
 // on quadrilaterals): without a pressure of its own such an element locks when the plastic flow
 // keeps the volume. Newton's method with the exact tangent starts from displacements extrapolated
 // from the last step; a step that does not lower the residual is halved. Where that fails, the step
-// is solved with friction spread over 1000, 100 and 10 times the sticking speed first: each solution
-// starts the next, the last is the one that is kept.
+// is solved with friction spread over 1000, 100 and 10 times the sticking speed first: each
+// solution starts the next, the last is the one that is kept.
 #pragma once
 
 #include <memory>
@@ -45,11 +46,11 @@ public:
 
   std::vector<ContactRecord> contact() const;
   double integral(const std::string& expression, std::size_t region) const;
-  double volume_integral(const Vector& values) const;  // values at the volume's points
-  double contact_integral(const Vector& values) const; // values at the contact's points
-  double force() const;                                // of the die on the billet along z, N
-  double bottom_force() const;                         // along z, N
-  double volume() const;                               // mm^3
+  double volume_integral(const Vector& values) const;   // values at the volume's points
+  double contact_integral(const Vector& values) const;  // values at the contact's points
+  double force() const;                                 // of the die on the billet along z, N
+  double bottom_force() const;                          // along z, N
+  double volume() const;                                // mm^3
   std::array<double, 2> node(double r, double z) const; // where the node that was there is now
   double friction_error() const;                        // see friction_check.cpp, MPa
   double unbalanced() const { return unbalanced_; }     // N, largest at a node
@@ -88,7 +89,7 @@ private:
   getfem::model model_;
   Energies energies_;
   Vector plastic_work_, friction_work_, old_tau_;
-  Vector weights_;           // of the contact points, mm^2 of the billet
+  Vector weights_;          // of the contact points, mm^2 of the billet
   std::vector<bool> fixed_; // unknowns that a condition gives
   Vector last_move_;        // displacement of the last step, for the start of the next
   double last_time_ = 0, unbalanced_ = 0;

@@ -79,8 +79,8 @@ void shear(Report& report, RingSize start) {
     const Result result = ring(law);
     std::printf("shear friction, m = %g\n", m);
     if (m <= 0.2)
-      report.within("mean inner radius against Avitzur's upper bound, mm",
-                    result.last().inner_mean, avitzur_ring(start, 0.5, m).inner_radius, 0.03);
+      report.within("mean inner radius against Avitzur's upper bound, mm", result.last().inner_mean,
+                    avitzur_ring(start, 0.5, m).inner_radius, 0.03);
     report.falls("inner radius at mid height falls with m, mm", before, result.last().inner_mid);
     before = result.last().inner_mid;
     balances(report, result);

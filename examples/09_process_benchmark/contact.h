@@ -3,10 +3,10 @@
 // Normal direction: penalty, p = c * depth where the point is inside the die (c in MPa/mm).
 // Friction opposes the slip of the step. With the slip speed v = du.e/dt along the die's tangent e,
 //   tau = tau_R(p, psi, |v|, T, s, sigma_f) v/sqrt(v^2 + v0^2) p/sqrt(p^2 + p0^2):
-// the law times two factors. The first is 1 but for (v0/v)^2/2 where v is well above v0, and carries
-// tau smoothly through 0 where the material sticks (Chen, Kobayashi 1978 use an arc tangent). The
-// second is 1 but for (p0/p)^2/2, and lets tau begin at 0 where a surface meets the die: shear
-// friction would jump there, and Newton's method with it. What the law is asked:
+// the law times two factors. The first is 1 but for (v0/v)^2/2 where v is well above v0, and
+// carries tau smoothly through 0 where the material sticks (Chen, Kobayashi 1978 use an arc
+// tangent). The second is 1 but for (p0/p)^2/2, and lets tau begin at 0 where a surface meets the
+// die: shear friction would jump there, and Newton's method with it. What the law is asked:
 //   psi      da/dA by Nanson's formula: n da = J F^-T N dA, so psi = |cof(F) N|,
 //   s        sum of the slip since the point first touched the die,
 //   sigma_f  flow stress at the point's own plastic strain, of the return mapping at the surface,

@@ -61,11 +61,17 @@ template <int N> struct Dual {
   friend Dual log(const Dual& a) { return a.chain(std::log(a.value), 1 / a.value); }
 };
 
-inline double value_of(double x) { return x; }
-template <int N> double value_of(const Dual<N>& x) { return x.value; }
+inline double value_of(double x) {
+  return x;
+}
+template <int N> double value_of(const Dual<N>& x) {
+  return x.value;
+}
 
 // f(x) for a function of which value and slope are known.
-inline double chain(double, double f, double) { return f; }
+inline double chain(double, double f, double) {
+  return f;
+}
 template <int N> Dual<N> chain(const Dual<N>& x, double f, double slope) {
   return x.chain(f, slope);
 }

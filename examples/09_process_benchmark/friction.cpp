@@ -99,8 +99,7 @@ double constant_after(const std::string& text, std::size_t prefix, double most) 
 std::unique_ptr<FrictionLaw> friction_law(const std::string& text) {
   if (text == "none") return std::make_unique<Shear>(0);
   if (text.rfind("shear:", 0) == 0) return std::make_unique<Shear>(constant_after(text, 6, 1));
-  if (text.rfind("coulomb:", 0) == 0)
-    return std::make_unique<Coulomb>(constant_after(text, 8, 1));
+  if (text.rfind("coulomb:", 0) == 0) return std::make_unique<Coulomb>(constant_after(text, 8, 1));
   if (text.find('/') == std::string::npos)
     throw std::invalid_argument("law '" + text +
                                 "': none, shear:M, coulomb:MU or a path (./LIBRARY.so) expected");

@@ -25,8 +25,7 @@ double Billet::friction_error() const {
                                 {1 + h[0], h[1], h[2], 1 + h[3], 1 + h[4]});
     const double p = -(t[2 * i] * die.normal_r + t[2 * i + 1] * die.normal_z) / psi[i];
     const double tau = -(t[2 * i] * die.normal_z - t[2 * i + 1] * die.normal_r) / psi[i];
-    const double v =
-        (slip[2 * i] * die.normal_z - slip[2 * i + 1] * die.normal_r) / set_.time_step;
+    const double v = (slip[2 * i] * die.normal_z - slip[2 * i + 1] * die.normal_r) / set_.time_step;
     const double limit =
         set_.law->stress({p, psi[i], std::abs(v), now.temperature, memory[m + history_size],
                           set_.material->flow_stress(now.strain, now.temperature)});

@@ -10,7 +10,7 @@ Heat::Heat(Billet& billet, const HeatData& data, double temperature)
   model_.add_fem_variable("T", mf_);
   model_.add_fem_data("T_before", mf_);
   model_.add_fem_data("u", billet.displacement());
-  model_.add_im_data("source", billet.volume_points()); // MPa/s
+  model_.add_im_data("source", billet.volume_points());  // MPa/s
   model_.add_im_data("rubbed", billet.contact_points()); // N/(mm s)
   model_.add_im_data("film", billet.contact_points());   // N/(mm s K), of the billet's area
   model_.add_initialized_scalar_data("tool", data.tool);
@@ -19,12 +19,12 @@ Heat::Heat(Billet& billet, const HeatData& data, double temperature)
   model_.add_initialized_scalar_data("rate", 1);
   gmm::fill(model_.set_real_variable("T"), temperature);
   const std::string F = "(Id(2)+Grad_u)", ring = "2*pi*X(1)*";
-  getfem::add_nonlinear_term(
-      model_, billet.integration(),
-      ring + "((capacity*(T-T_before)*rate-source)*Test_T+conductivity*(Inv(" + F +
-          "')*Grad_T).(Inv(" + F + "')*Grad_Test_T))");
   getfem::add_nonlinear_term(model_, billet.integration(),
-                             ring + "(film*(T-tool)-rubbed)*Test_T", Billet::contact_region);
+                             ring +
+                                 "((capacity*(T-T_before)*rate-source)*Test_T+conductivity*(Inv(" +
+                                 F + "')*Grad_T).(Inv(" + F + "')*Grad_Test_T))");
+  getfem::add_nonlinear_term(model_, billet.integration(), ring + "(film*(T-tool)-rubbed)*Test_T",
+                             Billet::contact_region);
 }
 
 void Heat::step(double time_step) {

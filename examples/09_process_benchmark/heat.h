@@ -2,8 +2,8 @@
 //   c (T - T_before)/dt - div(k grad T) = share * plastic work/dt,
 //   at the die:  flux out = film (T - T_tool) - half the friction work/dt,
 // with linear elements, backward Euler, conduction on the deformed body (grad = F^-T Grad) and the
-// heat capacity c per volume of the billet. The tool keeps its temperature, and takes the other half
-// of the friction heat. (Taylor, Quinney 1934: share 0.9.)
+// heat capacity c per volume of the billet. The tool keeps its temperature, and takes the other
+// half of the friction heat. (Taylor, Quinney 1934: share 0.9.)
 #pragma once
 
 #include "billet.h"

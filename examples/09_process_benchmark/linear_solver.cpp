@@ -4,9 +4,8 @@
 
 #include <Eigen/SparseLU>
 
-void solve(const getfem::model_real_sparse_matrix& K,
-           const getfem::model_real_plain_vector& right, const std::vector<bool>& fixed,
-           getfem::model_real_plain_vector& x) {
+void solve(const getfem::model_real_sparse_matrix& K, const getfem::model_real_plain_vector& right,
+           const std::vector<bool>& fixed, getfem::model_real_plain_vector& x) {
   const auto is_fixed = [&](std::size_t i) { return !fixed.empty() && fixed[i]; };
   const auto n = static_cast<int>(right.size());
   std::vector<Eigen::Triplet<double>> entries;

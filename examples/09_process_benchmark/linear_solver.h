@@ -6,7 +6,7 @@
 
 #include <getfem/getfem_models.h>
 
-// K x = right, with x = 0 where `fixed` (empty: nowhere). Throws std::runtime_error if K is singular.
-void solve(const getfem::model_real_sparse_matrix& K,
-           const getfem::model_real_plain_vector& right, const std::vector<bool>& fixed,
-           getfem::model_real_plain_vector& x);
+// K x = right, with x = 0 where `fixed` (empty: nowhere). Throws std::runtime_error if K is
+// singular.
+void solve(const getfem::model_real_sparse_matrix& K, const getfem::model_real_plain_vector& right,
+           const std::vector<bool>& fixed, getfem::model_real_plain_vector& x);

@@ -51,8 +51,7 @@ int main(int count, char** words) {
     if (!command.output.empty()) write_result(result, command.output);
     return 0;
   } catch (const std::invalid_argument& fault) {
-    std::fprintf(stderr, "process_benchmark: %s\n  hint: process_benchmark --help\n",
-                 fault.what());
+    std::fprintf(stderr, "process_benchmark: %s\n  hint: process_benchmark --help\n", fault.what());
     return 2;
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "process_benchmark: %s\n", fault.what());

@@ -23,12 +23,8 @@
 #include "dual.h"
 
 // Symmetric tensor, and deformation gradient, of an axisymmetric state.
-template <class S> struct Symmetric {
-  S rr, zz, rz, tt;
-};
-template <class S> struct Gradient {
-  S rr, rz, zr, zz, tt;
-};
+template <class S> struct Symmetric { S rr, zz, rz, tt; };
+template <class S> struct Gradient { S rr, rz, zr, zz, tt; };
 
 struct Material {
   double young = 210e3, poisson = 0.3;           // MPa, 1
@@ -48,7 +44,8 @@ struct History {
   double strain = 0, temperature = 20;
 };
 
-// The increment of plastic strain that solves q_trial - 3 G dep = sigma_f(ep_old + dep); 0: elastic.
+// The increment of plastic strain that solves q_trial - 3 G dep = sigma_f(ep_old + dep); 0:
+// elastic.
 double plastic_increment(const Material& material, const History& old, double q_trial);
 
 template <class S> struct Returned {

@@ -62,17 +62,16 @@ public:
   explicit DieTraction(const ContactSetting& setting) : VectorOperator(setting, 6, 2) {}
 
   void value(const arg_list& args, base_tensor& result) const override {
-    const Traction<double> t =
-        traction(set, point<double>(args, gradient_of<double>(*args[0]), (*args[1])[0],
-                                    (*args[1])[1]));
+    const Traction<double> t = traction(
+        set, point<double>(args, gradient_of<double>(*args[0]), (*args[1])[0], (*args[1])[1]));
     result[0] = t.r;
     result[1] = t.z;
   }
   void derivative(const arg_list& args, size_type argument, base_tensor& result) const override {
     using D = Dual<7>;
-    const Traction<D> t = traction(
-        set, point<D>(args, variable_gradient_of<7>(*args[0]), D::variable((*args[1])[0], 5),
-                      D::variable((*args[1])[1], 6)));
+    const Traction<D> t =
+        traction(set, point<D>(args, variable_gradient_of<7>(*args[0]),
+                               D::variable((*args[1])[0], 5), D::variable((*args[1])[1], 6)));
     const unsigned first = argument == 1 ? 0 : 5, number = argument == 1 ? 5 : 2;
     for (unsigned j = 0; j < number; ++j) {
       result[2 * j] = t.r.d[first + j];
@@ -85,9 +84,8 @@ private:
   SurfacePoint<S> point(const arg_list& args, const Gradient<S>& F, const S& u_r,
                         const S& u_z) const {
     const base_tensor &X = *args[2], &before = *args[3], &normal = *args[4], &memory = *args[5];
-    return {X[0] + u_r,         X[1] + u_z, u_r - before[0], u_z - before[1],      F,
-            normal[0],          normal[1],  memory[history_size],
-            unpack_history(memory, 0)};
+    return {X[0] + u_r, X[1] + u_z, u_r - before[0],      u_z - before[1],          F,
+            normal[0],  normal[1],  memory[history_size], unpack_history(memory, 0)};
   }
 };
 

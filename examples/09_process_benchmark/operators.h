@@ -17,8 +17,8 @@ template <class Vector> History unpack_history(const Vector& from, std::size_t f
 }
 
 template <class Vector> void pack_history(const History& h, Vector& to, std::size_t first) {
-  const double values[] = {h.plastic.rr, h.plastic.zz, h.plastic.rz, h.plastic.tt, h.strain,
-                           h.temperature};
+  const double values[] = {h.plastic.rr, h.plastic.zz, h.plastic.rz,
+                           h.plastic.tt, h.strain,     h.temperature};
   for (unsigned i = 0; i < history_size; ++i)
     to[first + i] = values[i];
 }

@@ -15,16 +15,16 @@ struct Number {
   std::function<void(Command&, double)> set;
 };
 
-template <class T> std::function<void(Command&, double)> into(T Setup::* member) {
+template <class T> std::function<void(Command&, double)> into(T Setup::*member) {
   return [member](Command& c, double x) { c.setup.*member = static_cast<T>(x); };
 }
-std::function<void(Command&, double)> into(double Material::* member) {
+std::function<void(Command&, double)> into(double Material::*member) {
   return [member](Command& c, double x) { c.setup.material.*member = x; };
 }
-std::function<void(Command&, double)> into(double HeatData::* member) {
+std::function<void(Command&, double)> into(double HeatData::*member) {
   return [member](Command& c, double x) { c.setup.heat.*member = x; };
 }
-std::function<void(Command&, double)> into(double Command::* member) {
+std::function<void(Command&, double)> into(double Command::*member) {
   return [member](Command& c, double x) { c.*member = x; };
 }
 

@@ -16,7 +16,8 @@ constexpr int most_halvings = 6;
 class Run {
 public:
   explicit Run(const Setup& setup)
-      : setup_(setup), platens_(setup.process != "rod"), parts_(platens_ ? 2 : 1), law_(friction_law(setup.law)),
+      : setup_(setup), platens_(setup.process != "rod"), parts_(platens_ ? 2 : 1),
+        law_(friction_law(setup.law)),
         die_(make_die(setup)), contact_{&setup_.material,
                                         law_.get(),
                                         &die_,
@@ -45,8 +46,8 @@ public:
 private:
   static Die make_die(const Setup& s) {
     if (s.process != "rod") return Die::platen(s.height / 2);
-    return Die::nozzle(s.height, s.outer_diameter / 2, s.exit_diameter / 2,
-                       s.half_angle * pi / 180, s.corner);
+    return Die::nozzle(s.height, s.outer_diameter / 2, s.exit_diameter / 2, s.half_angle * pi / 180,
+                       s.corner);
   }
   static Shape shape(const Setup& s) {
     const double inner_radius = s.process == "ring" ? s.inner_diameter / 2 : 0;
@@ -78,7 +79,8 @@ private:
   void step(double stroke) {
     contact_.time_step = (stroke - stroke_) / setup_.speed;
     if (platens_) die_.move_to((setup_.height - stroke) / 2);
-    const int iterations = billet_.step(platens_ ? 0 : stroke, platens_ ? stroke / setup_.height : 0);
+    const int iterations =
+        billet_.step(platens_ ? 0 : stroke, platens_ ? stroke / setup_.height : 0);
     result_.contact.push_back(billet_.contact());
     const double error = billet_.friction_error();
     die_force_ = billet_.force();
@@ -86,8 +88,8 @@ private:
     StepRecord now = record(stroke);
     now.iterations = iterations;
     now.friction_error = error;
-    now.work = result_.last().work +
-               0.5e3 * (now.force + result_.last().force) * (stroke - stroke_);
+    now.work =
+        result_.last().work + 0.5e3 * (now.force + result_.last().force) * (stroke - stroke_);
     if (heat_) heat_->step(contact_.time_step);
     result_.steps.push_back(now);
     stroke_ = stroke;

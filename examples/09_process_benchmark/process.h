@@ -24,7 +24,7 @@ struct Setup {
   Material material;
   HeatData heat;
   std::size_t columns = 12, rows = 6, steps = 40;
-  double penalty = 1e6;        // MPa/mm
+  double penalty = 1e6;          // MPa/mm
   double sticking_share = 0.006; // v0 of contact.h, share of the speed
   double soft_pressure = 5;      // p0, MPa
 };
