@@ -44,7 +44,10 @@ def outside(path):
     """Shares of contact area and stroke beyond the campaign: any state, and each of them."""
     points = read(path)
     total, beyond, each = 0.0, 0.0, dict.fromkeys(RANGES, 0.0)
+    strokes = sorted(set(points["stroke_mm"]))
+    travel = {b: b - a for a, b in zip([0.0] + strokes, strokes)}
     for i, area in enumerate(points["area_mm2"]):
+        area *= travel[points["stroke_mm"][i]]
         out = [name for name, (low, high) in RANGES.items()
                if not low <= points[name][i] <= high]
         total += area
@@ -93,8 +96,8 @@ def table(folder, name):
           f"{2 * ring['inner_mid_mm'][-1]:.3f} mm, contact {ring['T_contact_C'][-1]:.1f} degC; "
           f"rod {rod['force_kN'][-1]:.2f} kN, {rod['T_contact_C'][-1]:.1f} degC. The constants of "
           f"its routine are within {check_truth(folder, name):.1e} of the planted ones.\n")
-    print("| law | tau_R, MPa (rank) | ring: force, % (rank) | inner diameter, mm (rank) | contact, "
-          "K | rod: force, % (rank) | contact, K |")
+    print("| law | tau_R, MPa (rank) | ring: force, % (rank) | inner diameter, mm (rank) "
+          "| contact, K | rod: force, % (rank) | contact, K |")
     print("|---|--:|--:|--:|--:|--:|--:|")
     measures = {"ring: force": [abs(found["ring"][law]["force"]) for law in laws],
                 "ring: inner diameter": [abs(found["ring"][law]["diameter"]) for law in laws],
@@ -106,14 +109,16 @@ def table(folder, name):
               f"({place['ring: force'][i]:g}) | {a['diameter']:+.3f} "
               f"({place['ring: inner diameter'][i]:g}) | {a['heat']:+.1f} | {b['force']:+.2f} "
               f"({place['rod: force'][i]:g}) | {b['heat']:+.1f} |")
-    print("\nRank correlation (Spearman) of the error of tau_R with that of the process, SYNTHETIC:\n")
+    print("\nRank correlation (Spearman) of the error of tau_R with that of the process, "
+          "SYNTHETIC:\n")
     print("| | all laws | without the constants of the literature |\n|---|--:|--:|")
     fitted = [i for i, law in enumerate(laws) if law not in CONSTANTS]
     order = [mae[law] for law in laws]
     for key, values in measures.items():
         print(f"| {key} | {spearman(order, values):.2f} | "
               f"{spearman([order[i] for i in fitted], [values[i] for i in fitted]):.2f} |")
-    print("\nShare of the contact (area, over the stroke) beyond the campaign's range, with the truth:\n")
+    print("\nShare of the contact (area, over the stroke) beyond the campaign's range, with the "
+          "truth, SYNTHETIC:\n")
     print("| | any state | sigma_n | psi | v | T |\n|---|--:|--:|--:|--:|--:|")
     for process in ("ring", "rod"):
         beyond, each = outside(folder / process / "routine_contact.csv")

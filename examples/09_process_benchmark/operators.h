@@ -2,8 +2,8 @@
 //   Nominal_stress(H, pressure, history)              the vector P = (rr, rz, zr, zz, tt),
 //   Die_traction(H, u, X, u_before, normal, memory)   the vector t = (r, z),
 // with H = F - I as the vector (u_r,r  u_r,z  u_z,r  u_z,z  u_r/r). The last arguments are data of
-// the integration points (see pack). GetFEM asks for derivatives by the arguments that depend on
-// an unknown; Dual gives them.
+// the integration points (pack_history). GetFEM asks for derivatives by the arguments that depend
+// on an unknown; Dual gives them.
 #pragma once
 
 #include "contact.h"

@@ -144,7 +144,8 @@ def main():
     out += force_panel(folder, "ring", 0, 30)
     out += ring_panel(folder, curves, WIDTH, 30)
     out += force_panel(folder, "rod", 0, 30 + HEIGHT)
-    out += map_panel(folder, WIDTH, 30 + HEIGHT, "contact with the truth: pressure, speed (synthetic)",
+    out += map_panel(folder, WIDTH, 30 + HEIGHT,
+                     "contact with the truth: pressure, speed (synthetic)",
                      ("sigma_n, MPa", 0, 3000), ("v_rel, mm/s", 0, 80),
                      ("sigma_n_MPa", "v_rel_mm_s"))
     out += map_panel(folder, 0, 30 + 2 * HEIGHT,

@@ -65,22 +65,28 @@ private:
     double part = stroke - stroke_;
     for (int halvings = 0; stroke_ < stroke - 1e-12;) {
       part = std::min(part, stroke - stroke_);
+      int iterations = 0;
       try {
-        step(stroke_ + part);
+        iterations = equilibrium(stroke_ + part);
       } catch (const std::exception& fault) {
         if (++halvings > most_halvings)
           throw std::runtime_error("no equilibrium found at a stroke of " +
                                    std::to_string(stroke_) + " mm: " + fault.what());
         part /= 2;
+        continue;
       }
+      keep(stroke_ + part, iterations);
     }
   }
 
-  void step(double stroke) {
+  int equilibrium(double stroke) {
     contact_.time_step = (stroke - stroke_) / setup_.speed;
-    if (platens_) die_.move_to((setup_.height - stroke) / 2);
-    const int iterations =
-        billet_.step(platens_ ? 0 : stroke, platens_ ? stroke / setup_.height : 0);
+    if (!platens_) return billet_.step(stroke, 0);
+    die_.move_to((setup_.height - stroke) / 2);
+    return billet_.step(0, stroke / setup_.height);
+  }
+
+  void keep(double stroke, int iterations) {
     result_.contact.push_back(billet_.contact());
     const double error = billet_.friction_error();
     die_force_ = billet_.force();

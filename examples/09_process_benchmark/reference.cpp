@@ -16,7 +16,7 @@ double power(const RingSize& ring, double c, double m) {
     // Strain rates by h/V: radial (1 + c/r^2)/2, hoop (1 - c/r^2)/2, axial -1.
     const double rate = std::sqrt(1 + squared * squared / 3);
     const double friction = m / std::sqrt(3.0) * std::abs(r - c / r) / ring.height;
-    sum += (rate * ring.height + friction * ring.height) * r * width / ring.height;
+    sum += (rate + friction) * r * width;
   }
   return sum;
 }
