@@ -156,7 +156,7 @@ int Billet::newton() {
     }
     if (!std::isfinite(next)) break;
     rest = next;
-    double largest = 1;
+    double largest = 1e3; // N: below, rounding is all that is left
     for (size_type i = 0; i < fixed_.size(); ++i)
       if (fixed_[i]) largest = std::max(largest, std::abs(model_.real_rhs()[i]));
     if (rest <= tolerance * largest) return iteration;

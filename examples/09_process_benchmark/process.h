@@ -18,7 +18,7 @@ struct Setup {
   std::string law = "none";
   double outer_diameter = 18, inner_diameter = 9, height = 6; // mm, of the whole billet
   double reduction = 0.5;                                     // ring, upsetting: share of height
-  double stroke = 5, exit_diameter = 9, half_angle = 15, corner = 0.5; // rod: mm, mm, deg, mm
+  double stroke = 5, exit_diameter = 9, half_angle = 15, corner = 0.8; // rod: mm, mm, deg, mm
   double speed = 50;                                                   // mm/s
   double temperature = 20; // degC, of the billet at the start
   Material material;
