@@ -39,6 +39,8 @@ const std::vector<Number>& numbers() {
       {"--exit-diameter", 0.1, 1000, "mm, rod", into(&Setup::exit_diameter)},
       {"--half-angle", 1, 60, "deg, of the die's cone, rod", into(&Setup::half_angle)},
       {"--corner", 0.01, 10, "mm, rounding of the die's corners, rod", into(&Setup::corner)},
+      {"--press-fit", 0, 0.1, "mm of radius that the bar exceeds the container, rod",
+       into(&Setup::press_fit)},
       {"--speed", 1e-3, 1e5, "mm/s, at which the platens close or the punch moves",
        into(&Setup::speed)},
       {"--temperature", -50, 1000, "degC, of the billet at the start", into(&Setup::temperature)},

@@ -46,8 +46,8 @@ public:
 private:
   static Die make_die(const Setup& s) {
     if (s.process != "rod") return Die::platen(s.height / 2);
-    // The bar fills the container up to where its corner begins.
-    return Die::nozzle(s.height + s.corner, s.outer_diameter / 2, s.exit_diameter / 2,
+    // The bar is pressed into the container, up to where its corner begins.
+    return Die::nozzle(s.height + s.corner, s.outer_diameter / 2 - s.press_fit, s.exit_diameter / 2,
                        s.half_angle * pi / 180, s.corner);
   }
   static Shape shape(const Setup& s) {

@@ -19,8 +19,9 @@ struct Setup {
   double outer_diameter = 18, inner_diameter = 9, height = 6; // mm, of the whole billet
   double reduction = 0.5;                                     // ring, upsetting: share of height
   double stroke = 5, exit_diameter = 9, half_angle = 15, corner = 0.8; // rod: mm, mm, deg, mm
-  double speed = 50;                                                   // mm/s
-  double temperature = 20; // degC, of the billet at the start
+  double press_fit = 0.002; // rod: mm of radius that the bar is wider than the container
+  double speed = 50;        // mm/s
+  double temperature = 20;  // degC, of the billet at the start
   Material material;
   HeatData heat;
   std::size_t columns = 12, rows = 6, steps = 40;
