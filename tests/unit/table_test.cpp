@@ -387,7 +387,7 @@ TEST(TableFile, TruncatedAndForeignFilesAreFaultsNotCrashes) {
   write_table(table, directory.path("t.h5"));
   const std::string bytes = directory.read("t.h5");
   Random random(3);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 60; ++i) { // TableFuzz does it with every table
     std::string broken = bytes.substr(0, random.below(bytes.size()));
     if (i % 2) { // same length, some bytes changed
       broken = bytes;

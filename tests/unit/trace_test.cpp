@@ -116,7 +116,7 @@ std::vector<std::string> causes(const Trace& trace) {
   return names;
 }
 
-TEST(Trace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
+TEST(SlowTrace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
   for (const char* law : {"coulomb", "orowan", "log_coulomb", "exp_coulomb"}) {
     const Trace t = traced(campaign(law, 11));
     EXPECT_EQ(t.verdict, Verdict::nothing_found) << law << trace_text(t);
@@ -339,7 +339,7 @@ TEST(SlowTrace, WhatMovesBothBranchesOfOrowanIsPlacedOnBoth) {
 }
 
 // A humidity that rises with the order of tests, or is set in turn.
-TEST(Trace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDecide) {
+TEST(SlowTrace, WhatGoesWithTheOrderOfTestsIsOfferedTogetherWithTheTestsThatWouldDecide) {
   Data data = data_of(campaign("log_coulomb", 6));
   std::vector<double> humidity;
   for (Dataset* part : {&data.training, &data.validation}) {
