@@ -7,6 +7,7 @@
 #include "codegen/fortran_build.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
+#include "codegen/speed_scale.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -67,7 +68,7 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   head.lists["remarks"] = fortran::comments(remarks);
   head.text = {{"head", all.text.at("head")},
                {"from", all.text.at("from")},
-               {"n_props", std::to_string(property_count(inputs))}};
+               {"n_props", std::to_string(all_properties(request, inputs))}};
   return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
 }
 

@@ -12,6 +12,7 @@
 #include "codegen/number_text.h"
 #include "codegen/recipe_states.h"
 #include "codegen/solver_units.h"
+#include "codegen/speed_scale.h"
 #include "core/text.h"
 #include "deck.h"
 #include "stop.h"
@@ -101,8 +102,9 @@ void add_past(TemplateValues& values, const ExportRequest& request,
 }
 
 // The statements behind the declarations of the arguments.
-std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& inputs,
-                 std::size_t n_x) {
+std::string body(const ForceRoutine& routine, const ExportRequest& request,
+                 const std::vector<SolverInput>& inputs, std::size_t n_x) {
+  const std::size_t scale = speed_scale_property(request, inputs);
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
                  {"reads_once", fortran::reads(inputs, routine.gives, "once")},
@@ -115,6 +117,8 @@ std::string body(const ForceRoutine& routine, const std::vector<SolverInput>& in
                  {"state", routine.state}};
   add_sizes(values, inputs);
   values.flags["unknown"] = fortran::needs_unknown(inputs, routine.gives);
+  values.flags["scaled"] = scale > 0;
+  if (scale > 0) values.text["scale"] = std::to_string(scale);
   return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
 }
 
@@ -148,7 +152,7 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
   TemplateValues values;
   values.text = {{"head", explicit_head(*find_exporter(routine.about.name), request, inputs,
                                         remarks(routine, request, inputs))},
-                 {"body", body(routine, inputs, n_x)},
+                 {"body", body(routine, request, inputs, n_x)},
                  {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
   return render_template("abaqus/" + routine.entry + "/" + file_of(routine), values);
@@ -168,9 +172,11 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
         {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs);
+  add_speed_scale(out["properties"], request, inputs);
   add_compile(out, file_of(routine));
-  out["input_deck"] = friction_lines(routine.user, state_count(inputs), inputs) +
-                      routine.deck_tail + field_lines(inputs);
+  out["input_deck"] =
+      friction_lines(routine.user, state_count(inputs), inputs, speed_scale_placeholder(request)) +
+      routine.deck_tail + field_lines(inputs);
 }
 
 } // namespace
@@ -184,22 +190,20 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "The force lies along the motion (the first local axis is the motion's own direction): the "
       "stick force with its sign, as far as friction holds it; at rest it is still there. Slip is "
       "the motion that the stick force, grown from the force before the increment, does not "
-      "explain: a stuck point has none. Surface "
-      "expansion and flow stress are not known to the solver: [export.inputs] says per state "
-      "constant:VALUE, property or field:N; a property or field the deck does not give takes the "
-      "middle of the range the table was made for, as the header of the source says. DEPVAR={}: "
-      "accumulated slip, friction work per area, peak pressure, increments outside the range, and "
-      "what single precision rounds off slip and work (increments are small against their sum: "
-      "with DEPVAR=4 a slip in steps of 1e-6 mm stops growing at 32 mm), each by {}. A law with "
-      "friction_work or peak_sigma_n takes it from {}: slip and peak include the motion and "
-      "pressure of the present "
-      "increment, work ends before it; further histories of a traced law (energy, times, means, "
-      "peaks, friction power) take two state variables each, their times are the solver's seconds, "
-      "which time scaling changes. Beyond a side with outside = error "
-      "the routine ends the "
-      "analysis through XPLB_ABQERR and names state and value: a NaN force would spread before "
-      "anybody sees it. Works with the single- and the double-precision solver; table and "
-      "arithmetic are double in both.",
+      "explain: a stuck point has none. Surface expansion and flow stress are not known to the "
+      "solver: [export.inputs] says per state constant:VALUE, property or field:N; a property or "
+      "field the deck does not give takes the middle of the range the table was made for, as the "
+      "header of the source says. DEPVAR={}: accumulated slip, friction work per area, peak "
+      "pressure, increments outside the range, and what single precision rounds off slip and work "
+      "(increments are small against their sum: with DEPVAR=4 a slip in steps of 1e-6 mm stops "
+      "growing at 32 mm), each by {}. A law with friction_work or peak_sigma_n takes it from {}: "
+      "slip and peak include the motion and pressure of the present increment, work ends before "
+      "it; further histories of a traced law (energy, times, means, peaks, friction power) take "
+      "two state variables each, their times are the solver's seconds. In a simulation scaled in "
+      "speed or time, speed_scale = property gives the law the process's speeds and times. Beyond "
+      "a side with outside = error the routine ends the analysis through XPLB_ABQERR and names "
+      "state and value: a NaN force would spread before anybody sees it. Works with the single- "
+      "and the double-precision solver; table and arithmetic are double in both.",
       explicit_states, state_by, state_name);
 }
 

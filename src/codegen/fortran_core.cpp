@@ -12,6 +12,7 @@
 #include "codegen/fortran_interpolation.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
+#include "codegen/speed_scale.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
@@ -203,7 +204,10 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   values.text["stress"] = stress.name;
   values.text["length"] = solver_unit("mm", request.units).name;
   values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);
-  values.lists["properties"] = comments(property_lines(inputs));
+  std::vector<std::string> properties = property_lines(inputs);
+  for (const std::string& line : speed_scale_line(request, inputs))
+    properties.push_back(line);
+  values.lists["properties"] = comments(properties);
   values.lists["source"] = comments({exporter.signature_source});
   values.flags["refuses"] = refuses(table);
   values.offered = {"stress", "length", "to_solver", "properties"};

@@ -10,6 +10,10 @@ C     precision.
 C
 @{reads_once}
       dtime = @{time_increment}
+@if scaled
+C     The process takes this many times longer than the simulation.
+      if (nProps .ge. @{scale}) dtime = dtime*props(@{scale})
+@end
       do k = 1, @{points}
         do i = 1, nFricDir
           fTangential(i,k) = 0

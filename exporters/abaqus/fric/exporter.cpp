@@ -84,18 +84,16 @@ Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
 }
 
 const char* const source_of_signature =
-    "verified: argument list in public copies of the manual page (releases 6.5 to 2024; SLNAME "
-    "and MSNAME are SECNAME and MAINNAME in 2024, same places) and in public routines; LM; "
-    "positive stress along positive motion (elastic stick of the page, public routines); DDTDDP "
-    "acts only with the unsymmetric solver. Recalled, check against your release: STATEV hold the "
-    "start of the increment in every iteration (the routine is right either way, as long as KSTEP "
-    "and KINC number increments and a cutback keeps the number); TAU comes in as of the start of "
-    "the increment (used only where there are fewer state variables); DROT turns the components of "
-    "state variables; "
-    "TEMP(1), TEMP(2) and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD is the work "
-    "of the increment, SED the elastic energy; 0.005*CHRLNGTH is the solver's own slip tolerance. "
-    "STDB_ABQERR (only where outside = error) is called "
-    "as public routines do";
+    "verified: argument list in public copies of the manual page (releases 6.5 to 2024; SLNAME and "
+    "MSNAME are SECNAME and MAINNAME in 2024, same places) and in public routines; LM; positive "
+    "stress along positive motion (elastic stick of the page, public routines); DDTDDP acts only "
+    "with the unsymmetric solver. Recalled, check against your release: STATEV hold the start of "
+    "the increment in every iteration (the routine is right either way, as long as KSTEP and KINC "
+    "number increments and a cutback keeps the number); TAU comes in as of the start of the "
+    "increment (used only where there are fewer state variables); DROT turns the components of "
+    "state variables; TEMP(1), TEMP(2) and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; "
+    "SFD is the work of the increment, SED the elastic energy; 0.005*CHRLNGTH is the solver's own "
+    "slip tolerance. STDB_ABQERR (only where outside = error) is called as public routines do";
 
 const char* const notes =
     "For *FRICTION, USER in Abaqus/Standard: contact pairs and contact elements. The routine gives "

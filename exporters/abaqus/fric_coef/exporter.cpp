@@ -83,13 +83,12 @@ const char* const source_of_signature =
     "verified: the list of 2024 in the v2024 reference and in 3DEXPERIENCE, that of 2020 in a "
     "public routine for releases up to about 2020; between these it is not known which release "
     "changed it. State variables are rData(8) and on, as the 2024 page gets them by a pointer. "
-    "Inferred from that page: one point per call where there are state variables. "
-    "Recalled, check against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is "
-    "the slip at the end of the increment; "
-    "nTemp = 1 where temperatures exist; state variables hold the start of the increment in every "
-    "iteration (the routine is right either way, as long as KSTEP and KINC number increments and "
-    "a cutback keeps the number). STDB_ABQERR (only where outside = error) is called as public "
-    "routines do";
+    "Inferred from that page: one point per call where there are state variables. Recalled, check "
+    "against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is the slip at the "
+    "end of the increment; nTemp = 1 where temperatures exist; state variables hold the start of "
+    "the increment in every iteration (the routine is right either way, as long as KSTEP and KINC "
+    "number increments and a cutback keeps the number). STDB_ABQERR (only where outside = error) "
+    "is called as public routines do";
 
 const char* const notes =
     "For *FRICTION, USER=COEFFICIENT in Abaqus/Standard: contact pairs and general contact; stick "
@@ -97,17 +96,16 @@ const char* const notes =
     "abaqus_release to 2024 or 2020, by whether the manual of your release names slipData or "
     "slipRate; both have 16 arguments, so the wrong one compiles, links and reads other numbers. "
     "The solver multiplies the coefficient tau_R/p with its pressure, so the shear limit holds as "
-    "the coefficient falls with pressure. Below 1 MPa (or the low end "
-    "of the range) the coefficient is held: a law whose tau_R does not vanish with the pressure "
-    "would need an infinite one. Derivatives by pressure act with *STEP, UNSYMM=YES. Slip history "
-    "is the solver's equivalent slip (2024) or not known (2020: a property, or a field). Friction "
-    "work and peak pressure take DEPVAR=11, further histories of a traced law two more each; they "
-    "exist only with the list of 2024; "
-    "abaqus_coefficient = \"start_of_increment\" needs them too. Rates are slip over time: a "
-    "static step needs times that mean seconds. Surface expansion and flow stress are not known "
-    "to the solver: [export.inputs] says constant:VALUE, property or field:N. Beyond a side with "
-    "outside = error STDB_ABQERR ends the analysis, and states of unconverged iterations count "
-    "too: prefer clamp or law in Standard.";
+    "the coefficient falls with pressure. Below 1 MPa (or the low end of the range) the "
+    "coefficient is held: a law whose tau_R does not vanish with the pressure would need an "
+    "infinite one. Derivatives by pressure act with *STEP, UNSYMM=YES. Slip history is the "
+    "solver's equivalent slip (2024) or not known (2020: a property, or a field). Friction work "
+    "and peak pressure take DEPVAR=11, further histories of a traced law two more each; they exist "
+    "only with the list of 2024; abaqus_coefficient = \"start_of_increment\" needs them too. Rates "
+    "are slip over time: a static step needs times that mean seconds. Surface expansion and flow "
+    "stress are not known to the solver: [export.inputs] says constant:VALUE, property or field:N. "
+    "Beyond a side with outside = error STDB_ABQERR ends the analysis, and states of unconverged "
+    "iterations count too: prefer clamp or law in Standard.";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter(

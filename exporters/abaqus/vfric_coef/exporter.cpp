@@ -15,6 +15,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
 
 namespace frictab::abaqus::vfric_coef {
@@ -54,8 +55,7 @@ std::vector<std::string> remarks(const ExportRequest& request) {
                   fortran::largest_coefficient),
       "fCoefDeriv is set to 0: the explicit solver builds no tangent.",
       "No state variables: sliding distance, work, peak pressure and every other history are "
-      "properties or fields, and "
-      "states outside the range are not counted.",
+      "properties or fields, and states outside the range are not counted.",
       "NaN in gives NaN out."};
   if (fortran::refuses(request.table))
     lines.push_back("Points out of contact never end the analysis: the value at the end of a side "
@@ -82,7 +82,9 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                  {"least", fortran_number(fortran::least_pressure)},
                  {"most", fortran::most_text()},
                  {"core", core.text}};
-  values.flags = {{"unknown", unknown}, {"refuses", refuses}};
+  const std::size_t scale = speed_scale_property(request, inputs);
+  values.flags = {{"unknown", unknown}, {"refuses", refuses}, {"scaled", scale > 0}};
+  if (scale > 0) values.text["scale"] = std::to_string(scale);
   return render_template("abaqus/vfric_coef/frictab_vfric_coef.f", values);
 }
 
@@ -99,11 +101,13 @@ void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                               fortran::largest_coefficient)}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = recipe_properties(inputs);
+  add_speed_scale(out["properties"], request, inputs);
   abaqus::add_compile(out, file);
-  out["input_deck"] = abaqus::friction_lines("user=coefficient", 0, inputs) +
-                      "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
-                      "*Contact Property Assignment\n , , FRICTAB\n" +
-                      abaqus::field_lines(inputs);
+  out["input_deck"] =
+      abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale_placeholder(request)) +
+      "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
+      "*Contact Property Assignment\n , , FRICTAB\n" +
+      abaqus::field_lines(inputs);
 }
 
 SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -126,20 +130,19 @@ const char* const source_of_signature =
     "(only where outside = error) is called as public routines do";
 
 const char* const notes =
-    "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick "
-    "and slip, the routine says how large the coefficient is. The argument list is RECALLED: "
-    "check against your release; abaqus_vfriction gives the same friction with a verified one. "
-    "fCoef = tau_R/pressure, so that a law with a shear limit gets a coefficient that falls with "
-    "pressure, and a large one at small pressures, at most 10: up to that force = "
-    "fCoef*pressure is tau_R all the same. Below 1e-3 MPa the coefficient is the one there: the "
-    "limit of a law that rises with "
-    "pressure, while tau_R of one that does not (shear, m k) goes to 0 with the pressure. "
+    "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick and "
+    "slip, the routine says how large the coefficient is. The argument list is RECALLED: check "
+    "against your release; abaqus_vfriction gives the same friction with a verified one. fCoef = "
+    "tau_R/pressure, so that a law with a shear limit gets a coefficient that falls with pressure, "
+    "and a large one at small pressures, at most 10: up to that force = fCoef*pressure is tau_R "
+    "all the same. Below 1e-3 MPa the coefficient is the one there: the limit of a law that rises "
+    "with pressure, while tau_R of one that does not (shear, m k) goes to 0 with the pressure. "
     "fCoefDeriv is set to 0. There is no history: sliding distance, friction work and peak "
-    "pressure are properties or fields (VUFIELD). There are no state variables (DEPVAR), so "
-    "states outside the range are not counted. SHEAR TRACTION SLOPE does not go with it. "
-    "Where a side has outside = error, points in contact end the analysis "
-    "through XPLB_ABQERR; points out of contact never do. Works with the single- and the "
-    "double-precision solver; table and arithmetic are double in both.";
+    "pressure are properties or fields (VUFIELD). There are no state variables (DEPVAR), so states "
+    "outside the range are not counted. SHEAR TRACTION SLOPE does not go with it. Where a side has "
+    "outside = error, points in contact end the analysis through XPLB_ABQERR; points out of "
+    "contact never do. Works with the single- and the double-precision solver; table and "
+    "arithmetic are double in both.";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter(
@@ -148,7 +151,7 @@ const Registered<Exporter> registered{[] {
                  .title = "Abaqus/Explicit VFRIC_COEF, general contact, coefficient only",
                  .signature_source = source_of_signature,
                  .notes = notes,
-                 .options = {values_option()}},
+                 .options = {values_option(), speed_scale_option()}},
        .entry = "vfric_coef",
        .gives = gives,
        .sources = sources,

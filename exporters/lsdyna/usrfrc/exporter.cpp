@@ -10,6 +10,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
+#include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
 #include "source.h"
 #include "table/outside.h"
@@ -22,8 +23,10 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-std::string keywords(const frictab::table::Table& table, const std::vector<SolverInput>& inputs) {
-  const std::vector<std::string> values = property_placeholders(inputs);
+std::string keywords(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  std::vector<std::string> values = property_placeholders(inputs);
+  for (const std::string& further : speed_scale_placeholder(request))
+    values.push_back(further);
   std::string deck = fmt::format(
       "*CONTROL_CONTACT\n"
       "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
@@ -35,7 +38,7 @@ std::string keywords(const frictab::table::Table& table, const std::vector<Solve
       "$     ifid       noc      noci      nhsv\n"
       "{:>10}{:>10}{:>10}{:>10}\n",
       std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
-      state_count(table, inputs));
+      state_count(request.table, inputs));
   for (std::size_t i = 0; i < values.size(); ++i)
     deck += fmt::format("$ UA({}): {}\n", i + 1, values[i]);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -72,13 +75,14 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
   out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
   out["state_variables"] = history(request.table, request.units, inputs);
   out["properties"] = recipe_properties(inputs);
+  add_speed_scale(out["properties"], request, inputs);
   out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
                   "object package; older ones end at isurface and have no history",
                   "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",
                   "build with the package's Makefile, which sets the kinds of real and integer"};
   out["compile"] = {"make", fortran::fixed_form_check("frictab_usrfrc.f")};
   out["compile_note"] = "the last line only checks the source";
-  out["input_deck"] = keywords(request.table, inputs);
+  out["input_deck"] = keywords(request, inputs);
   out["input_deck_note"] =
       "a forming contact, or one-way or node-to-surface contact (only they have nodal areas), with "
       "FS above 0 (recalled: friction is processed only then)";
@@ -120,20 +124,19 @@ const char* const source_of_signature =
 
 const char* const notes =
     "LS-DYNA leaves the friction FORCE to this routine: changing FRIC1..4 would change nothing. "
-    "The force that would hold the node (old force plus stiffness times relative displacement, "
-    "its tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
+    "The force that would hold the node (old force plus stiffness times relative displacement, its "
+    "tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
     "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
     "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
     "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
     "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where no "
     "state has a tested range); two more for each further history of a traced law (energy, times, "
-    "means, peaks, friction power). Surface expansion and flow stress are not known to the "
-    "solver: "
+    "means, peaks, friction power). Surface expansion and flow stress are not known to the solver: "
     "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
     "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
-    "histories would count every iteration of an implicit one. Works in both precisions; table "
-    "and arithmetic are double in both. Beyond a side with outside = error the routine writes "
-    "state and value to the standard output and ends the analysis through CSTOP.";
+    "histories would count every iteration of an implicit one. Works in both precisions; table and "
+    "arithmetic are double in both. Beyond a side with outside = error the routine writes state "
+    "and value to the standard output and ends the analysis through CSTOP.";
 
 const Registered<Exporter> registered{[] {
   return routine_exporter({.about = {.name = "lsdyna_usrfrc",
@@ -141,7 +144,7 @@ const Registered<Exporter> registered{[] {
                                      .title = "LS-DYNA USRFRC, SMP",
                                      .signature_source = source_of_signature,
                                      .notes = notes,
-                                     .options = {values_option()}},
+                                     .options = {values_option(), speed_scale_option()}},
                            .entry = "usrfrc",
                            .gives = gives,
                            .sources = sources,

@@ -5,6 +5,7 @@
 #include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
+#include "codegen/speed_scale.h"
 #include "table/outside.h"
 
 namespace frictab::lsdyna::usrfrc {
@@ -71,6 +72,9 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   values.text["core"] =
       fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
+  const std::size_t scale = speed_scale_property(request, inputs);
+  values.flags["scaled"] = scale > 0;
+  if (scale > 0) values.text["scale"] = std::to_string(scale);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);

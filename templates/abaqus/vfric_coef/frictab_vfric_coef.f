@@ -35,6 +35,10 @@ C
         end do
         press = pressure(k)
         speed = slipRate(k)
+@if scaled
+C       The process is this many times slower than the simulation.
+        if (nProps .ge. @{scale}) speed = speed/props(@{scale})
+@end
 @{reads_point}
         coef = ftcoef(x, press, speed)
         fCoef(k) = real(coef, kind(fCoef))

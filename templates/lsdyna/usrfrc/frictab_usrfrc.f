@@ -86,6 +86,10 @@ C
 C
 @{reads_once}
       rate = fdt2
+@if scaled
+C     The process takes this many times longer than the simulation.
+      if (ninput .ge. @{scale}) rate = rate/ua(@{scale})
+@end
       do kk = 1, niisv5
         ii = iisv5(kk)
         j = ilbsv(ii)
