@@ -22,9 +22,8 @@ std::string property_deck(const std::vector<std::string>& values) {
 
 std::string friction_lines(const std::string& user, std::size_t depvar,
                            const std::vector<SolverInput>& inputs,
-                           const std::vector<std::string>& further) {
-  std::vector<std::string> values = property_placeholders(inputs);
-  values.insert(values.end(), further.begin(), further.end());
+                           const FurtherProperties& further) {
+  const std::vector<std::string> values = property_placeholders(inputs, further);
   std::string deck = "*Surface Interaction, name=FRICTAB\n*Friction, " + user;
   if (depvar > 0) deck += fmt::format(", depvar={}", depvar);
   if (!values.empty()) deck += fmt::format(", properties={}", values.size());

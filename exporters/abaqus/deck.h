@@ -13,7 +13,7 @@ namespace frictab::abaqus {
 // "user", "user=friction"; DEPVAR and PROPERTIES are left out where they are 0.
 std::string friction_lines(const std::string& user, std::size_t depvar,
                            const std::vector<codegen::SolverInput>& inputs,
-                           const std::vector<std::string>& further = {});
+                           const codegen::FurtherProperties& further = {});
 
 // Which lines give the field variables that the law takes, as comments and keywords; empty where it
 // takes none.

@@ -63,12 +63,13 @@ std::string explicit_head(const Exporter& exporter, const ExportRequest& request
   TemplateValues all, head;
   fortran::add_head(all, exporter, request, inputs,
                     {.error_action = "XPLB_ABQERR ends the analysis",
-                     .directory_routine = directory_routine(Solver::explicit_)});
+                     .directory_routine = directory_routine(Solver::explicit_),
+                     .further_properties = speed_scale(request, inputs)});
   head.lists = all.lists;
   head.lists["remarks"] = fortran::comments(remarks);
   head.text = {{"head", all.text.at("head")},
                {"from", all.text.at("from")},
-               {"n_props", std::to_string(all_properties(request, inputs))}};
+               {"n_props", all.text.at("n_props")}};
   return fortran::without_last_break(render_template("abaqus/explicit_head.f", head));
 }
 

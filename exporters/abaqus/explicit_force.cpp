@@ -104,7 +104,6 @@ void add_past(TemplateValues& values, const ExportRequest& request,
 // The statements behind the declarations of the arguments.
 std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, std::size_t n_x) {
-  const std::size_t scale = speed_scale_property(request, inputs);
   TemplateValues values;
   values.text = {{"n_x", std::to_string(n_x)},
                  {"reads_once", fortran::reads(inputs, routine.gives, "once")},
@@ -117,8 +116,7 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  {"state", routine.state}};
   add_sizes(values, inputs);
   values.flags["unknown"] = fortran::needs_unknown(inputs, routine.gives);
-  values.flags["scaled"] = scale > 0;
-  if (scale > 0) values.text["scale"] = std::to_string(scale);
+  add_speed_scale(values, request, inputs);
   return fortran::without_last_break(render_template("abaqus/explicit_force.f", values));
 }
 
@@ -171,11 +169,10 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
     states.push_back(
         {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
   out["state_variables"] = states;
-  out["properties"] = recipe_properties(inputs);
-  add_speed_scale(out["properties"], request, inputs);
+  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   add_compile(out, file_of(routine));
   out["input_deck"] =
-      friction_lines(routine.user, state_count(inputs), inputs, speed_scale_placeholder(request)) +
+      friction_lines(routine.user, state_count(inputs), inputs, speed_scale(request, inputs)) +
       routine.deck_tail + field_lines(inputs);
 }
 

@@ -68,12 +68,11 @@ double smallest_pressure(const frictab::table::Table& table) {
 
 bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
                  const std::vector<SolverInput>& inputs, const SolverGives& gives, bool unknown,
-                 const std::vector<std::string>& release) {
+                 fortran::Head head) {
   const frictab::table::Table& table = request.table;
-  fortran::add_head(values, exporter, request, inputs,
-                    {.error_action = "STDB_ABQERR ends the analysis",
-                     .directory_routine = directory_routine(Solver::standard),
-                     .release = release});
+  head.error_action = "STDB_ABQERR ends the analysis";
+  head.directory_routine = directory_routine(Solver::standard);
+  fortran::add_head(values, exporter, request, inputs, head);
   add_units(values, request);
   const bool refuses = values.flags["refuses"], frozen = coefficient_is_frozen(exporter, request);
   unknown = unknown || refuses || fortran::needs_unknown(inputs, gives);

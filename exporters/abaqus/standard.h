@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "codegen/exporter.h"
+#include "codegen/fortran_core.h"
 #include "codegen/solver_inputs.h"
 #include "codegen/template.h"
 
@@ -24,11 +25,12 @@ double smallest_pressure(const frictab::table::Table& table);
 
 // Fills in what both templates hold: head, histories, core with its gradient, stop, pmin and
 // smallest, to_mpa, to_mm, lines `coefficient`, flags frozen, has_ends, refuses. Gives whether the
-// core holds ftqnan; `unknown` asks for it in any case. `release` as in fortran::Head.
+// core holds ftqnan; `unknown` asks for it in any case. `head` as far as the target has a say in
+// it.
 bool add_routine(codegen::TemplateValues& values, const codegen::Exporter& exporter,
                  const codegen::ExportRequest& request,
                  const std::vector<codegen::SolverInput>& inputs, const codegen::SolverGives& gives,
-                 bool unknown, const std::vector<std::string>& release = {});
+                 bool unknown, codegen::fortran::Head head);
 
 // Adds what keeps n values, of which those of codegen/histories.h are the last, proof against
 // iterations: text states_text (ftbegn, ftkeep), depvar, stamp, first, n_states.

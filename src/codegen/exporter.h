@@ -24,6 +24,12 @@ struct ExportRequest {
   std::string units = "mm-t-s"; // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
   std::map<std::string, std::string> inputs = {};  // job's [export.inputs]; checked by the exporter
   std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
+
+  // What the job says for an option; empty: nothing.
+  std::string said(const std::string& option) const {
+    const auto found = options.find(option);
+    return found == options.end() ? "" : found->second;
+  }
 };
 
 // A choice that a target offers beyond [export.inputs]. Targets may share one: same name, same

@@ -12,7 +12,6 @@
 #include "codegen/fortran_interpolation.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
-#include "codegen/speed_scale.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
@@ -204,13 +203,11 @@ void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequ
   values.text["stress"] = stress.name;
   values.text["length"] = solver_unit("mm", request.units).name;
   values.text["to_solver"] = stress.same() ? "" : "*" + fortran_number(stress.over);
-  std::vector<std::string> properties = property_lines(inputs);
-  for (const std::string& line : speed_scale_line(request, inputs))
-    properties.push_back(line);
-  values.lists["properties"] = comments(properties);
+  values.lists["properties"] = comments(property_lines(inputs, head.further_properties));
+  values.text["n_props"] = std::to_string(property_count(inputs) + head.further_properties.size());
   values.lists["source"] = comments({exporter.signature_source});
   values.flags["refuses"] = refuses(table);
-  values.offered = {"stress", "length", "to_solver", "properties"};
+  values.offered = {"stress", "length", "to_solver", "properties", "n_props"};
 }
 
 } // namespace frictab::codegen::fortran

@@ -58,16 +58,17 @@ std::string free_form(const std::string& fixed);
 
 // What the comments at the head of a source say beyond the request.
 struct Head {
-  std::string error_action; // beyond a side with outside = error: "XPLB_ABQERR ends the analysis"
+  std::string error_action = {}; // beyond a side with outside = error: "CSTOP ends the analysis"
   std::string directory_routine = {};    // as in CoreOptions
   std::vector<std::string> release = {}; // which release's argument list it is; empty: no word
+  FurtherProperties further_properties = {};
 };
 
 // Adds what every source is filled with: text head (templates/fortran/frictab_head.f: law, data,
 // units, drift, states, what holds outside, where a file of values lies), from ("from a table"),
 // n_x, stress and length (unit names), to_solver ("*1.0D6", from MPa to the solver's unit); lists
-// properties and source (where the argument list comes from); flag refuses, where a side has
-// outside = error. Units and properties are offered.
+// properties (n_props of them) and source (where the argument list comes from); flag refuses, where
+// a side has outside = error. Units and properties are offered.
 void add_head(TemplateValues& values, const Exporter& exporter, const ExportRequest& request,
               const std::vector<SolverInput>& inputs, const Head& head);
 

@@ -21,7 +21,7 @@ json recipe_states(const std::vector<SolverInput>& inputs) {
   return out;
 }
 
-json recipe_properties(const std::vector<SolverInput>& inputs) {
+json recipe_properties(const std::vector<SolverInput>& inputs, const FurtherProperties& further) {
   json out = json::array();
   for (const SolverInput& input : inputs) {
     if (!input.property) continue;
@@ -34,6 +34,13 @@ json recipe_properties(const std::vector<SolverInput>& inputs) {
     if (input.fallback) one["where_absent"] = input.argument.solver.from_canonical(*input.fallback);
     out.push_back(one);
   }
+  for (const FurtherProperty& property : further)
+    out.push_back({{"number", property.number},
+                   {"quantity", property.quantity},
+                   {"unit", property.unit},
+                   {"meaning", property.meaning},
+                   {"used_when", "always"},
+                   {"where_absent", property.where_absent}});
   return out;
 }
 

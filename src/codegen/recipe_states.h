@@ -14,6 +14,7 @@ namespace frictab::codegen {
 nlohmann::ordered_json recipe_states(const std::vector<SolverInput>& inputs);
 
 // One object per property of the deck: number, quantity, unit, meaning, used_when, where_absent.
-nlohmann::ordered_json recipe_properties(const std::vector<SolverInput>& inputs);
+nlohmann::ordered_json recipe_properties(const std::vector<SolverInput>& inputs,
+                                         const FurtherProperties& further = {});
 
 } // namespace frictab::codegen

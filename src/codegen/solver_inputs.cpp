@@ -257,10 +257,13 @@ std::string meaning_and_unit(const SolverInput& input) {
   return of.solver.name == "1" ? of.meaning : of.meaning + ", " + of.solver.name;
 }
 
-std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs) {
+std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
+                                               const FurtherProperties& further) {
   std::vector<std::string> places;
   for (const SolverInput& input : inputs)
     if (input.property) places.push_back("<" + meaning_and_unit(input) + ">");
+  for (const FurtherProperty& property : further)
+    places.push_back(property.placeholder);
   return places;
 }
 
@@ -403,7 +406,8 @@ std::vector<std::string> state_lines(const ExportRequest& request,
   return lines;
 }
 
-std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs) {
+std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs,
+                                        const FurtherProperties& further) {
   std::vector<std::string> lines;
   for (const SolverInput& input : inputs) {
     if (input.property == 0) continue;
@@ -415,6 +419,8 @@ std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs) 
                                 unit.name, absent,
                                 input.without.empty() ? "" : ", reference where " + input.without));
   }
+  for (const FurtherProperty& property : further)
+    lines.push_back(fmt::format("{} {}", property.number, property.line));
   if (lines.empty()) lines.push_back("none");
   return lines;
 }

@@ -73,6 +73,17 @@ struct SolverInput {
 // choices.
 std::vector<SolverInput> solver_inputs(const ExportRequest& request, const SolverGives& gives);
 
+// A property of the deck that is no state of the law: what the routine itself has to be told. Its
+// number comes behind those of the states.
+struct FurtherProperty {
+  std::size_t number; // from 1
+  std::string quantity, unit, meaning;
+  std::string line;        // what a source says of it, behind the number
+  std::string placeholder; // what the deck has in its place
+  double where_absent;     // what the routine takes where the deck does not give it
+};
+using FurtherProperties = std::vector<FurtherProperty>;
+
 // Those that the job says are constants, [export.inputs] NAME = "constant:VALUE".
 table::HeldStates said_constants(const ExportRequest& request,
                                  const std::vector<SolverInput>& inputs);
@@ -85,7 +96,8 @@ std::string meaning_and_unit(const SolverInput& input); // "contact temperature,
 
 // What a deck has in the properties' places, for the user to replace: "<flow stress of the
 // workpiece, MPa>". A number would be taken for one that belongs to the process.
-std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs);
+std::vector<std::string> property_placeholders(const std::vector<SolverInput>& inputs,
+                                               const FurtherProperties& further);
 
 // "/1.0D6": what turns the solver's unit into the canonical one; empty where they are one.
 std::string fortran_conversion(const SolverUnit& unit);
@@ -107,9 +119,11 @@ bool needs_unknown(const std::vector<SolverInput>& inputs, const SolverGives& gi
 
 } // namespace fortran
 
-// Comment lines: each state, its source and the table's range; each property with what stands in.
+// Comment lines: each state, its source and the table's range; each property with what stands in,
+// "none" where there is none.
 std::vector<std::string> state_lines(const ExportRequest& request,
                                      const std::vector<SolverInput>& inputs);
-std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs);
+std::vector<std::string> property_lines(const std::vector<SolverInput>& inputs,
+                                        const FurtherProperties& further);
 
 } // namespace frictab::codegen

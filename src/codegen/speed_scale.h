@@ -5,33 +5,19 @@
 // by n before anything else sees them. Slip, work per area and pressure are the same in both.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
-
-#include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
+#include "codegen/template.h"
 
 namespace frictab::codegen {
 
 // "none", "property"; of the targets for explicit solvers.
 ExportOption speed_scale_option();
 
-// The number of that property; 0 where the request asks for none.
-std::size_t speed_scale_property(const ExportRequest& request,
-                                 const std::vector<SolverInput>& inputs);
+// That property; none where the request asks for none.
+FurtherProperties speed_scale(const ExportRequest& request, const std::vector<SolverInput>& inputs);
 
-// All properties: those of the states and this one.
-std::size_t all_properties(const ExportRequest& request, const std::vector<SolverInput>& inputs);
-
-// What stands in its place: in a deck; as a comment line of the source; in recipe.json's list.
-// Empty, or nothing is added, where the request asks for none.
-std::vector<std::string> speed_scale_placeholder(const ExportRequest& request);
-std::vector<std::string> speed_scale_line(const ExportRequest& request,
-                                          const std::vector<SolverInput>& inputs);
-void add_speed_scale(nlohmann::ordered_json& properties, const ExportRequest& request,
+// For a routine's template: flag scaled, and text scale, the property's number.
+void add_speed_scale(TemplateValues& values, const ExportRequest& request,
                      const std::vector<SolverInput>& inputs);
 
 } // namespace frictab::codegen

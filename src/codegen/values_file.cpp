@@ -68,14 +68,13 @@ ExportOption values_option() {
 
 bool values_in_file(const ExportRequest& request) {
   if (request.table.is_direct() || request.table.axes.empty()) return false;
-  const auto said = request.options.find(option_name);
-  if (said != request.options.end() && said->second != "auto") return said->second != "source";
+  const std::string said = request.said(option_name);
+  if (!said.empty() && said != "auto") return said != "source";
   return baked_numbers(request.table) > most_baked_numbers;
 }
 
 bool values_for_windows(const ExportRequest& request) {
-  const auto said = request.options.find(option_name);
-  return said != request.options.end() && said->second == "file_windows";
+  return request.said(option_name) == "file_windows";
 }
 
 void check_request(const ExportRequest& request) {

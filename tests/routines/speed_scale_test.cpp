@@ -85,24 +85,25 @@ template <class Call> std::vector<double> six_increments(Call& c, const Routine&
   return out;
 }
 
+template <class Call, class... Size>
+std::vector<double> force_routine(const std::string& entry, bool scaled, double seconds,
+                                  Size... size) {
+  const Routine r = routine("abaqus_" + entry, entry, test::further_histories_table(), scaled);
+  Call c;
+  set_up(c, r, seconds);
+  c.resize(size...);
+  return six_increments(c, r);
+}
+
 TEST_F(SpeedScale, VfricWithThePropertyActsAsAtTheSpeedOfTheProcess) {
-  expect_process([&](bool scaled, double seconds) {
-    const Routine r = routine("abaqus_vfric", "vfric", test::further_histories_table(), scaled);
-    calls::VfricCall<double> c;
-    set_up(c, r, seconds);
-    c.resize(1, 1);
-    return six_increments(c, r);
+  expect_process([](bool scaled, double seconds) {
+    return force_routine<calls::VfricCall<double>>("vfric", scaled, seconds, 1, 1);
   });
 }
 
 TEST_F(SpeedScale, VfrictionWithThePropertyActsAsAtTheSpeedOfTheProcess) {
-  expect_process([&](bool scaled, double seconds) {
-    const Routine r =
-        routine("abaqus_vfriction", "vfriction", test::further_histories_table(), scaled);
-    calls::VfrictionCall<double> c;
-    set_up(c, r, seconds);
-    c.resize(1);
-    return six_increments(c, r);
+  expect_process([](bool scaled, double seconds) {
+    return force_routine<calls::VfrictionCall<double>>("vfriction", scaled, seconds, 1);
   });
 }
 
@@ -141,6 +142,32 @@ TEST_F(SpeedScale, VfricCoefWithThePropertyActsAsAtTheSpeedOfTheProcess) {
     c.run(r.function);
     return std::vector<double>{c.coefficient[0]};
   });
+}
+
+codegen::SourceBundle generated(const codegen::Exporter& exporter, const table::Table& table,
+                                bool scaled) {
+  const test::SampleRequest sample(exporter, table, "mm-t-s");
+  codegen::ExportRequest request = sample.get();
+  if (scaled) request.options["speed_scale"] = "property";
+  return exporter.generate(request);
+}
+
+TEST(SpeedScaleProperty, ChangesNoTargetThatDoesNotOfferIt) {
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
+    const bool offered = std::any_of(exporter.options.begin(), exporter.options.end(),
+                                     [](const auto& one) { return one.name == "speed_scale"; });
+    const table::Table table = test::four_axis_table();
+    const bool same = generated(exporter, table, true) == generated(exporter, table, false);
+    EXPECT_NE(same, offered) << exporter.name;
+  }
+}
+
+TEST(SpeedScaleProperty, IsTheOnlyOneListedWhereNoStateIsAProperty) {
+  const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
+  const std::string source =
+      generated(exporter, test::constant_table(), true).at("frictab_vfric.f");
+  EXPECT_EQ(source.find("C     none\n"), std::string::npos);
+  EXPECT_NE(source.find("C     1 how many times faster"), std::string::npos);
 }
 
 } // namespace

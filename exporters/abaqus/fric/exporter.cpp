@@ -24,8 +24,9 @@ using json = nlohmann::ordered_json;
 
 const char* const file = "frictab_fric.f";
 
-std::string input_deck(const std::vector<SolverInput>& inputs) {
-  return abaqus::friction_lines("user", abaqus::states_size(state_count(inputs)), inputs, {"0."}) +
+std::string input_deck(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+  return abaqus::friction_lines("user", abaqus::states_size(state_count(inputs)), inputs,
+                                critical_slip(request, inputs)) +
          abaqus::standard_lines(inputs);
 }
 
@@ -42,17 +43,6 @@ json state_variables(const ExportRequest& request, const std::vector<SolverInput
                                  request, inputs);
 }
 
-json properties(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  json out = recipe_properties(inputs);
-  out.push_back({{"number", property_count(inputs) + 1},
-                 {"quantity", "critical_slip"},
-                 {"unit", solver_unit("mm", request.units).name},
-                 {"meaning", "elastic slip at which sticking ends; 0: 0.005*CHRLNGTH"},
-                 {"used_when", "always"},
-                 {"where_absent", 0.0}});
-  return out;
-}
-
 void add_recipe(json& out, const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Exporter& exporter = *find_exporter("abaqus_fric");
   out["options"] = {{"abaqus_coefficient", exporter.option(request, "abaqus_coefficient")}};
@@ -64,11 +54,11 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
                     "the point sticks; derivatives by motion, pressure and temperature"}};
   out["state_variables_by"] = "contact point";
   out["state_variables"] = state_variables(request, inputs);
-  out["properties"] = properties(request, inputs);
+  out["properties"] = recipe_properties(inputs, critical_slip(request, inputs));
   out["compile"] = {"abaqus job=<job> user=frictab_fric.f",
                     fortran::fixed_form_check("frictab_fric.f")};
   out["compile_note"] = "the last line only checks the source, beside an aba_param.inc of your own";
-  out["input_deck"] = input_deck(inputs);
+  out["input_deck"] = input_deck(request, inputs);
 }
 
 SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput>& inputs) {

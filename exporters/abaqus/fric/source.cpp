@@ -51,13 +51,25 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return history + history_count(inputs);
 }
 
+FurtherProperties critical_slip(const ExportRequest& request,
+                                const std::vector<SolverInput>& inputs) {
+  const std::string length = solver_unit("mm", request.units).name;
+  return {{.number = property_count(inputs) + 1,
+           .quantity = "critical_slip",
+           .unit = length,
+           .meaning = "elastic slip at which sticking ends; 0: 0.005*CHRLNGTH",
+           .line = "critical elastic slip (" + length + "); 0 or none: 0.005*CHRLNGTH",
+           .placeholder = "0.",
+           .where_absent = 0}};
+}
+
 std::string fric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values;
   // Without DROT, CHRLNGTH and the like being numbers, TAU is NaN: ftqnan is always there.
-  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true);
-  const std::size_t properties = property_count(inputs);
-  values.text["critical"] = std::to_string(properties + 1);
-  values.text["n_props"] = std::to_string(properties + 1);
+  const FurtherProperties critical = critical_slip(request, inputs);
+  abaqus::add_routine(values, *find_exporter("abaqus_fric"), request, inputs, gives(request), true,
+                      {.further_properties = critical});
+  values.text["critical"] = std::to_string(critical.front().number);
   // A millionth of a millimetre, where the deck and the solver give no length.
   values.text["least_slip"] = fortran_number(solver_unit("mm", request.units).from_canonical(1e-6));
   abaqus::add_states(values, state_count(inputs));

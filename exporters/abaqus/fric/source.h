@@ -15,6 +15,10 @@ const codegen::SolverGives& gives(const codegen::ExportRequest&);
 inline constexpr std::size_t history = 7;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
+// The property behind those of the states.
+codegen::FurtherProperties critical_slip(const codegen::ExportRequest& request,
+                                         const std::vector<codegen::SolverInput>& inputs);
+
 std::string fric_source(const codegen::ExportRequest& request,
                         const std::vector<codegen::SolverInput>& inputs);
 

@@ -96,14 +96,13 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
                      "argument list has no state variables",
                      "\"current\", or the target abaqus_fric");
   TemplateValues values;
-  values.flags["uses_unknown"] = abaqus::add_routine(values, target(), request, inputs,
-                                                     gives(request), false, release_lines(newer));
+  values.flags["uses_unknown"] = abaqus::add_routine(
+      values, target(), request, inputs, gives(request), false, {.release = release_lines(newer)});
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
   values.text["most"] = fortran::most_text();
-  values.text["n_props"] = std::to_string(property_count(inputs));
   abaqus::add_states(values, state_count(inputs));
   return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);
 }

@@ -82,9 +82,8 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
                  {"least", fortran_number(fortran::least_pressure)},
                  {"most", fortran::most_text()},
                  {"core", core.text}};
-  const std::size_t scale = speed_scale_property(request, inputs);
-  values.flags = {{"unknown", unknown}, {"refuses", refuses}, {"scaled", scale > 0}};
-  if (scale > 0) values.text["scale"] = std::to_string(scale);
+  values.flags = {{"unknown", unknown}, {"refuses", refuses}};
+  add_speed_scale(values, request, inputs);
   return render_template("abaqus/vfric_coef/frictab_vfric_coef.f", values);
 }
 
@@ -100,11 +99,10 @@ void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                               stress.from_canonical(fortran::least_pressure), stress.name,
                               fortran::largest_coefficient)}};
   out["state_variables"] = nlohmann::ordered_json::array();
-  out["properties"] = recipe_properties(inputs);
-  add_speed_scale(out["properties"], request, inputs);
+  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   abaqus::add_compile(out, file);
   out["input_deck"] =
-      abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale_placeholder(request)) +
+      abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale(request, inputs)) +
       "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
       "*Contact Property Assignment\n , , FRICTAB\n" +
       abaqus::field_lines(inputs);

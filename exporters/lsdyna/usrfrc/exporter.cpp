@@ -24,9 +24,8 @@ namespace {
 using json = nlohmann::ordered_json;
 
 std::string keywords(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-  std::vector<std::string> values = property_placeholders(inputs);
-  for (const std::string& further : speed_scale_placeholder(request))
-    values.push_back(further);
+  const std::vector<std::string> values =
+      property_placeholders(inputs, speed_scale(request, inputs));
   std::string deck = fmt::format(
       "*CONTROL_CONTACT\n"
       "$   slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien    enmass\n"
@@ -74,8 +73,7 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
                                "min(tau_R*areas*frc(1,.), that force)"}};
   out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
   out["state_variables"] = history(request.table, request.units, inputs);
-  out["properties"] = recipe_properties(inputs);
-  add_speed_scale(out["properties"], request, inputs);
+  out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
                   "object package; older ones end at isurface and have no history",
                   "replace subroutine usrfrc in dyn21.f by frictab_usrfrc.f",

@@ -60,7 +60,8 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   const std::string end = "call cstop('E r r o r   t e r m i n a t i o n')";
   TemplateValues values;
   fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,
-                    {.error_action = "CSTOP ends the analysis"});
+                    {.error_action = "CSTOP ends the analysis",
+                     .further_properties = speed_scale(request, inputs)});
   const std::size_t before_rest = before_histories + history_count(inputs);
   fortran::add_histories(values, inputs, request.units, false);
   values.text["n_history"] = std::to_string(state_count(table, inputs));
@@ -72,9 +73,7 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   values.text["core"] =
       fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
-  const std::size_t scale = speed_scale_property(request, inputs);
-  values.flags["scaled"] = scale > 0;
-  if (scale > 0) values.text["scale"] = std::to_string(scale);
+  add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");
   values.text["reads_once"] = fortran::reads(inputs, gives(request), "once");
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);

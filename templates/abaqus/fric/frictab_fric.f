@@ -17,7 +17,6 @@ C     takes the value in brackets):
 @for line in properties
 C     @{line.text}
 @end
-C     @{critical} critical elastic slip (@{length}); 0 or none: 0.005*CHRLNGTH
 C
 C     STATEV (DEPVAR=@{depvar}), by contact point, at the end of the increment:
 C     1 accumulated slip under pressure (@{length}), 2 friction work per
