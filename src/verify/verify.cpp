@@ -38,23 +38,32 @@ struct Subjects {
   RowsBeyond beyond;
   Probe range;
   Probe below; // the range, at lower contact normal stresses: BelowRange
+  std::vector<table::StateRange> ranges_below;
   std::optional<BelowRange> where;
   table::ProvenDrift proven; // empty where the table's own record is known
 };
 
-Probe probe(const table::LawFunction& law, const table::TableFunction& table,
-            table::States states) {
-  Probe out = table::with_law(law, std::move(states));
-  table::compare(out, table);
-  return out;
-}
+// What every source is compared with.
+struct Reference {
+  Reference(const VerifyInput& input, const std::vector<std::string>& names)
+      : law(input.law, names), table(input.table) {}
+
+  Probe probe(table::States states) const {
+    Probe out = table::with_law(law, std::move(states));
+    table::compare(out, table);
+    return out;
+  }
+
+  table::LawFunction law;
+  table::TableFunction table;
+};
 
 constexpr const char* pressure = "sigma_n_MPa";
 constexpr std::size_t most_below = 4096; // Halton points
 
-// Fills `below` and `where`.
-void add_below(Subjects& s, const VerifyInput& input, std::vector<table::StateRange> ranges,
-               const table::LawFunction& law, const table::TableFunction& table) {
+// Fills `below`, `ranges_below` and `where`.
+void add_below(Subjects& s, const VerifyInput& input, const Reference& reference) {
+  std::vector<table::StateRange> ranges = s.ranges;
   const auto range = std::find_if(ranges.begin(), ranges.end(),
                                   [](const auto& one) { return one.name == pressure; });
   if (range == ranges.end() || !(range->low > 0)) return;
@@ -63,7 +72,8 @@ void add_below(Subjects& s, const VerifyInput& input, std::vector<table::StateRa
   range->high = range->low;
   range->low = 0.1 * range->low;
   s.where = {range->low, range->high, table::outside_name(outside), 0, 0};
-  s.below = probe(law, table, table::box_points(ranges, std::min(input.samples, most_below)));
+  s.below = reference.probe(table::box_points(ranges, std::min(input.samples, most_below)));
+  s.ranges_below = std::move(ranges);
 }
 
 Subjects prepare(const VerifyInput& input) {
@@ -76,28 +86,26 @@ Subjects prepare(const VerifyInput& input) {
                                    "nor uses in its combine formula",
                                    input.law.model.law->name, name),
                        "verify a table against the model it was made from");
-  const table::LawFunction law(input.law, s.names);
-  const table::TableFunction table(input.table);
-  const auto ranges = table::table_ranges(input.table, input.rows, input.table_name);
-  s.ranges = ranges;
-  s.range = probe(law, table, table::probe_points(ranges, input.table.axes, input.samples));
+  const Reference reference(input, s.names);
+  s.ranges = table::table_ranges(input.table, input.rows, input.table_name);
+  s.range = reference.probe(table::probe_points(s.ranges, input.table.axes, input.samples));
   table::States worst;
   if (input.known) {
     for (const std::string& name : s.names)
       worst.push_back({input.known->worst_state.at(name)});
   } else {
-    s.proven =
-        table::prove_drift(input.law, input.table, ranges,
-                           table::worst_case(law, table, ranges, s.range), input.max_drift_MPa);
+    s.proven = table::prove_drift(
+        input.law, input.table, s.ranges,
+        table::worst_case(reference.law, reference.table, s.ranges, s.range), input.max_drift_MPa);
     for (const double x : s.proven.worst.state)
       worst.push_back({x});
   }
-  table::append(s.range, probe(law, table, worst)); // sources are looked at there as well
-  add_below(s, input, ranges, law, table);
+  table::append(s.range, reference.probe(worst)); // sources are looked at there as well
+  add_below(s, input, reference);
   if (input.rows) {
     table::States states = calibrate::input_columns(input.law, s.names, *input.rows).values();
     s.beyond = rows_beyond(input.table, states);
-    s.rows = probe(law, table, std::move(states));
+    s.rows = reference.probe(std::move(states));
   }
   return s;
 }
@@ -241,13 +249,12 @@ Columns columns_for(const table::Table& source, const Subjects& s, const Probe& 
 
 // The same states with some of them held. A solver's own table answers beyond its ends as it
 // likes: rows that the table refuses are none of its failures.
-Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldStates& held,
-                 bool own_table) {
-  const table::LawFunction law(input.law, s.names);
-  const table::TableFunction table(input.table);
+Subjects at_held(const table::Table& table, const Subjects& s, const Reference& reference,
+                 const table::HeldStates& held, bool own_table) {
   Subjects out;
   out.names = s.names;
   out.ranges = s.ranges;
+  out.ranges_below = s.ranges_below;
   out.where = s.where;
   for (const auto& [from, to] :
        {std::pair{&s.rows, &out.rows}, {&s.range, &out.range}, {&s.below, &out.below}}) {
@@ -255,9 +262,9 @@ Subjects at_held(const VerifyInput& input, const Subjects& s, const table::HeldS
     for (std::size_t d = 0; d < states.size(); ++d)
       if (const auto value = held.find(s.names[d]); value != held.end())
         std::fill(states[d].begin(), states[d].end(), value->second);
-    if (!from->law.empty()) *to = probe(law, table, std::move(states));
+    if (!from->law.empty()) *to = reference.probe(std::move(states));
   }
-  out.beyond = rows_beyond(input.table, out.rows.states);
+  out.beyond = rows_beyond(table, out.rows.states);
   for (RowKind& kind : out.beyond.kinds)
     if (own_table && kind == RowKind::refused) kind = RowKind::clamped;
   return out;
@@ -329,21 +336,15 @@ table::States furthest_states(const table::Table& own, const models::AssembledLa
 }
 
 // Adds those states, of the range and of the decade below it.
-void add_furthest(Subjects& s, const VerifyInput& input, const table::Table& own,
-                  const table::HeldStates& held, bool gives_mu) {
+void add_furthest(Subjects& s, const VerifyInput& input, const Reference& reference,
+                  const table::Table& own, const table::HeldStates& held, bool gives_mu) {
   const models::AssembledLaw own_law = law_of_own_table(input.law, held, gives_mu);
-  const table::LawFunction law(input.law, s.names);
-  const table::TableFunction table(input.table);
   const auto add = [&](Probe& to, const std::vector<table::StateRange>& ranges) {
     table::States states = furthest_states(own, own_law, held, ranges, input.samples);
-    if (!states.empty()) table::append(to, probe(law, table, std::move(states)));
+    if (!states.empty()) table::append(to, reference.probe(std::move(states)));
   };
   add(s.range, s.ranges);
-  if (!s.where) return;
-  std::vector<table::StateRange> below = s.ranges;
-  for (table::StateRange& range : below)
-    if (range.name == pressure) range.low = s.where->low_MPa, range.high = s.where->high_MPa;
-  add(s.below, below);
+  if (s.where) add(s.below, s.ranges_below);
 }
 
 using Answer = std::function<void(const Probe&, std::vector<double>&)>;
@@ -392,9 +393,11 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const table::HeldStates held =
       exporter.held ? exporter.held(source.request) : table::HeldStates{};
   if (exporter.whole() && held.empty()) return compare(input, given(s), subject, answer);
-  Subjects reduced = at_held(input, s, held, !exporter.whole());
+  const Reference reference(input, s.names);
+  Subjects reduced = at_held(input.table, s, reference, held, !exporter.whole());
   if (!exporter.whole())
-    add_furthest(reduced, input, exporter.own_table(source.request, source.bundle), held, gives_mu);
+    add_furthest(reduced, input, reference, exporter.own_table(source.request, source.bundle), held,
+                 gives_mu);
   return compare_reduced(input, s, given(reduced), held, !exporter.whole(), subject, answer);
 }
 
