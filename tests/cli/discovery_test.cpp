@@ -144,7 +144,7 @@ TEST(DoctorCommand, SaysWhatThisMachineHas) {
   const CommandResult result = run_frictab({"doctor", "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
-  std::map<std::string, nlohmann::json> found;
+  std::map<std::string, nlohmann::ordered_json> found;
   for (const auto& item : test::parse_json(result.out))
     found[item.at("name")] = item;
   for (const char* library : {"HDF5", "NLopt", "Eigen"})

@@ -29,7 +29,7 @@ struct Judgement : testing::Test {
     error = result.err;
     return result.out;
   }
-  nlohmann::json calibration() const {
+  nlohmann::ordered_json calibration() const {
     return test::parse_json(directory.read("data/out/calibration.json"));
   }
   std::string design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=100;validation=12";

@@ -12,7 +12,7 @@ namespace {
 
 using test::run_frictab;
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 const std::string usual_design = "p=500,1200,2750;psi=1,4.47,20;v=5,500;T=20,110,200;points=25";
 const std::vector<std::string> campaign = {"--law",     "log_coulomb",

@@ -99,7 +99,7 @@ TEST_F(TwinCommand, RecordsPlantedEffects) {
   EXPECT_THAT(run(arguments), HasSubstr("saturation of s_mm on mu"));
   const auto effects = test::parse_json(content("twin.json"))["effects"];
   ASSERT_EQ(effects.size(), 2u);
-  EXPECT_EQ(effects[0]["columns"], nlohmann::json({"s_mm"}));
+  EXPECT_EQ(effects[0]["columns"], nlohmann::ordered_json({"s_mm"}));
   EXPECT_NEAR(effects[0]["strength"].get<double>(), 0.5, 1e-6);
   EXPECT_EQ(effects[0]["parameters"][1]["unit"], "mm");
   EXPECT_EQ(effects[1]["derived"], "friction_work");

@@ -37,7 +37,7 @@ std::string refusal(const ExportRequest& request, const std::string& target = "a
   }
 }
 
-nlohmann::json recipe(const std::string& target, const ExportRequest& request) {
+nlohmann::ordered_json recipe(const std::string& target, const ExportRequest& request) {
   return test::parse_json(find_exporter(target)->generate(request).at("recipe.json"));
 }
 
@@ -177,7 +177,7 @@ TEST(Export, NamesAndTextsFromOutsideStayInsideComments) {
 
 TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   const Table table = test::four_axis_table();
-  const nlohmann::json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
+  const nlohmann::ordered_json out = recipe("abaqus_vfric", {table, "m-kg-s", {}});
   EXPECT_EQ(out["entry"], "vfric");
   EXPECT_THAT(
       std::string(out["input_deck"]),
@@ -197,7 +197,7 @@ TEST(Export, InputDeckHasTheLinesOfTheFieldsTheLawTakes) {
   const Table table = test::four_axis_table();
   for (const char* target : {"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef", "abaqus_fric",
                              "abaqus_fric_coef"}) {
-    const nlohmann::json out = recipe(target, {table, "mm-t-s", {{"psi", "field:2"}}});
+    const nlohmann::ordered_json out = recipe(target, {table, "mm-t-s", {{"psi", "field:2"}}});
     EXPECT_THAT(
         std::string(out["input_deck"]),
         HasSubstr("*Initial Conditions, type=FIELD, variable=2\n"
@@ -213,7 +213,7 @@ TEST(Export, InputDeckHasTheLinesOfTheFieldsTheLawTakes) {
 
 TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {
   const Table table = test::constant_table();
-  const nlohmann::json out = recipe("abaqus_vfric", {table, "mm-t-s", {}});
+  const nlohmann::ordered_json out = recipe("abaqus_vfric", {table, "mm-t-s", {}});
   EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=6\n*Contact"));
   EXPECT_TRUE(out["properties"].empty());
 }
@@ -221,7 +221,7 @@ TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {
 TEST(Export, RecipeListsTheCArgumentsInContractOrderAndTracedOnesBehind) {
   const Table table = test::traced_table();
   std::vector<std::string> names;
-  const nlohmann::json out = recipe("c", {table, "mm-t-s", {}});
+  const nlohmann::ordered_json out = recipe("c", {table, "mm-t-s", {}});
   for (const auto& argument : out["arguments"])
     names.push_back(argument["quantity"]);
   EXPECT_THAT(names, testing::ElementsAre("sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm",

@@ -137,7 +137,7 @@ TEST_P(SlowValuesFileOf, IsListedByTheRecipeWithItsChecksum) {
   const auto recipe = test::parse_json(bundle.at("recipe.json"));
   EXPECT_THAT(recipe["files"].get<std::vector<std::string>>(),
               testing::Contains(std::string(values_file_name)));
-  const nlohmann::json& file = recipe["values_file"];
+  const nlohmann::ordered_json& file = recipe["values_file"];
   EXPECT_EQ(file["name"], values_file_name);
   EXPECT_EQ(file["numbers"], table.nodes());
   const std::vector<double> values = codegen::baked_values(table);

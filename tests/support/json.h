@@ -1,13 +1,16 @@
-// JSON of a program's output or file. The parser is compiled once for all tests.
+// JSON of a program's output or file, read by the program's own parser: compiled once for all.
 #pragma once
 
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
+
 namespace frictab::test {
 
-// Throws nlohmann::json::parse_error where it is none.
-nlohmann::json parse_json(const std::string& text);
+inline nlohmann::ordered_json parse_json(const std::string& text) {
+  return io::parse_json(text, "JSON");
+}
 
 } // namespace frictab::test
