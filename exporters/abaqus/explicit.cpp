@@ -111,7 +111,9 @@ SolverGives force_gives(const ForceNames& names) {
                     .part = "point"},
           .constant = explicit_constant(),
           .history = state + "(@{number})",
-          .before_histories = explicit_states};
+          .before_histories = explicit_states,
+          .area = names.area,
+          .smooths_speed = true};
 }
 
 Driver explicit_driver(const SolverGives& gives, fortran::Coefficient result) {

@@ -20,6 +20,7 @@ codegen::GivenState explicit_constant();
 // What an argument list of the force routines names in its own way.
 struct ForceNames {
   std::string pressure, speed;               // for people
+  std::string area;                          // for people
   std::string state_name;                    // "STATEV"
   std::string temperature, temperature_main; // "tempSec(k)", "tempMain(min(k,numDefTfv))"
   std::string fields, field, field_main;     // "nPred", "preDefSec(k,@{field})", "preDefMain(...)"
@@ -51,8 +52,9 @@ std::string force_notes(const std::string& state_name, const std::string& state_
 
 // The state variables that both force routines keep for every law, by number from 1: slip, work per
 // area, peak pressure, increments outside the range, and what the solver's precision rounds off the
-// first two. Behind them those of codegen/histories.h, then what is rounded off these.
-inline constexpr unsigned explicit_states = 6;
+// first two. Behind them those of codegen/histories.h, then what is rounded off these; last the
+// frictional shear stress and its share of the pressure, to be looked at.
+inline constexpr unsigned explicit_states = 6, shown_states = 2;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
 // For the file's head: comments from the second line on. `remarks` follow the properties.

@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "codegen/coefficient.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 #include "codegen/number_text.h"
+#include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
 #include "codegen/solver_units.h"
 #include "codegen/speed_scale.h"
@@ -27,7 +29,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct StateVariable {
-  std::string unit, meaning;
+  std::string name, unit, meaning;
 };
 
 std::vector<StateVariable> state_variables(const ExportRequest& request,
@@ -35,15 +37,22 @@ std::vector<StateVariable> state_variables(const ExportRequest& request,
   const std::string length = solver_unit("mm", request.units).name;
   const std::string stress = solver_unit("MPa", request.units).name;
   const std::string work = solver_unit("MPa*mm", request.units).name;
-  std::vector<StateVariable> all = {{length, "accumulated slip under pressure"},
-                                    {work, "friction work per area"},
-                                    {stress, "peak pressure"},
-                                    {"1", "increments in which the state was outside the range"},
-                                    {length, "what the solver's precision rounds off 1"},
-                                    {work, "what the solver's precision rounds off 2"}};
+  std::vector<StateVariable> all = {
+      {"slip", length, "accumulated slip under pressure"},
+      {"friction_work", work, "friction work per area"},
+      {"peak_pressure", stress, "peak pressure"},
+      {"n_outside", "1", "increments in which the state was outside the range"},
+      {"slip_remainder", length, "what the solver's precision rounds off 1"},
+      {"friction_work_remainder", work, "what the solver's precision rounds off 2"}};
   for (const HistoryState& state :
        with_remainders(history_states(inputs, request.units), explicit_states))
-    all.push_back({state.unit, state.meaning});
+    all.push_back({state.name, state.unit, state.meaning});
+  all.push_back({"tau_R", stress, "frictional shear stress of the last increment in contact"});
+  all.push_back(
+      {"mu", "1",
+       fmt::format("that over the pressure, at least {:.6g} {}",
+                   solver_unit("MPa", request.units).from_canonical(fortran::least_pressure),
+                   stress)});
   return all;
 }
 
@@ -67,7 +76,8 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
         fmt::format("The law needs {}(3):{}the present pressure.", routine.state_name, absent));
   if (uses(inputs, Source::history))
     lines.push_back(fmt::format("The law needs {}({}) and on: with a smaller DEPVAR "
-                                "integrals are 0, peaks and means the present value.",
+                                "integrals are 0, peaks, means and speeds the present value, "
+                                "areas those of the first contact.",
                                 routine.state_name, explicit_states + 1));
   lines.push_back(fmt::format("NaN in gives NaN out, and such a point's {} stay as they were; NaN "
                               "in fTangPrev counts as the present force. A point without area "
@@ -79,7 +89,7 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
 // What both parts declare.
 void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
   values.text["n_hist"] = std::to_string(3 + history_count(inputs));
-  values.text["n_add"] = std::to_string(4 + history_count(inputs));
+  values.text["n_add"] = std::to_string(4 + history_count(inputs) + shown_states);
 }
 
 // Texts and lists of the further histories.
@@ -97,7 +107,7 @@ void add_past(TemplateValues& values, const ExportRequest& request,
   }
   values.text["grows"] = join(grows, ",");
   values.text["n_histories"] = std::to_string(states.size());
-  values.text["n_states"] = std::to_string(state_count(inputs));
+  values.text["n_kept"] = std::to_string(state_count(inputs) - shown_states);
   values.text["before_rest"] = std::to_string(explicit_states + states.size());
 }
 
@@ -132,6 +142,11 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   add_sizes(values, inputs);
   add_past(values, request, inputs);
   values.text["reads"] = fortran::reads(inputs, routine.gives, "", 2);
+  values.text["at_stress"] = std::to_string(state_count(inputs) - 1);
+  values.text["least"] = fortran_number(stress.from_canonical(fortran::least_pressure));
+  values.text["at_mu"] = std::to_string(state_count(inputs));
+  values.text["add_stress"] = std::to_string(4 + history_count(inputs) + 1);
+  values.text["add_mu"] = std::to_string(4 + history_count(inputs) + 2);
   return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
 }
 
@@ -145,6 +160,7 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
   const fortran::Core core = fortran::core(
       request, {.unknown = fortran::refuses(table) || fortran::needs_unknown(inputs, routine.gives),
                 .quit = quit(Solver::explicit_),
+                .summary = fortran::outside_summary(*find_exporter(routine.about.name), request),
                 .directory_routine = directory_routine(Solver::explicit_)});
   const std::size_t n_x = std::max(core.n_x, inputs.size());
   TemplateValues values;
@@ -166,8 +182,10 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
   out["state_variables_by"] = routine.state_by;
   json states = json::array();
   for (const StateVariable& state : state_variables(request, inputs))
-    states.push_back(
-        {{"number", states.size() + 1}, {"unit", state.unit}, {"meaning", state.meaning}});
+    states.push_back({{"number", states.size() + 1},
+                      {"name", state.name},
+                      {"unit", state.unit},
+                      {"meaning", state.meaning}});
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   add_compile(out, file_of(routine));
@@ -179,7 +197,7 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
 } // namespace
 
 std::size_t state_count(const std::vector<SolverInput>& inputs) {
-  return explicit_states + 2 * history_count(inputs);
+  return explicit_states + 2 * history_count(inputs) + shown_states;
 }
 
 std::string force_notes(const std::string& state_name, const std::string& state_by) {
@@ -190,10 +208,15 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "explain: a stuck point has none. Surface expansion and flow stress are not known to the "
       "solver: [export.inputs] says per state constant:VALUE, property or field:N; a property or "
       "field the deck does not give takes the middle of the range the table was made for, as the "
-      "header of the source says. DEPVAR={}: accumulated slip, friction work per area, peak "
+      "header of the source says. psi = area_ratio takes the point's area over that at its first "
+      "contact: it does not know what the surface had expanded before, and a remeshed surface "
+      "begins again at 1; v_rel_mm_s = smoothed:N lets the speed of the law follow by an N-th of "
+      "the difference in each increment, where contact rattles. DEPVAR={}: accumulated slip, "
+      "friction work per area, peak "
       "pressure, increments outside the range, and what single precision rounds off slip and work "
       "(increments are small against their sum: with DEPVAR=4 a slip in steps of 1e-6 mm stops "
-      "growing at 32 mm), each by {}. A law with friction_work or peak_sigma_n takes it from {}: "
+      "growing at 32 mm), and the stress of the last increment in contact with its coefficient, to "
+      "be looked at, each by {}. A law with friction_work or peak_sigma_n takes it from {}: "
       "slip and peak include the motion and pressure of the present increment, work ends before "
       "it; further histories of a traced law (energy, times, means, peaks, friction power) take "
       "two state variables each, their times are the solver's seconds. In a simulation scaled in "
@@ -201,7 +224,7 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "a side with outside = error the routine ends the analysis through XPLB_ABQERR and names "
       "state and value: a NaN force would spread before anybody sees it. Works with the single- "
       "and the double-precision solver; table and arithmetic are double in both.",
-      explicit_states, state_by, state_name);
+      explicit_states + shown_states, state_by, state_name);
 }
 
 Exporter force_exporter(const ForceRoutine& routine) {
@@ -223,6 +246,7 @@ Exporter force_exporter(const ForceRoutine& routine) {
              return explicit_variants(request, file_of(routine));
            },
        .driver = "abaqus/" + routine.entry + "/driver.f",
+       .driver_values = area_of_driver,
        .drive =
            [routine](const ExportRequest&, const std::vector<SolverInput>&) {
              return explicit_driver(routine.gives, fortran::Coefficient::stress);

@@ -11,6 +11,7 @@
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
 #include "codegen/number_text.h"
+#include "codegen/outside_summary.h"
 #include "codegen/solver_units.h"
 #include "stop.h"
 #include "table/outside.h"
@@ -80,6 +81,7 @@ bool add_routine(TemplateValues& values, const Exporter& exporter, const ExportR
       fortran::core(request, {.unknown = unknown,
                               .gradient = true,
                               .quit = quit(Solver::standard),
+                              .summary = fortran::outside_summary(exporter, request),
                               .directory_routine = directory_routine(Solver::standard)})
           .text;
   values.text["pmin"] = fortran_number(smallest_pressure(table));

@@ -96,7 +96,9 @@ private:
   };
 
   bool is_given(std::size_t column, std::string_view state) const {
-    return inputs_[column].source == Source::given && inputs_[column].given == state;
+    const Source source = inputs_[column].source;
+    return inputs_[column].given == state &&
+           (source == Source::given || inputs_[column].smoothed_over > 0);
   }
 
   TableRow table_row(std::string_view state) const {

@@ -176,6 +176,8 @@ Core core(const ExportRequest& request, const CoreOptions& options) {
   values.lists["arguments"] = comments(argument_lines(table));
   add_coordinates(values, table);
   add_ends(values, table);
+  values.text["summary"] = options.summary;
+  values.flags["summarises"] = !options.summary.empty();
   add_units(values, options.units);
   values.text["pure_tau"] = file ? "" : values.text["pure"]; // reading a file is no pure act
   const std::string weights = add_formula(values, request, options);

@@ -45,8 +45,9 @@ struct CoreOptions {
   bool unknown = false;  // ftqnan
   bool gradient = false; // ftgrad
   Units units = Units::external;
-  std::string quit = {}; // ftquit(text), which says the text and ends the analysis
-  bool quits = false;    // others than this core call it
+  std::string quit = {};    // ftquit(text), which says the text and ends the analysis
+  bool quits = false;       // others than this core call it
+  std::string summary = {}; // ftseen(x), which ftout calls (codegen/outside_summary.h)
   // The solver's routine that gives the directory of the job and its length; none: empty.
   std::string directory_routine = {};
 };

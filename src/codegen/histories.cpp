@@ -19,8 +19,11 @@ using C = data::Continuation;
 
 constexpr double zero_celsius = 273.15; // K: a peak is kept above absolute zero, 0 stands for none
 
-const data::Continuation& continuation(const SolverInput& input) {
-  return data::find_derived(input.argument.name)->continuation;
+// What is no derived quantity is a state that the job wants smoothed, or from areas.
+data::Continuation continuation(const SolverInput& input) {
+  if (const auto* derived = data::find_derived(input.argument.name)) return derived->continuation;
+  if (input.smoothed_over > 0) return {C::recent, C::speed};
+  return {C::growth, C::area};
 }
 
 bool is(const SolverInput& input, C::Rule rule) {
@@ -47,7 +50,7 @@ HistoryState state_of(const SolverInput& input, std::string_view units) {
   const HistoryRule rule = history_rule(continuation(input));
   const std::string unit =
       rule.unit.empty() ? input.argument.solver.name : solver_unit(rule.unit, units).name;
-  return {rule.times_time ? unit + " s" : unit, rule.meaning, rule.grows};
+  return {input.argument.name, rule.times_time ? unit + " s" : unit, rule.meaning, rule.grows};
 }
 
 // The statements of one history, the law's input number `index`, in fixed form.
@@ -60,6 +63,7 @@ public:
                {"h", fmt::format("h({})", input.history)},
                {"h1", fmt::format("h1({})", input.history)},
                {"time", fmt::format("h({})", time)},
+               {"increments", std::to_string(input.smoothed_over) + ".0D0"},
                {"q", followed(continuation(input).of).argument},
                {"convert", fortran_conversion(input.argument.solver)},
                {"from_stress", fortran_conversion(solver_unit("MPa", units))},
@@ -147,15 +151,16 @@ std::vector<HistoryState> history_states(const std::vector<SolverInput>& inputs,
   std::vector<HistoryState> states;
   for (const SolverInput& input : inputs)
     if (input.source == Source::history) states.push_back(state_of(input, units));
-  if (time_state(inputs) > states.size()) states.push_back({"s", "time under pressure"});
+  if (time_state(inputs) > states.size())
+    states.push_back({"time_under_pressure", "s", "time under pressure"});
   return states;
 }
 
 std::vector<HistoryState> with_remainders(std::vector<HistoryState> states, std::size_t before) {
   const std::size_t count = states.size();
   for (std::size_t i = 0; i < count; ++i)
-    states.push_back(
-        {states[i].unit, fmt::format("what the solver's precision rounds off {}", before + i + 1)});
+    states.push_back({states[i].name + "_remainder", states[i].unit,
+                      fmt::format("what the solver's precision rounds off {}", before + i + 1)});
   return states;
 }
 
@@ -184,6 +189,12 @@ std::vector<std::size_t> start_temperatures(const std::vector<SolverInput>& inpu
   return states;
 }
 
+std::size_t first_area(const std::vector<SolverInput>& inputs) {
+  for (const SolverInput& input : inputs)
+    if (is(input, C::growth)) return input.history;
+  return 0;
+}
+
 std::size_t history_count(const std::vector<SolverInput>& inputs) {
   std::size_t last = 0;
   for (const SolverInput& input : inputs)
@@ -196,7 +207,9 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   const std::size_t count = history_count(inputs), time = time_state(inputs);
   values.flags["has_histories"] = count > 0;
   values.text["temperature_now"] = "0.0D0";
+  values.text["area_now"] = first_area(inputs) > 0 ? ", area" : "";
   values.text["histories_text"] = "";
+  values.offered.insert("area_now");
   if (count == 0) return;
   TemplateValues own;
   own.flags = {{"gradient", gradient}, {"time_of_its_own", time > 0}};
@@ -213,10 +226,22 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.flags["has_most"] = calls(histories, "now", "ftmost");
   own.flags["has_ratio"] = calls(histories, "now", "ftrat");
   own.flags["has_rise"] = calls(histories, "now", "ftrise");
+  own.flags["has_recent"] = calls(histories, "now", "ftlate");
+  own.flags["has_area"] = first_area(inputs) > 0;
   own.flags["asks_nan"] = calls(histories, "next", "ftnan");
-  own.text = {{"n", std::to_string(count)}, {"time", std::to_string(time)}};
+  own.text = {{"n", std::to_string(count)},
+              {"time", std::to_string(time)},
+              {"a", own.flags["has_area"] ? ", a" : ""}};
   values.text["histories_text"] =
       without_last_break(render_template("fortran/frictab_histories.f", own));
+}
+
+TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs) {
+  const std::size_t area = first_area(inputs);
+  TemplateValues values;
+  values.flags["has_area"] = area > 0;
+  if (area > 0) values.text["first_area"] = std::to_string(area);
+  return values;
 }
 
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,
@@ -233,6 +258,7 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
     value = input.argument.solver.from_canonical(columns[c][row]);
     const double now = present(continuation(input).of, inputs, columns, row);
     if (is(input, C::lag) || is(input, C::rise)) value = now - value;
+    if (is(input, C::growth)) value = 1 / columns[c][row];
     if (is(input, C::ratio)) value = peak_of(columns[c][row], pressure_now(inputs, now));
     if (takes_mean(input)) value *= values[time - 1];
     if (is(input, C::rise) || (is(input, C::peak) && continuation(input).of == C::temperature))

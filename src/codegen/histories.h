@@ -16,6 +16,13 @@
 //   load over its peak         h' = max(h, p)                     x = p/max(h, p)
 //   rise                       h' = T of the first increment      x = T - h
 //   friction power, flash      h' = tau v, tau sqrt(v)            x = h
+//   smoothed speed             h' = h + (v - h)/n                 x = h + (v - h)/n
+//   growth of the area a       h' = a of the first increment      x = a/h
+//
+// The last two are asked for by the job, "smoothed:n" for the sliding speed and "area_ratio" for
+// the surface expansion, of solvers whose table says that they can (SolverGives). What the surface
+// had expanded before its first contact in this analysis is not in a/h, and new nodes (remeshing)
+// begin again.
 //
 // Integrals and means end before the present increment, so that the law's stress does not depend
 // on itself and no iteration is needed. Peaks include it: its pressure, speed and temperature are
@@ -36,6 +43,7 @@ namespace frictab::codegen {
 
 // One state variable.
 struct HistoryState {
+  std::string name;    // of the state that follows from it: "energy"
   std::string unit;    // the solver's
   std::string meaning; // "contact normal stress times time under pressure"
   bool grows = true;   // a sum from the start: its increments are small against it
@@ -57,6 +65,9 @@ std::vector<std::string> numbered(const std::vector<HistoryState>& states, std::
 // Numbers of those that are 0 K where there was no contact yet: no value to take a mean with.
 std::vector<std::size_t> peak_temperatures(const std::vector<SolverInput>& inputs);
 
+// The state variable that holds the area at the first contact, from 1; 0: there is none.
+std::size_t first_area(const std::vector<SolverInput>& inputs);
+
 // True for a history that needs a state variable of its own.
 bool is_further_history(const std::string& name);
 // Numbers of those that hold the temperature at the start of contact in K, 0 where there was none.
@@ -68,7 +79,8 @@ bool follows_temperature(const std::string& name);
 namespace fortran {
 
 // Adds to the values of a source in fixed form: flag has_histories; texts temperature_now ("x(5)",
-// or a zero where none follows it) and histories_text, the units
+// or a zero where none follows it), area_now (", area" where one follows it, an argument behind the
+// temperature) and histories_text, the units
 //   ftpast(h, p, v, t, x): those states x (canonical) from the state variables h before the
 //     increment and the present pressure and speed (solver's units) and temperature (degC),
 //   ftnext(h, p, v, t, pmax, tau, ds, dt, h1): h1 behind the increment, of slip ds and time dt;
@@ -81,7 +93,11 @@ void add_histories(TemplateValues& values, const std::vector<SolverInput>& input
 
 } // namespace fortran
 
-// The state variables (solver's units) at which a row's histories are what its columns say.
+// For drivers of solvers that give the area: flag has_area and text first_area.
+TemplateValues area_of_driver(const ExportRequest&, const std::vector<SolverInput>& inputs);
+
+// The state variables (solver's units) at which a row's histories are what its columns say, on an
+// area of 1.
 std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row);
 

@@ -127,6 +127,22 @@ HistoryRule flash_heating() {
           .grows = false};
 }
 
+HistoryRule recent_speed() {
+  return {.now = "@{x} = ftlate(@{h}, v, @{increments})@{convert}",
+          .next = "@{h1} = ftlate(@{h}, v, @{increments})",
+          .meaning = "smoothed sliding speed; 0: none yet",
+          .grows = false};
+}
+
+HistoryRule area_growth() {
+  return {.now = "@{x} = ftgrow(@{h}, a)",
+          .next = "@{h1} = @{h}\n"
+                  "if (@{h} .le. 0.0D0) @{h1} = a",
+          .meaning = "area at the first contact; 0: none yet",
+          .unit = "mm^2",
+          .grows = false};
+}
+
 } // namespace
 
 HistoryRule history_rule(const data::Continuation& how) {
@@ -151,6 +167,10 @@ HistoryRule history_rule(const data::Continuation& how) {
     return rise();
   case C::lag:
     return lag(how.of);
+  case C::recent:
+    return recent_speed();
+  case C::growth:
+    return area_growth();
   case C::none:
     break;
   }
@@ -161,7 +181,9 @@ const Followed& followed(data::Continuation::Of of) {
   static const Followed pressure = {"sigma_n_MPa", "MPa", "pressure", "p"};
   static const Followed speed = {"v_rel_mm_s", "mm/s", "sliding speed", "v"};
   static const Followed temperature = {"T_contact_C", "degC", "temperature (degC)", "t"};
+  static const Followed area = {"", "mm^2", "area", "a"};
   if (of == C::pressure) return pressure;
+  if (of == C::area) return area;
   return of == C::speed ? speed : temperature;
 }
 

@@ -10,10 +10,12 @@ namespace frictab::codegen {
 
 // Statements, a line each. They may hold @{x} (the law's input), @{h} and @{h1} (the state variable
 // before and behind the increment), @{time} (the state variable of the time that means are taken
-// over), @{q} (the argument p, v or t that the rule follows), @{dy} (the derivative of tau_R by x),
-// and the conversions from the solver's units @{convert} (of x), @{from_stress} and @{from_speed}.
+// over), @{increments} (those that the speed is smoothed over), @{q} (the argument p, v, t or a
+// that the rule follows), @{dy} (the derivative of tau_R by x), and the conversions from the
+// solver's units @{convert} (of x), @{from_stress} and @{from_speed}.
 struct HistoryRule {
-  std::string now = {};   // sets @{x} by @{h} and the pressure p, speed v and temperature t now
+  // sets @{x} by @{h} and the pressure p, speed v, temperature t and area a now
+  std::string now = {};
   std::string next = {};  // sets @{h1}; knows the peak pmax, tau, slip ds and time dt as well
   std::string slope = {}; // adds to dp, dv and dt what x changes by p, v and t
 
@@ -28,7 +30,7 @@ HistoryRule history_rule(const data::Continuation& how);
 
 // A quantity that a rule may follow.
 struct Followed {
-  const char* state; // canonical name
+  const char* state; // canonical name; empty: no law takes it
   const char* unit;
   const char* name;     // for people
   const char* argument; // of the Fortran routines

@@ -34,7 +34,7 @@ SourceBundle bundle(const RoutineTarget& target, const ExportRequest& request) {
 
 std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportRequest& request) {
   TemplateValues values;
-  if (target.driver_flags) values.flags = target.driver_flags(request);
+  if (target.driver_values) values = target.driver_values(request, checked_inputs(target, request));
   const std::string text = render_template(target.driver, values);
   std::vector<BuildVariant> all = target.variants(request);
   for (BuildVariant& one : all)

@@ -11,6 +11,7 @@
 #include "codegen/driver.h"
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
+#include "codegen/template.h"
 
 namespace frictab::codegen {
 
@@ -29,8 +30,10 @@ struct RoutineTarget {
                      const std::vector<SolverInput>&)>
       recipe;
   std::function<std::vector<BuildVariant>(const ExportRequest&)> variants; // without the driver
-  std::string driver; // its template, "marc/ufric/driver.f"; flags as `driver_flags` says
-  std::function<std::map<std::string, bool>(const ExportRequest&)> driver_flags = {};
+  std::string driver; // its template, "marc/ufric/driver.f"
+  // What that template is filled with; empty: nothing.
+  std::function<TemplateValues(const ExportRequest&, const std::vector<SolverInput>&)>
+      driver_values = {};
   std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
 };
 

@@ -52,7 +52,8 @@ class Choice {
 public:
   Choice(SolverInput& input, const SolverGives& gives, const table::Table& table, FaultList& faults)
       : input_(input), gives_(gives), axis_(table::find_axis(table, input.argument.name)),
-        faults_(faults) {
+        grows_(input.argument.name == "psi" && !gives.area.empty()),
+        smooths_(input.argument.name == "v_rel_mm_s" && gives.smooths_speed), faults_(faults) {
     const std::string& name = input.argument.name;
     given_ = gives.find(state_of(name));
     const bool kept = is_further_history(name) && !gives.history.empty();
@@ -67,8 +68,15 @@ public:
   }
 
   void read(std::string_view choice) {
-    if (own_ == "contact") {
-      if (choice != own_) fault("the solver gives this state itself", "leave the key out");
+    if (grows_ && choice == area_ratio) {
+      input_.source = Source::history;
+    } else if (smooths_ && choice.starts_with(smoothed)) {
+      read_smoothing(choice.substr(smoothed.size()));
+    } else if (own_ == "contact") {
+      if (choice != own_)
+        fault("the solver gives this state itself",
+              smooths_ ? "leave the key out, or \"smoothed:20\" (increments)"
+                       : "leave the key out");
     } else if (choice.starts_with("constant:")) {
       read_constant(choice.substr(9));
     } else if (choice.starts_with("field:") && !gives_.field.text.empty()) {
@@ -103,6 +111,12 @@ public:
     case Source::constant:
       return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
     case Source::history:
+      if (input_.smoothed_over > 0)
+        return fmt::format("{}, smoothed over {} increments by {}", given_->text,
+                           input_.smoothed_over, insert_names(gives_.history, numbers));
+      if (grows_)
+        return fmt::format("{} over that at its first contact, {}", gives_.area,
+                           insert_names(gives_.history, numbers));
       return "from " + insert_names(gives_.history, numbers) + ", " +
              data::meaning_of(input_.argument.name).text;
     case Source::given:
@@ -118,7 +132,16 @@ private:
     if (!gives_.property.text.empty()) all += ", property";
     if (!gives_.field.text.empty()) all += ", field:N";
     if (!own_.empty()) all += ", " + own_;
+    if (grows_) all += fmt::format(", {}", area_ratio);
     return all;
+  }
+
+  void read_smoothing(std::string_view text) {
+    const auto increments = number<std::size_t>(text);
+    input_.source = Source::history;
+    input_.smoothed_over = increments.value_or(2);
+    if (!increments || *increments < 2 || *increments > 100000)
+      fault(fmt::format("'{}' is no number of increments from 2 to 100000", text), "smoothed:20");
   }
 
   void fault(const std::string& what, const std::string& hint) {
@@ -148,9 +171,12 @@ private:
     return known ? known->choice : "state";
   }
 
+  static constexpr std::string_view area_ratio = "area_ratio", smoothed = "smoothed:";
+
   SolverInput& input_;
   const SolverGives& gives_;
   const table::TableAxis* axis_; // null: the state is none
+  bool grows_, smooths_;         // by the area of contact; it may be smoothed
   FaultList& faults_;
   const GivenState* given_ = nullptr;
   std::string

@@ -15,7 +15,7 @@ namespace frictab::codegen {
 
 enum class Source {
   given,    // by the solver: a row of its table
-  history,  // a state variable that the routine continues (codegen/histories.h)
+  history,  // follows from a state variable that the routine continues (codegen/histories.h)
   property, // a constant of the input deck
   field,    // a field variable of the model
   constant  // in the source
@@ -51,6 +51,10 @@ struct SolverGives {
   GivenState constant = {.read = "@{fallback}", .canonical = true};
   std::string history = {}; // of a state variable: "STATEV(@{number})"; empty: it keeps none
   std::size_t before_histories = 0; // state variables in front of those of Source::history
+  // Where it gives the area of contact, for people: "areaSec of the surface node". The job may say
+  // psi = "area_ratio" then. Empty: it gives none.
+  std::string area = {};
+  bool smooths_speed = false; // the job may say v_rel_mm_s = "smoothed:N"
 
   const GivenState* find(const std::string& state) const; // null where it gives no such state
 };
@@ -58,10 +62,11 @@ struct SolverGives {
 struct SolverInput {
   InputArgument argument;
   Source source = Source::property;
-  std::string given = {};   // where the solver gives it: the state of that row
-  std::size_t property = 0; // its number from 1, where the source is property, or as reference
-  std::size_t field = 0;    // field variable, from 1
-  std::size_t history = 0;  // where the source is history: its number among those, from 1
+  std::string given = {};        // where the solver gives it: the state of that row
+  std::size_t property = 0;      // its number from 1, where the source is property, or as reference
+  std::size_t field = 0;         // field variable, from 1
+  std::size_t history = 0;       // where the source is history: its number among those, from 1
+  std::size_t smoothed_over = 0; // increments; 0: not smoothed
   std::optional<double> fallback; // canonical: the constant, or what stands in for a missing value
   std::string text;               // "property 2", ... for people
   std::string without;            // when the property stands in; empty: it is the source

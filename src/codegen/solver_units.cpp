@@ -15,6 +15,7 @@ SolverUnit solver_unit(std::string_view canonical_unit, std::string_view units) 
     if (canonical_unit == "MPa") return {"Pa", 1, 1e6};
     if (canonical_unit == "mm/s") return {"m/s", 1e3, 1};
     if (canonical_unit == "mm") return {"m", 1e3, 1};
+    if (canonical_unit == "mm^2") return {"m^2", 1e6, 1};
     // Work and power per area; a name may write the product either way.
     if (canonical_unit == "MPa mm") return {"Pa m", 1, 1e3};
     if (canonical_unit == "MPa*mm") return {"Pa*m", 1, 1e3};

@@ -23,9 +23,11 @@ struct Continuation {
     ratio,      // the value over its peak
     since_peak, // slip since it was last within 5 % of its peak
     rise,       // above the value at the start of contact
-    lag         // above the mean so far
+    lag,        // above the mean so far
+    recent,     // mean over the last increments, the older the less
+    growth      // the value over that at the start of contact
   };
-  enum Of { one, pressure, speed, temperature, tau, power, flash };
+  enum Of { one, pressure, speed, temperature, area, tau, power, flash };
   Rule rule = none;
   Of of = one;
   bool always = false; // routines with state variables keep it for every law

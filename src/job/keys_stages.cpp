@@ -104,17 +104,32 @@ Problem outside_problem(const std::string&, const KeyValue& value) {
           "for example outside = [\"clamp\", \"law\"]"};
 }
 
-Problem input_problem(const std::string&, const KeyValue& value) {
+// The source that one state alone can have; empty for the others. The target says more.
+std::string_view own_source(std::string_view state) {
+  if (state == "psi") return "area_ratio";
+  if (state == "v_rel_mm_s") return "smoothed:NUMBER";
+  return state == "sigma_f_MPa" ? "curve:FORMULA" : "";
+}
+
+bool is_own_source(std::string_view text, std::string_view own) {
+  const std::size_t word = own.find(':');
+  return !own.empty() &&
+         (word == own.npos ? text == own : text.starts_with(own.substr(0, word + 1)));
+}
+
+Problem input_problem(const std::string& name, const KeyValue& value) {
   const std::string_view text = std::get<std::string>(value);
+  const std::string_view own = own_source(std::string_view(name).substr(name.rfind('.') + 1));
   const bool ok = text == "property" || text == "state" || text == "temperature" ||
-                  text == "solver" || text == "contact" ||
+                  text == "solver" || text == "contact" || is_own_source(text, own) ||
                   (text.starts_with("constant:") && is_number(text.substr(9), false)) ||
                   (text.starts_with("field:") && is_number(text.substr(6), true));
   if (ok) return {};
-  return {"must be \"constant:NUMBER\", \"property\", \"field:NUMBER\" or what the target "
-          "itself gives (\"state\", \"temperature\", \"solver\"), not the text " +
-              toml_quoted(text),
-          "for example psi = \"constant:1.0\""};
+  return {
+      fmt::format("must be \"constant:NUMBER\", \"property\", \"field:NUMBER\"{} or what the "
+                  "target itself gives (\"state\", \"temperature\", \"solver\"), not the text {}",
+                  own.empty() ? "" : fmt::format(", \"{}\"", own), toml_quoted(text)),
+      "for example psi = \"constant:1.0\""};
 }
 
 Problem option_problem(const std::string& name, const KeyValue& value) {
@@ -290,7 +305,11 @@ std::vector<KeyRule> export_keys() {
           [](Job & job, const std::string& name) -> auto& { return job.exports.inputs[name]; },
           "where a state comes from that the solver does not give: \"constant:1.0\" (canonical "
           "unit), \"property\" (constant of the input deck) or \"field:2\" (predefined field); "
-          "also for the columns and histories that a traced effect brought in",
+          "also for the columns and histories that a traced effect brought in. Explicit solvers: "
+          "psi = \"area_ratio\" (area of contact over that at first contact), v_rel_mm_s = "
+          "\"smoothed:20\" (over increments). Routines of solvers without a flow stress: "
+          "sigma_f_MPa = "
+          "\"curve:760*(0.002 + strain)**0.21\"",
           "what the target offers", "\"constant:1.0\"") |
           input_problem,
       named<std::string>(

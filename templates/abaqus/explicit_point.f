@@ -57,7 +57,7 @@ C     at once, which spares most points the calls.
         if (dtime .gt. 0.0D0) speed = move/dtime
 @{reads}
 @if has_histories
-        call ftpast(hist(4), press, speed, @{temperature_now}, x)
+        call ftpast(hist(4), press, speed, @{temperature_now}@{area_now}, x)
 @end
 @if refuses
         fric = ftqnan()
@@ -92,6 +92,8 @@ C       and the force now, times its slip.
         if (slip .gt. 0.0D0)
      &    add(2) = 0.5D0*(before + abs(fric))/area*slip
         add(3) = press
+        add(@{add_stress}) = abs(fric)/area
+        add(@{add_mu}) = add(@{add_stress})/max(press, @{least})
 @if has_ends
         if (ftout(x)) add(4) = 1.0D0
 @end
@@ -104,7 +106,7 @@ C       and the force now, times its slip.
 @for sum in sums
         from(@{sum.number}) = 0.0D0
 @end
-        call ftnext(from, press, speed, @{temperature_now}, pmax,
+        call ftnext(from, press, speed, @{temperature_now}@{area_now}, pmax,
      &    abs(fric)/area, slip, dtime, add(5))
 @end
       end if
@@ -135,7 +137,7 @@ C     columns: slip, work, peak pressure; 0 where there are none.
 C     Further histories and what is rounded off them, as one.
       do i = 1, @{n_histories}
         hist(3+i) = 0.0D0
-        if (nst .ge. @{n_states}) then
+        if (nst .ge. @{n_kept}) then
           do j = 1, ncol
             part = st(6+i,j)
             hist(3+i) = hist(3+i) + part
@@ -190,7 +192,7 @@ C     The bits of infinity; above them lies NaN.
         end if
 @if has_histories
         do i = 1, @{n_histories}
-          if (nst .lt. @{n_states}) exit
+          if (nst .lt. @{n_kept}) exit
           both = 0.0D0
           if (grows(i) .eq. 1) then
             both = st(6+i,j)
@@ -206,6 +208,10 @@ C     The bits of infinity; above them lies NaN.
           st(@{before_rest}+i,j) = real(lost, kind(st))
         end do
 @end
+        if (nst .ge. @{at_mu}) then
+          st(@{at_stress},j) = real(add(@{add_stress}), kind(st))
+          st(@{at_mu},j) = real(add(@{add_mu}), kind(st))
+        end if
       end do
       return
       end

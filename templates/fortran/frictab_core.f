@@ -98,9 +98,13 @@ C     is held outside what was tested.
       if (x(@{axis.index}) .lt. @{axis.low} .or.
      &  x(@{axis.index}) .gt. @{axis.high}) ftout = .true.
 @end
+@if summarises
+      if (ftout) call ftseen(x)
+@end
       return
       end
 C
+@{summary}
 @end
 @if interpolates
 @{interpolation}

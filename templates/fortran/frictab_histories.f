@@ -1,9 +1,12 @@
 C     Histories of the law, h(1..@{n}), beside slip, work and peak
 C     pressure: the law's states x from what they are before the
 C     increment, and the pressure p, speed v and temperature t now.
-      subroutine ftpast(h, p, v, t, x)
+@if has_area
+C     a: the area now.
+@end
+      subroutine ftpast(h, p, v, t@{a}, x)
       implicit none
-      double precision h(@{n}), p, v, t, x(*)
+      double precision h(@{n}), p, v, t@{a}, x(*)
 @if has_most
       double precision ftmost
       external ftmost
@@ -20,6 +23,14 @@ C     increment, and the pressure p, speed v and temperature t now.
       double precision ftrise
       external ftrise
 @end
+@if has_recent
+      double precision ftlate
+      external ftlate
+@end
+@if has_area
+      double precision ftgrow
+      external ftgrow
+@end
 @for in in inputs
 C     @{in.comment}
 @{in.now}
@@ -29,9 +40,9 @@ C     @{in.comment}
 C
 C     They behind the increment, h1: of slip ds and time dt, under the
 C     frictional stress tau; pmax: the peak pressure so far.
-      subroutine ftnext(h, p, v, t, pmax, tau, ds, dt, h1)
+      subroutine ftnext(h, p, v, t@{a}, pmax, tau, ds, dt, h1)
       implicit none
-      double precision h(@{n}), p, v, t, pmax, tau, ds, dt, h1(@{n})
+      double precision h(@{n}), p, v, t@{a}, pmax, tau, ds, dt, h1(@{n})
 @if has_most
       double precision ftmost
       external ftmost
@@ -39,6 +50,10 @@ C     frictional stress tau; pmax: the peak pressure so far.
 @if has_rise
       double precision ftfrst
       external ftfrst
+@end
+@if has_recent
+      double precision ftlate
+      external ftlate
 @end
 @if asks_nan
       logical ftnan
@@ -144,6 +159,41 @@ C     so that a state with it is never kept.
       else if (time .gt. 0.0D0) then
         ftmean = total/time
       end if
+      return
+      end
+C
+@end
+@if has_recent
+C     A speed h that follows v, by an n-th of what they differ in each
+C     increment; v where there was none yet. NaN where one is.
+      double precision function ftlate(h, v, n)
+      implicit none
+      double precision h, v, n
+      logical ftnan
+      external ftnan
+      ftlate = h
+      if (ftnan(h)) return
+      ftlate = v
+      if (ftnan(v)) return
+      if (h .gt. 0.0D0) ftlate = h + (v - h)/n
+      return
+      end
+C
+@end
+@if has_area
+C     An area a over that at the first contact; 1 in the first
+C     increment of it. NaN where one is.
+      double precision function ftgrow(first, a)
+      implicit none
+      double precision first, a
+      logical ftnan
+      external ftnan
+      ftgrow = first
+      if (ftnan(first)) return
+      ftgrow = a
+      if (ftnan(a)) return
+      ftgrow = 1.0D0
+      if (first .gt. 0.0D0) ftgrow = a/first
       return
       end
 C

@@ -181,10 +181,10 @@ TEST(Export, RecipeTellsHowTheInputDeckCallsTheRoutine) {
   EXPECT_EQ(out["entry"], "vfric");
   EXPECT_THAT(
       std::string(out["input_deck"]),
-      HasSubstr("*Friction, user, depvar=6, properties=3\n <surface expansion ratio A1/A0>, "
+      HasSubstr("*Friction, user, depvar=8, properties=3\n <surface expansion ratio A1/A0>, "
                 "<contact temperature, degC>, <flow stress of the workpiece, Pa>\n"));
   EXPECT_EQ(out["properties"][2]["unit"], "Pa");
-  EXPECT_EQ(out["state_variables"].size(), 6u);
+  EXPECT_EQ(out["state_variables"].size(), 8u);
   EXPECT_EQ(out["state_variables"][1]["unit"], "Pa*m");
   EXPECT_THAT(std::string(out["signature_source"]),
               testing::AllOf(HasSubstr("verified:"), HasSubstr("Recalled")));
@@ -214,7 +214,7 @@ TEST(Export, InputDeckHasTheLinesOfTheFieldsTheLawTakes) {
 TEST(Export, RecipeLeavesOutPropertiesTheLawDoesNotNeed) {
   const Table table = test::constant_table();
   const nlohmann::ordered_json out = recipe("abaqus_vfric", {table, "mm-t-s", {}});
-  EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=6\n*Contact"));
+  EXPECT_THAT(std::string(out["input_deck"]), HasSubstr("*Friction, user, depvar=8\n*Contact"));
   EXPECT_TRUE(out["properties"].empty());
 }
 

@@ -194,14 +194,28 @@ TEST(JobMessages, SayTheAllowedWords) {
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"const:1\""),
             "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "
-            "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
-            "\"solver\"), not the text \"const:1\"\n"
+            "\"field:NUMBER\", \"area_ratio\" or what the target itself gives (\"state\", "
+            "\"temperature\", \"solver\"), not the text \"const:1\"\n"
             "  hint: for example psi = \"constant:1.0\"");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"field:x\""),
             "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "
+            "\"field:NUMBER\", \"area_ratio\" or what the target itself gives (\"state\", "
+            "\"temperature\", \"solver\"), not the text \"field:x\"\n"
+            "  hint: for example psi = \"constant:1.0\"");
+}
+
+TEST(JobMessages, LetStatesHaveTheSourceThatIsTheirsAlone) {
+  EXPECT_EQ(with("[export.inputs]\n"
+                 "psi = \"area_ratio\"\n"
+                 "v_rel_mm_s = \"smoothed:20\"\n"
+                 "sigma_f_MPa = \"curve:700*(0.01 + strain)**0.2\""),
+            "accepted");
+  EXPECT_EQ(with("[export.inputs]\n"
+                 "s_mm = \"area_ratio\""),
+            "job.toml:4:8: error: export.inputs.s_mm must be \"constant:NUMBER\", \"property\", "
             "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
-            "\"solver\"), not the text \"field:x\"\n"
+            "\"solver\"), not the text \"area_ratio\"\n"
             "  hint: for example psi = \"constant:1.0\"");
 }
 
@@ -240,8 +254,8 @@ TEST(JobMessages, LetOneTargetHaveInputsOfItsOwn) {
   EXPECT_EQ(with("[export.c.inputs]\n"
                  "psi = \"const:1\""),
             "job.toml:4:7: error: export.c.inputs.psi must be \"constant:NUMBER\", \"property\", "
-            "\"field:NUMBER\" or what the target itself gives (\"state\", \"temperature\", "
-            "\"solver\"), not the text \"const:1\"\n"
+            "\"field:NUMBER\", \"area_ratio\" or what the target itself gives (\"state\", "
+            "\"temperature\", \"solver\"), not the text \"const:1\"\n"
             "  hint: for example psi = \"constant:1.0\"");
 }
 

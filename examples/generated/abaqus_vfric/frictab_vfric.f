@@ -27,13 +27,15 @@ C     takes the value in brackets):
 C     1 contact temperature, degC (110), reference where nTemp = 0
 C     2 flow stress of the workpiece, MPa (480)
 C
-C     STATEV (DEPVAR=6), by surface node:
+C     STATEV (DEPVAR=8), by surface node:
 C     1 accumulated slip under pressure (mm)
 C     2 friction work per area (MPa*mm)
 C     3 peak pressure (MPa)
 C     4 increments in which the state was outside the range
 C     5 what the solver's precision rounds off 1 (mm)
 C     6 what the solver's precision rounds off 2 (MPa*mm)
+C     7 frictional shear stress of the last increment in contact (MPa)
+C     8 that over the pressure, at least 0.001 MPa
 C     With a smaller DEPVAR those that it leaves out are not kept.
 C     NaN in gives NaN out, and such a point's STATEV stay as they
 C       were; NaN in fTangPrev counts as the present force. A point
@@ -83,7 +85,7 @@ C
 C     All that is computed is double precision, whatever the solver's
 C     precision.
       double precision x(4), pnorm, area, stick, move, fprev
-      double precision against, dtime, fric, comp, hist(3), add(4)
+      double precision against, dtime, fric, comp, hist(3), add(6)
       logical lkeep
 C
 C     sigma_f_MPa: property 2
@@ -153,7 +155,7 @@ C     a force along its motion, and would creep without it.
      &  against, hist, fric, add, lkeep)
       implicit none
       double precision x(4), pnorm, area, stick, move, dtime, fprev
-      double precision against, hist(3), fric, add(4), press
+      double precision against, hist(3), fric, add(6), press
       double precision speed, limit, past, trial, before, slip, fttau
       logical lkeep, ftnan
       integer i
@@ -162,7 +164,7 @@ C     a force along its motion, and would creep without it.
       logical ftout
       external ftout
       lkeep = .false.
-      do i = 1, 4
+      do i = 1, 6
         add(i) = 0.0D0
       end do
 C     NaN first: nothing below compares with one. By the bits of all
@@ -215,6 +217,8 @@ C       and the force now, times its slip.
         if (slip .gt. 0.0D0)
      &    add(2) = 0.5D0*(before + abs(fric))/area*slip
         add(3) = press
+        add(5) = abs(fric)/area
+        add(6) = add(5)/max(press, 0.001D0)
         if (ftout(x)) add(4) = 1.0D0
       end if
       return
@@ -249,7 +253,7 @@ C     against their sum.
       subroutine ftkeep(nst, ncol, st, add)
       include 'vaba_param.inc'
       dimension st(nst,ncol)
-      double precision add(4), both, part, lost
+      double precision add(6), both, part, lost
       integer(8) bits, nofin
 C     The bits of infinity; above them lies NaN.
       parameter (nofin = 9218868437227405312_8)
@@ -277,6 +281,10 @@ C     The bits of infinity; above them lies NaN.
         if (nst .ge. 4) then
           part = st(4,j)
           st(4,j) = real(part + add(4), kind(st))
+        end if
+        if (nst .ge. 8) then
+          st(7,j) = real(add(5), kind(st))
+          st(8,j) = real(add(6), kind(st))
         end if
       end do
       return

@@ -27,10 +27,12 @@ C     give takes the value in brackets):
 C     1 contact temperature, degC (110), reference where no
 C       temperatures are computed
 C     2 flow stress of the workpiece, MPa (480)
-C     UFHIST (NHSV=4), by node:
+C     UFHIST (NHSV=6), by node:
 C     1 accumulated slip (mm), 2 friction work per area
 C     (MPa*mm), 3 peak pressure (MPa), 4 cycles in
 C     which the state was outside the range.
+C     5 frictional shear stress (MPa) of the last cycle in
+C     contact, 6 that over the pressure: to be looked at.
 C     With fewer the missing ones count as 0.
 C
 C     LS-DYNA leaves the friction force to this routine: the force
@@ -74,7 +76,7 @@ C     itopaz(1) = 999: temperatures are computed.
 C
       double precision x(4), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
-      double precision over
+      double precision over, stress
       double precision scale, ssum, wsum, pmax
       double precision fttau, ftqnan
       logical ftnan
@@ -195,6 +197,12 @@ C             Work: mean of the force before and the force now.
               if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
               if (nhv .ge. 2) ufhist(2,j) = real(wsum, kind(ufhist))
               if (nhv .ge. 3) ufhist(3,j) = real(pmax, kind(ufhist))
+              if (nhv .ge. 6) then
+                stress = fric/area
+                ufhist(5,j) = real(stress, kind(ufhist))
+                stress = stress/max(press, 0.001D0)
+                ufhist(6,j) = real(stress, kind(ufhist))
+              end if
               if (nhv .ge. 4) then
                 if (ftout(x)) ufhist(4,j) = ufhist(4,j) + 1
               end if

@@ -8,6 +8,7 @@
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
 #include "codegen/fortran_build.h"
+#include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
@@ -110,7 +111,8 @@ const Registered<Exporter> registered{[] {
                                      .title = "Abaqus/Standard FRIC, stress with derivatives",
                                      .signature_source = source_of_signature,
                                      .notes = notes,
-                                     .options = {abaqus::coefficient_option(), values_option()}},
+                                     .options = {abaqus::coefficient_option(), values_option(),
+                                                 outside_summary_option()}},
                            .entry = "fric",
                            .gives = gives,
                            .sources = sources,

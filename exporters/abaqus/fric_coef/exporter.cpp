@@ -127,9 +127,9 @@ const Registered<Exporter> registered{[] {
        .recipe = add_recipe,
        .variants = variants,
        .driver = "abaqus/fric_coef/driver.f",
-       .driver_flags =
-           [](const ExportRequest& request) {
-             return std::map<std::string, bool>{{"new", is_2024(request)}};
+       .driver_values =
+           [](const ExportRequest& request, const std::vector<SolverInput>&) {
+             return TemplateValues{.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
            },
        .drive = driver});
 }};

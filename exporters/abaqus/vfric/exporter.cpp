@@ -3,6 +3,7 @@
 #include "codegen/exporter.h"
 
 #include "abaqus/explicit.h"
+#include "codegen/outside_summary.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
 
@@ -34,10 +35,11 @@ abaqus::ForceRoutine routine() {
              .title = "Abaqus/Explicit VFRIC, contact pairs",
              .signature_source = source_of_signature,
              .notes = notes(),
-             .options = {values_option(), speed_scale_option()}};
+             .options = {values_option(), speed_scale_option(), outside_summary_option()}};
   r.entry = "vfric";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaSec of the surface node",
                                  .speed = "|dSlipFric|/dTimCur (0 where dTimCur = 0)",
+                                 .area = "areaSec of the surface node",
                                  .state_name = "STATEV",
                                  .temperature = "tempSec(k)",
                                  .temperature_main = "tempMain(min(k,numDefTfv))",

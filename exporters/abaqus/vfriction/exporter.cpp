@@ -4,6 +4,7 @@
 #include "codegen/exporter.h"
 
 #include "abaqus/explicit.h"
+#include "codegen/outside_summary.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
 
@@ -39,10 +40,11 @@ abaqus::ForceRoutine routine() {
              .title = "Abaqus/Explicit VFRICTION, general contact",
              .signature_source = source_of_signature,
              .notes = notes(),
-             .options = {values_option(), speed_scale_option()}};
+             .options = {values_option(), speed_scale_option(), outside_summary_option()}};
   r.entry = "vfriction";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaCont of the contact point",
                                  .speed = "|dSlipFric|/rData(3) (0 where rData(3) = 0)",
+                                 .area = "areaCont of the contact point",
                                  .state_name = "STATE",
                                  .temperature = "tempSlv(k)",
                                  .temperature_main = "tempMst(min(k,nBlockAnal))",

@@ -7,6 +7,7 @@
 
 #include "codegen/fortran_build.h"
 #include "codegen/histories.h"
+#include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
 #include "codegen/solver_units.h"
@@ -37,7 +38,7 @@ std::string keywords(const ExportRequest& request, const std::vector<SolverInput
       "$     ifid       noc      noci      nhsv\n"
       "{:>10}{:>10}{:>10}{:>10}\n",
       std::max<std::size_t>(values.size(), 1), "<contact>", values.size(), values.size(),
-      state_count(request.table, inputs));
+      state_count(inputs));
   for (std::size_t i = 0; i < values.size(); ++i)
     deck += fmt::format("$ UA({}): {}\n", i + 1, values[i]);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -46,22 +47,22 @@ std::string keywords(const ExportRequest& request, const std::vector<SolverInput
   return deck;
 }
 
-json history(const frictab::table::Table& table, std::string_view units,
-             const std::vector<SolverInput>& inputs) {
+json history(std::string_view units, const std::vector<SolverInput>& inputs) {
   const std::string length = solver_unit("mm", units).name, stress = solver_unit("MPa", units).name;
-  const auto one = [](std::size_t number, const std::string& unit, const std::string& meaning) {
-    return json{{"number", number}, {"unit", unit}, {"meaning", meaning}};
+  json out = json::array();
+  const auto add = [&](const std::string& name, const std::string& unit,
+                       const std::string& meaning) {
+    out.push_back(
+        {{"number", out.size() + 1}, {"name", name}, {"unit", unit}, {"meaning", meaning}});
   };
-  json out = {one(1, length, "accumulated slip while under pressure"),
-              one(2, stress + "*" + length, "friction work per area"),
-              one(3, stress, "peak pressure")};
-  if (state_count(table, inputs) >= 4)
-    out.push_back(one(4, "1",
-                      frictab::table::all_ends(table).empty()
-                          ? "not used"
-                          : "cycles in which the state was outside the range"));
+  add("slip", length, "accumulated slip while under pressure");
+  add("friction_work", stress + "*" + length, "friction work per area");
+  add("peak_pressure", stress, "peak pressure");
+  add("n_outside", "1", "cycles in which the state was outside the range");
   for (const HistoryState& state : with_remainders(history_states(inputs, units), before_histories))
-    out.push_back(one(out.size() + 1, state.unit, state.meaning));
+    add(state.name, state.unit, state.meaning);
+  add("tau_R", stress, "frictional shear stress of the last cycle in contact");
+  add("mu", "1", "that over the pressure");
   return out;
 }
 
@@ -72,7 +73,7 @@ void add_recipe(json& out, const ExportRequest& request, const std::vector<Solve
                    {"meaning", "force along what would hold the node, of magnitude "
                                "min(tau_R*areas*frc(1,.), that force)"}};
   out["state_variables_by"] = "contact node, ufhist(i, ilbsv(ii))";
-  out["state_variables"] = history(request.table, request.units, inputs);
+  out["state_variables"] = history(request.units, inputs);
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
   out["build"] = {"compare the argument list with that of usrfrc in the dyn21.f of your release's "
                   "object package; older ones end at isurface and have no history",
@@ -126,10 +127,14 @@ const char* const notes =
     "tangential part) is cut down to tau_R times the node's area, and to 0 without pressure. "
     "Pressure is -FNI/AREAS, so the contact has to be one with nodal areas (forming, one-way or "
     "node-to-surface): a pressed node without area ends the analysis. FRC(1,.), the segment's "
-    "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. NHSV=4: accumulated "
-    "slip, friction work per area, peak pressure, cycles outside the range, by node (3 where no "
-    "state has a tested range); two more for each further history of a traced law (energy, times, "
-    "means, peaks, friction power). Surface expansion and flow stress are not known to the solver: "
+    "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. psi = area_ratio takes "
+    "the node's area over that at its first contact (not what it had expanded before; adaptive "
+    "remeshing begins again at 1), v_rel_mm_s = smoothed:N a speed that follows by an N-th of the "
+    "difference in each cycle. NHSV=6: accumulated "
+    "slip, friction work per area, peak pressure, cycles outside the range, and last, to be looked "
+    "at, the stress of the last cycle in contact and its coefficient, by node; two more for each "
+    "further history of a traced law (energy, times, means, peaks, friction power). Surface "
+    "expansion and flow stress are not known to the solver: "
     "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "
     "of solids; thick thermal shells have others at their surfaces. For explicit analyses: "
     "histories would count every iteration of an implicit one. Works in both precisions; table and "
@@ -137,19 +142,21 @@ const char* const notes =
     "and value to the standard output and ends the analysis through CSTOP.";
 
 const Registered<Exporter> registered{[] {
-  return routine_exporter({.about = {.name = "lsdyna_usrfrc",
-                                     .order = 54,
-                                     .title = "LS-DYNA USRFRC, SMP",
-                                     .signature_source = source_of_signature,
-                                     .notes = notes,
-                                     .options = {values_option(), speed_scale_option()}},
-                           .entry = "usrfrc",
-                           .gives = gives,
-                           .sources = sources,
-                           .recipe = add_recipe,
-                           .variants = variants,
-                           .driver = "lsdyna/usrfrc/driver.f",
-                           .drive = driver});
+  return routine_exporter(
+      {.about = {.name = "lsdyna_usrfrc",
+                 .order = 54,
+                 .title = "LS-DYNA USRFRC, SMP",
+                 .signature_source = source_of_signature,
+                 .notes = notes,
+                 .options = {values_option(), speed_scale_option(), outside_summary_option()}},
+       .entry = "usrfrc",
+       .gives = gives,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "lsdyna/usrfrc/driver.f",
+       .driver_values = area_of_driver,
+       .drive = driver});
 }};
 
 } // namespace

@@ -1,10 +1,13 @@
 // Fills templates/lsdyna/usrfrc/frictab_usrfrc.f.
 #include "source.h"
 
+#include "codegen/coefficient.h"
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_parts.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/histories.h"
+#include "codegen/number_text.h"
+#include "codegen/outside_summary.h"
 #include "codegen/speed_scale.h"
 #include "table/outside.h"
 
@@ -44,15 +47,14 @@ const SolverGives& gives(const ExportRequest&) {
                    .part = "once"},
       .constant = {.read = "@{fallback}", .canonical = true, .part = "once"},
       .history = "UFHIST(@{number})",
-      .before_histories = before_histories};
+      .before_histories = before_histories,
+      .area = "AREAS of the node",
+      .smooths_speed = true};
   return all;
 }
 
-std::size_t state_count(const frictab::table::Table& table,
-                        const std::vector<SolverInput>& inputs) {
-  const std::size_t further = history_count(inputs);
-  if (further > 0) return before_histories + 2 * further;
-  return frictab::table::all_ends(table).empty() ? 3 : 4;
+std::size_t state_count(const std::vector<SolverInput>& inputs) {
+  return before_histories + 2 * history_count(inputs) + 2;
 }
 
 std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
@@ -64,14 +66,23 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
                      .further_properties = speed_scale(request, inputs)});
   const std::size_t before_rest = before_histories + history_count(inputs);
   fortran::add_histories(values, inputs, request.units, false);
-  values.text["n_history"] = std::to_string(state_count(table, inputs));
+  values.text["n_history"] = std::to_string(state_count(inputs));
+  values.text["n_kept"] = std::to_string(state_count(inputs) - 2);
+  const SolverUnit stress = solver_unit("MPa", request.units);
+  values.text["least"] = fortran_number(stress.from_canonical(fortran::least_pressure));
+  values.text["at_stress"] = std::to_string(state_count(inputs) - 1);
   values.text["n_histories"] = std::to_string(history_count(inputs));
   values.text["before_rest"] = std::to_string(before_rest);
   values.text["first_rest"] = std::to_string(before_rest + 1);
   values.lists["histories"] =
       fortran::comments(numbered(history_states(inputs, request.units), before_histories + 1));
   values.text["core"] =
-      fortran::core(request, {.unknown = true, .quit = fortran::quit(end), .quits = true}).text;
+      fortran::core(request,
+                    {.unknown = true,
+                     .quit = fortran::quit(end),
+                     .quits = true,
+                     .summary = fortran::outside_summary(*find_exporter("lsdyna_usrfrc"), request)})
+          .text;
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");

@@ -12,10 +12,9 @@ namespace frictab::lsdyna::usrfrc {
 const codegen::SolverGives& gives(const codegen::ExportRequest&);
 inline constexpr std::size_t before_histories = 4; // of UFHIST
 
-// Values of UFHIST per node that the routine keeps: 3, 4 where it counts, and two for each of
-// codegen/histories.h.
-std::size_t state_count(const frictab::table::Table& table,
-                        const std::vector<codegen::SolverInput>& inputs);
+// Values of UFHIST per node that the routine keeps: 4, two for each of codegen/histories.h, and to
+// be looked at the frictional shear stress and its share of the pressure.
+std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
 std::string usrfrc_source(const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs);

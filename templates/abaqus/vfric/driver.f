@@ -8,12 +8,12 @@ C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
 C     Powers of two, as areas: dividing by them changes no bits.
       parameter (dtime = 2.0**(-30))
       character*80 cin, csec, cmain
-      dimension ftan(2,n), st(6+2*nh,n+3), slip(3,n), stick(n)
+      dimension ftan(2,n), st(8+2*nh,n+3), slip(3,n), stick(n)
       dimension prev(3,n), fnorm(n), shape(4,n), area(n+3)
       dimension xsec(3,n+3), xmain(3,4), dsl(3,n), dn(3,n), props(np)
       dimension tsec(n), psec(n,nf), tmain(n), pmain(n,nf)
       dimension jsec(n+3), jmain(4), jcs(n), jcm(4,n)
-      nst = 6 + 2*nh
+      nst = 8 + 2*nh
       cin = 'FRICTAB'
       csec = 'SEC'
       cmain = 'MAIN'
@@ -52,6 +52,9 @@ C       sums lies behind them.
         call ftput(st(1,node), 1, 5, v(3,k) - abs(slip(1,k)), nst)
         call ftput(st(1,node), 2, 6, v(4,k), nst)
         call ftput(st(1,node), 3, 0, v(5,k), nst)
+@if has_area
+        hist(@{first_area},k) = hist(@{first_area},k)*a
+@end
         do i = 1, nh
           call ftput(st(1,node), 6+i, 6+nh+i, hist(i,k), nst)
         end do

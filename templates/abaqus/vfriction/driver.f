@@ -8,12 +8,12 @@ C     2 speed, 3 slip, 4 work, 5 peak pressure, 6 temperature.
 C     Powers of two, as areas: dividing by them changes no bits.
       parameter (dtime = 2.0**(-30))
       character*80 cin, csec, cmain
-      dimension ftan(2,n), st(6+2*nh,1,n), slip(3,n), stick(n)
+      dimension ftan(2,n), st(8+2*nh,1,n), slip(3,n), stick(n)
       dimension prev(3,n), fnorm(n), area(n), dn(3,n), dsl(3,n)
       dimension shs(1,1), shm(4,n), xs(3,1,n), xm(3,4,n), vs(3,1,n)
       dimension vm(3,4,n), ts(n), tm(n), fs(nf,n), fm(nf,n), props(np)
       dimension jsec(1,n), jmain(4,n), jflags(3), rdata(4)
-      nst = 6 + 2*nh
+      nst = 8 + 2*nh
       cin = 'FRICTAB'
       csec = ' '
       cmain = ' '
@@ -54,6 +54,9 @@ C       sums lies behind them.
         call ftput(st(1,1,k), 1, 5, v(3,k) - abs(slip(1,k)), nst)
         call ftput(st(1,1,k), 2, 6, v(4,k), nst)
         call ftput(st(1,1,k), 3, 0, v(5,k), nst)
+@if has_area
+        hist(@{first_area},k) = hist(@{first_area},k)*a
+@end
         do i = 1, nh
           call ftput(st(1,1,k), 6+i, 6+nh+i, hist(i,k), nst)
         end do

@@ -14,12 +14,12 @@ C     Powers of two: dividing by them changes no bits.
       integer nact, nin, nodes
       real areas(n), none(5*n), fni(n), d(n,3), ua(np), rn(n,3)
       real fdat(5,n), f(n,3), ss(n), tt(n), stfk(n), frc(2,n), pld(2,1)
-      real temp(5*n), ufhist(4+2*nh,n), ufeps(1,1)
+      real temp(5*n), ufhist(6+2*nh,n), ufeps(1,1)
       character*6 side
       integer itopaz
       common /thropt/ itopaz(101)
       itopaz(1) = 999
-      nhv = 4 + 2*nh
+      nhv = 6 + 2*nh
       nact = n
       nin = np
       nodes = 5*n
@@ -70,6 +70,9 @@ C       What was slipped before this cycle
         ufhist(1,j) = real(v(3,k), kind(ufhist)) - abs(d(k,2))
         ufhist(2,j) = real(v(4,k), kind(ufhist))
         ufhist(3,j) = real(v(5,k), kind(ufhist))
+@if has_area
+        hist(@{first_area},k) = hist(@{first_area},k)*a
+@end
         do i = 1, nh
           ufhist(4+i,j) = real(hist(i,k), kind(ufhist))
           ufhist(4+nh+i,j) = real(hist(i,k) - ufhist(4+i,j),

@@ -10,20 +10,20 @@ C     @{line.text}
 @end
 C     UFHIST (NHSV=@{n_history}), by node:
 C     1 accumulated slip (@{length}), 2 friction work per area
-@if has_ends
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 cycles in
 C     which the state was outside the range.
-@else
-C     (@{stress}*@{length}), 3 peak pressure (@{stress}).
-@end
 @if has_histories
 @for line in histories
 C     @{line.text}
 @end
 C     from @{first_rest} on: what the solver's precision rounds off them.
+C     @{at_stress} frictional shear stress (@{stress}) of the last cycle in
+C     contact, @{n_history} that over the pressure: to be looked at.
 C     With fewer the missing ones of 1 to 3 count as 0, and of those
 C     behind them integrals as 0, peaks and means as the present value.
 @else
+C     @{at_stress} frictional shear stress (@{stress}) of the last cycle in
+C     contact, @{n_history} that over the pressure: to be looked at.
 C     With fewer the missing ones count as 0.
 @end
 C
@@ -65,7 +65,7 @@ C     itopaz(1) = 999: temperatures are computed.
 C
       double precision x(@{n_x}), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
-      double precision over
+      double precision over, stress
       double precision scale, ssum, wsum, pmax
       double precision fttau, ftqnan
       logical ftnan
@@ -159,12 +159,12 @@ C         A contact of another type: tau_R has nothing to act on.
 @if has_histories
           do i = 1, @{n_histories}
             past(i) = 0.0D0
-            if (nhv .ge. @{n_history}) then
+            if (nhv .ge. @{n_kept}) then
               past(i) = ufhist(@{before_rest}+i,j)
               past(i) = past(i) + ufhist(4+i,j)
             end if
           end do
-          call ftpast(past, press, speed, @{temperature_now}, x)
+          call ftpast(past, press, speed, @{temperature_now}@{area_now}, x)
 @end
 @if refuses
           if (ftstop(x)) then
@@ -195,16 +195,22 @@ C             Work: mean of the force before and the force now.
               if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
               if (nhv .ge. 2) ufhist(2,j) = real(wsum, kind(ufhist))
               if (nhv .ge. 3) ufhist(3,j) = real(pmax, kind(ufhist))
+              if (nhv .ge. @{n_history}) then
+                stress = fric/area
+                ufhist(@{at_stress},j) = real(stress, kind(ufhist))
+                stress = stress/max(press, @{least})
+                ufhist(@{n_history},j) = real(stress, kind(ufhist))
+              end if
 @if has_ends
               if (nhv .ge. 4) then
                 if (ftout(x)) ufhist(4,j) = ufhist(4,j) + 1
               end if
 @end
 @if has_histories
-              if (nhv .ge. @{n_history}) then
+              if (nhv .ge. @{n_kept}) then
                 dtime = 0.0D0
                 if (rate .gt. 0.0D0) dtime = 1.0D0/rate
-                call ftnext(past, press, speed, @{temperature_now}, pmax,
+                call ftnext(past, press, speed, @{temperature_now}@{area_now}, pmax,
      &            fric/area, slip, dtime, next)
                 do i = 1, @{n_histories}
                   ufhist(4+i,j) = real(next(i), kind(ufhist))

@@ -1,0 +1,80 @@
+// Fills templates/fortran/frictab_seen.f.
+#include "codegen/outside_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "codegen/entry_arguments.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/number_text.h"
+#include "codegen/table_text.h"
+#include "table/outside.h"
+
+namespace frictab::codegen {
+
+namespace {
+
+constexpr const char* option_name = "outside_summary";
+
+// What may stand between apostrophes in a line of Fortran.
+std::string literal(std::string_view text) {
+  std::string out = comment_text(text).substr(0, 30);
+  std::replace(out.begin(), out.end(), '\'', ' ');
+  return out;
+}
+
+bool is_logarithmic(const table::Table& table, const std::string& name) {
+  const table::TableAxis* axis = table::find_axis(table, name);
+  return axis && axis->log;
+}
+
+TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis,
+                          const std::string& unit) {
+  const bool log = is_logarithmic(table, axis.name);
+  const double length = log ? std::log(axis.high / axis.low) : axis.high - axis.low;
+  TemplateValues one;
+  one.flags["log"] = log;
+  one.text = {{"index", std::to_string(axis.input + 1)},
+              {"low", fortran_number(axis.low)},
+              {"high", fortran_number(axis.high)},
+              {"length", fortran_number(length > 0 ? length : 1)},
+              {"name", literal(axis.name)},
+              {"unit", unit == "1" ? "" : " " + literal(unit)},
+              {"range", fmt::format("{:.6g} .. {:.6g}", axis.low, axis.high)}};
+  return one;
+}
+
+} // namespace
+
+ExportOption outside_summary_option() {
+  return {
+      option_name,
+      {"none", "at_exit", "at_exit_windows"},
+      "one message on the standard output when the program ends, if contact points were outside "
+      "the range of the law: how often, and the state furthest beyond an end"};
+}
+
+std::string fortran::outside_summary(const Exporter& exporter, const ExportRequest& request) {
+  const std::string said = request.said(option_name);
+  const bool offered = std::any_of(exporter.options.begin(), exporter.options.end(),
+                                   [](const auto& option) { return option.name == option_name; });
+  const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
+  if (!offered || said.empty() || said == "none" || ends.empty()) return "";
+  TemplateValues values;
+  const std::vector<InputArgument> arguments = entry_arguments(request.table, "mm-t-s");
+  for (const table::AxisEnds& axis : ends) {
+    const auto argument =
+        std::find_if(arguments.begin(), arguments.end(),
+                     [&](const InputArgument& one) { return one.name == axis.name; });
+    values.lists["ends"].push_back(end_values(request.table, axis, argument->solver.name));
+    values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
+  }
+  values.flags["windows"] = said == "at_exit_windows";
+  values.text = {{"model", literal(request.table.model)},
+                 {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
+  return without_last_break(render_template("fortran/frictab_seen.f", values));
+}
+
+} // namespace frictab::codegen
