@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codegen/flow_curve.h"
 #include "codegen/recipe.h"
 #include "codegen/template.h"
 #include "codegen/values_file.h"
@@ -19,7 +20,9 @@ std::vector<SolverInput> checked_inputs(const RoutineTarget& target, const Expor
   return inputs;
 }
 
-SourceBundle bundle(const RoutineTarget& target, const ExportRequest& request) {
+SourceBundle bundle(const RoutineTarget& target, const ExportRequest& as_said) {
+  const CurvedRequest curved(as_said, target.gives(as_said));
+  const ExportRequest& request = curved.get();
   check_request(request);
   const std::vector<SolverInput> inputs = checked_inputs(target, request);
   SourceBundle files = target.sources(request, inputs);
@@ -32,7 +35,9 @@ SourceBundle bundle(const RoutineTarget& target, const ExportRequest& request) {
   return files;
 }
 
-std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportRequest& request) {
+std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportRequest& as_said) {
+  const CurvedRequest curved(as_said, target.gives(as_said));
+  const ExportRequest& request = curved.get();
   TemplateValues values;
   if (target.driver_values) values = target.driver_values(request, checked_inputs(target, request));
   const std::string text = render_template(target.driver, values);
@@ -50,16 +55,22 @@ Exporter routine_exporter(const RoutineTarget& target) {
   out.variants = [target](const ExportRequest& request) { return with_driver(target, request); };
   out.caution = target.caution;
   out.held = [target](const ExportRequest& request) {
-    return said_constants(request, checked_inputs(target, request));
+    const CurvedRequest curved(request, target.gives(request));
+    return said_constants(curved.get(), checked_inputs(target, curved.get()));
   };
   out.gives_mu = [target](const ExportRequest& request) {
-    return target.drive(request, checked_inputs(target, request)).result ==
+    const CurvedRequest curved(request, target.gives(request));
+    return target.drive(curved.get(), checked_inputs(target, curved.get())).result ==
            fortran::Coefficient::coulomb;
   };
   out.drive = [target](const Built& built, const ExportRequest& request, std::size_t rows,
                        std::span<const double* const> columns, std::span<double> tau) {
-    const std::vector<SolverInput> inputs = checked_inputs(target, request);
-    drive_routine(target.drive(request, inputs), inputs, built, request, rows, columns, tau);
+    const CurvedRequest curved(request, target.gives(request));
+    const std::vector<SolverInput> inputs = checked_inputs(target, curved.get());
+    curved.drive(rows, columns, tau, [&](std::size_t n, auto states, auto answers) {
+      drive_routine(target.drive(curved.get(), inputs), inputs, built, curved.get(), n, states,
+                    answers);
+    });
   };
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/entry_arguments.h"
+#include "codegen/flow_curve.h"
 #include "codegen/recipe.h"
 #include "codegen/table_checks.h"
 #include "codegen/template.h"
@@ -58,7 +59,9 @@ std::string recipe(const ExportRequest& request, const std::vector<SolverInput>&
   return io::json_text(out);
 }
 
-SourceBundle generate(const ExportRequest& request) {
+SourceBundle generate(const ExportRequest& as_said) {
+  const CurvedRequest curved(as_said, gives());
+  const ExportRequest& request = curved.get();
   check_table(request.table);
   check_table_size(request.table);
   const std::vector<SolverInput> inputs = solver_inputs(request, gives());
@@ -80,8 +83,8 @@ std::vector<BuildVariant> variants(const ExportRequest&) {
 }
 
 // All rows in one process: states and answers go through files.
-void drive(const Built& built, const ExportRequest& request, std::size_t rows,
-           std::span<const double* const> columns, std::span<double> tau) {
+void run_rows(const Built& built, const ExportRequest& request, std::size_t rows,
+              std::span<const double* const> columns, std::span<double> tau) {
   const std::vector<std::string> needed = request.table.inputs();
   std::vector<std::pair<const double*, SolverUnit>> arguments; // null: not used
   for (const InputArgument& argument : entry_arguments(request.table, request.units)) {
@@ -115,6 +118,14 @@ void drive(const Built& built, const ExportRequest& request, std::size_t rows,
   }
 }
 
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const CurvedRequest curved(request, gives());
+  curved.drive(rows, columns, tau, [&](std::size_t n, auto states, auto answers) {
+    run_rows(built, curved.get(), n, states, answers);
+  });
+}
+
 Exporter exporter() {
   Exporter out;
   out.name = "qform_lua";
@@ -136,7 +147,8 @@ Exporter exporter() {
   out.variants = variants;
   out.drive = drive;
   out.held = [](const ExportRequest& request) {
-    return said_constants(request, solver_inputs(request, gives()));
+    const CurvedRequest curved(request, gives());
+    return said_constants(curved.get(), solver_inputs(curved.get(), gives()));
   };
   return out;
 }

@@ -326,7 +326,8 @@ const SolverGives& gives() {
   static const SolverGives all = {
       .states = {{.state = "sigma_n_MPa", .text = "argument of FrictionStress (name recalled)"},
                  {.state = "v_rel_mm_s", .text = "argument of FrictionStress (name recalled)"},
-                 {.state = "T_contact_C", .text = "argument of FrictionStress (name recalled)"}},
+                 {.state = "T_contact_C", .text = "argument of FrictionStress (name recalled)"},
+                 {.state = "strain", .text = "argument of FrictionStress (name recalled)"}},
       .property = {.text = "QForm parameter @{property}"}};
   return all;
 }

@@ -1,0 +1,204 @@
+// Puts the curve into a table's formula, and finds the strain of a flow stress.
+#include "codegen/flow_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "codegen/entry_arguments.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "expr/program.h"
+
+namespace frictab::codegen {
+
+namespace {
+
+constexpr const char* flow_stress = "sigma_f_MPa";
+constexpr const char* strain = "strain";
+constexpr std::string_view curve_choice = "curve:";
+
+const Place place{"export.inputs.sigma_f_MPa", 0, 0};
+
+void check(const expr::Expr& curve, const table::Table& table) {
+  std::vector<std::string> known = table.inputs();
+  std::erase(known, flow_stress);
+  for (const char* name : {strain, "T_contact_C"})
+    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+  for (const std::string& name : symbols(curve))
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(place, "the curve has '" + name + "', which is no state",
+                       suggest(name, known));
+  if (!symbols(curve).contains(strain))
+    throw InputError(place, "the curve does not depend on strain",
+                     "a formula in strain (equivalent plastic strain), or \"constant:480\"");
+  if (table::find_axis(table, flow_stress))
+    throw InputError(place,
+                     "a curve cannot take the place of sigma_f_MPa, which is an axis of the table",
+                     "\"field:1\" or \"property\"");
+}
+
+// Where nothing else is said of a state.
+double usual(const table::Table& table, const std::string& name) {
+  if (const auto typical = typical_value(table, name)) return *typical;
+  const data::Quantity* known = data::find_quantity(name);
+  return known ? known->unknown.value_or(0) : 0;
+}
+
+// The curve along strain, at one state of the rest.
+class AlongStrain {
+public:
+  AlongStrain(const expr::Expr& curve, const std::vector<std::string>& others)
+      : others_(others), program_(curve, with_strain(others), {}), row_(others.size() + 1) {}
+
+  std::vector<double>& others() { return row_; } // the last is the strain
+  double operator()(double value) {
+    row_.back() = value;
+    return program_(row_, {});
+  }
+
+  // The smallest strain that gives this flow stress; NaN where none does.
+  double solve(double wanted) {
+    double low = 0, at_low = (*this)(low)-wanted;
+    for (int cell = 1; cell <= cells && at_low != 0; ++cell) {
+      const double high = most_strain * cell / cells, at_high = (*this)(high)-wanted;
+      if (at_low * at_high <= 0) return bisect(low, high, at_low, wanted);
+      low = high;
+      at_low = at_high;
+    }
+    return at_low == 0 ? low : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  static constexpr int cells = 200;
+
+private:
+  static std::vector<std::string> with_strain(std::vector<std::string> others) {
+    others.emplace_back(strain);
+    return others;
+  }
+
+  double bisect(double low, double high, double at_low, double wanted) {
+    for (double middle = 0.5 * (low + high); low < middle && middle < high;
+         middle = 0.5 * (low + high)) {
+      const double at_middle = (*this)(middle)-wanted;
+      (at_low * at_middle > 0 ? low : high) = middle;
+    }
+    return high;
+  }
+
+  std::vector<std::string> others_;
+  expr::Program program_;
+  std::vector<double> row_;
+};
+
+std::vector<std::string> other_states(const expr::Expr& curve) {
+  std::vector<std::string> others;
+  for (const std::string& name : symbols(curve))
+    if (name != strain) others.push_back(name);
+  return others;
+}
+
+} // namespace
+
+CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gives)
+    : original_(request) {
+  const auto said = request.inputs.find(flow_stress);
+  if (said == request.inputs.end() || !said->second.starts_with(curve_choice)) return;
+  const std::vector<std::string> needed = request.table.inputs();
+  if (std::find(needed.begin(), needed.end(), flow_stress) == needed.end()) return;
+  if (gives.find(flow_stress))
+    throw InputError(place, "the solver gives this state itself",
+                     "\"solver\", or the curve for other targets: [export.TARGET.inputs]");
+  curve_ = expr::parse_expr(std::string_view(said->second).substr(curve_choice.size()), place.file);
+  check(curve_, request.table);
+  table_ = request.table;
+  table_.combine = substitute(table_.combine, {{flow_stress, curve_}});
+  set_range();
+  curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
+  curved_->inputs.erase(flow_stress);
+}
+
+// The strains over which the curve stays where the law was tested.
+void CurvedRequest::set_range() {
+  const auto tested = original_.table.range(flow_stress);
+  AlongStrain curve(curve_, other_states(curve_));
+  const std::vector<std::string> others = other_states(curve_);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    curve.others()[i] = usual(original_.table, others[i]);
+  double low = most_strain, high = 0, smallest = HUGE_VAL, largest = -HUGE_VAL;
+  for (int cell = 0; cell <= AlongStrain::cells; ++cell) {
+    const double at = most_strain * cell / AlongStrain::cells, value = curve(at);
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+    if (tested && (value < tested->first || value > tested->second)) continue;
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  if (low > high)
+    throw InputError(place,
+                     fmt::format("the curve gives {:.4g} .. {:.4g} MPa for strains of 0 to {:g}, "
+                                 "the law was made for {:.4g} .. {:.4g} MPa",
+                                 smallest, largest, most_strain, tested->first, tested->second),
+                     "a curve in MPa, of the material that was tested");
+  table::InputRecord& record = table_.record.inputs[strain];
+  record.low = low;
+  record.high = high;
+  record.long_name = "equivalent plastic strain";
+  record.unit = "1";
+  table_.record.inputs.erase(flow_stress);
+}
+
+std::vector<double> CurvedRequest::strains(std::size_t rows,
+                                           std::span<const double* const> columns) const {
+  const std::vector<std::string> needed = original_.table.inputs(), others = other_states(curve_);
+  const auto column = [&](const std::string& name) -> const double* {
+    const auto at = std::find(needed.begin(), needed.end(), name);
+    return at == needed.end() ? nullptr : columns[static_cast<std::size_t>(at - needed.begin())];
+  };
+  AlongStrain curve(curve_, others);
+  const double* const wanted = column(flow_stress);
+  std::vector<double> out(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t i = 0; i < others.size(); ++i)
+      curve.others()[i] =
+          column(others[i]) ? column(others[i])[row] : usual(original_.table, others[i]);
+    out[row] = curve.solve(wanted[row]);
+  }
+  return out;
+}
+
+void CurvedRequest::drive(std::size_t rows, std::span<const double* const> columns,
+                          std::span<double> tau, const Drive& drive) const {
+  if (!curved_) return drive(rows, columns, tau);
+  const std::vector<double> strain_of = strains(rows, columns);
+  std::vector<std::size_t> posed;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (!std::isnan(strain_of[row])) posed.push_back(row);
+  const std::vector<std::string> needed = original_.table.inputs(), now = table_.inputs();
+  std::vector<std::vector<double>> states;
+  std::vector<const double*> pointers;
+  for (const std::string& name : now) {
+    const auto at = std::find(needed.begin(), needed.end(), name);
+    std::vector<double>& one = states.emplace_back();
+    for (const std::size_t row : posed)
+      if (name == strain)
+        one.push_back(strain_of[row]);
+      else if (at == needed.end())
+        one.push_back(usual(original_.table, name));
+      else
+        one.push_back(columns[static_cast<std::size_t>(at - needed.begin())][row]);
+  }
+  for (const std::vector<double>& one : states)
+    pointers.push_back(one.data());
+  std::vector<double> answers;
+  for (const std::size_t row : posed)
+    answers.push_back(tau[row]);
+  drive(posed.size(), pointers, answers);
+  for (std::size_t i = 0; i < posed.size(); ++i)
+    tau[posed[i]] = answers[i];
+}
+
+} // namespace frictab::codegen
