@@ -18,7 +18,7 @@ namespace frictab::codegen {
 namespace {
 
 constexpr const char* flow_stress = "sigma_f_MPa";
-constexpr const char* strain = "strain";
+constexpr const char* strain = strain_name;
 constexpr std::string_view curve_choice = "curve:";
 
 const Place place{"export.inputs.sigma_f_MPa", 0, 0};
@@ -32,6 +32,10 @@ void check(const expr::Expr& curve, const table::Table& table) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(place, "the curve has '" + name + "', which is no state",
                        suggest(name, known));
+  const std::vector<std::string> needed = table.inputs();
+  if (std::find(needed.begin(), needed.end(), strain) != needed.end())
+    throw InputError(place, "the law has a state of its own that is called strain",
+                     "\"field:1\" or \"property\", or another name for that column of the data");
   if (!symbols(curve).contains(strain))
     throw InputError(place, "the curve does not depend on strain",
                      "a formula in strain (equivalent plastic strain), or \"constant:480\"");

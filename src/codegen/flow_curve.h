@@ -23,6 +23,7 @@
 
 namespace frictab::codegen {
 
+inline constexpr const char* strain_name = "strain"; // in the curve, and in [export.inputs]
 inline constexpr double most_strain = 5;
 
 // A request as the target has to fill it: with the curve in its table, where the job states one.

@@ -7,6 +7,7 @@
 
 #include "calibrate/calibration.h"
 #include "calibrate/folds.h"
+#include "codegen/flow_curve.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "data/derived.h"
@@ -32,9 +33,10 @@ void add_oracle(const data::DataOptions& options, JobData& data) {
   data::read_oracle(options, data.training, data.validation);
 }
 
-// [export.inputs] may name what only a traced effect brings in: a recorded column, or a history.
+// [export.inputs] may name what only a traced effect brings in: a recorded column, or a history;
+// and the strain of a hardening curve.
 void check_export_inputs(const codegen::ExportOptions& exports, const data::Dataset& data) {
-  std::vector<std::string> known;
+  std::vector<std::string> known = {codegen::strain_name};
   for (const data::Quantity& quantity : data::quantities())
     if (quantity.state) known.push_back(quantity.name);
   for (const data::DerivedQuantity& derived : data::derived_quantities())

@@ -256,21 +256,22 @@ TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {
                                   "[export.inputs]\n"
                                   "sigma_f_MPa = \"constant:480\"\n"
                                   "[export.abaqus_vfric.inputs]\n"
-                                  "sigma_f_MPa = \"field:1\"\n"
+                                  "sigma_f_MPa = \"curve:400 + 300*strain\"\n"
+                                  "strain = \"field:1\"\n"
                                   "[export.qform_lua.inputs]\n"
                                   "sigma_f_MPa = \"property\"\n");
-  const auto result = run_frictab({"run", job, "--set", "table.model=levanov"});
+  const auto result = run_frictab({"run", job, "--set", "table.model=orowan"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_THAT(result.err, testing::HasSubstr("[export.qform_lua.inputs] is not used: qform_lua is "
                                              "not among export.targets"));
-  const auto source = [&](const std::string& target) {
+  const auto source = [&](const std::string& target, const std::string& quantity) {
     const auto recipe = test::parse_json(directory.read("out/export/" + target + "/recipe.json"));
     for (const auto& argument : recipe.at("arguments"))
-      if (argument.at("quantity") == "sigma_f_MPa") return argument.at("source").dump();
+      if (argument.at("quantity") == quantity) return argument.at("source").dump();
     return std::string();
   };
-  EXPECT_THAT(source("abaqus_vfric"), testing::HasSubstr("field"));
-  EXPECT_THAT(source("marc_ufric"), testing::HasSubstr("480"));
+  EXPECT_THAT(source("abaqus_vfric", "strain"), testing::HasSubstr("field"));
+  EXPECT_THAT(source("marc_ufric", "sigma_f_MPa"), testing::HasSubstr("480"));
   const auto refused =
       run_frictab({"export", job, "--set", "export.marc_ufric.inputs.sigma_f_MPa=\"field:1\""});
   EXPECT_EQ(refused.exit_code, 2);
