@@ -51,7 +51,9 @@ InputArgument argument(const table::Table& table, const std::string& name, std::
     input.unit = meaning.unit;
     input.meaning = meaning.text;
   }
-  if (input.meaning == data::Meaning{}.text) input.meaning = name + " " + input.meaning;
+  const auto& recorded = table.record.input(name).long_name;
+  if (input.meaning == data::Meaning{}.text)
+    input.meaning = recorded && *recorded != input.meaning ? *recorded : name + " " + input.meaning;
   if (const auto& levels = table.record.input(name).levels) input.meaning = name + ": " + *levels;
   input.solver = solver_unit(input.unit, units);
   input.argument = argument_name(input);
