@@ -1,6 +1,7 @@
 // Tables: exact where they must be, made to their tolerance, read back, read by others.
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -224,22 +225,33 @@ TEST(TableFunction, ReportsEveryClampedAxisAndKeepsNaN) {
   EXPECT_GT(inside, 0);
 }
 
+using Attributes = std::map<std::string, std::string>;
+
+// A table over psi at three nodes as another program may write it; empty `layout`: without schema.
+std::string foreign_table(const test::TemporaryDirectory& directory,
+                          const std::vector<double>& nodes, const Attributes& of_nodes,
+                          const std::vector<double>& value, const Attributes& of_value,
+                          const std::string& layout = "") {
+  std::string file = directory.path("foreign.h5");
+  io::Hdf5Writer out(file);
+  const std::size_t shape[] = {3};
+  out.dataset("psi", shape, nodes);
+  out.dataset("value", shape, value);
+  out.dimension_scale("value", 0, "psi");
+  for (const auto& [name, text] : of_nodes)
+    out.attribute("psi", name, text);
+  for (const auto& [name, text] : of_value)
+    out.attribute("value", name, text);
+  if (!layout.empty()) out.attribute("/", "schema", layout);
+  out.close();
+  return file;
+}
+
 TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
   const test::TemporaryDirectory directory;
-  const std::string file = directory.path("foreign.h5");
-  {
-    io::Hdf5Writer out(file);
-    const std::size_t shape[] = {3};
-    const std::vector<double> nodes{1, 1, 2}, value{0.1, 0.2, 0.3};
-    out.dataset("psi", shape, nodes);
-    out.attribute("psi", "units", std::string("%"));
-    out.attribute("psi", "transform", std::string("cubic"));
-    out.dataset("value", shape, value);
-    out.dimension_scale("value", 0, "psi");
-    out.attribute("value", "quantity", std::string("mu"));
-    out.attribute("value", "interpolation", std::string("linear"));
-    out.close();
-  }
+  const std::string file =
+      foreign_table(directory, {1, 1, 2}, {{"units", "%"}, {"transform", "cubic"}}, {0.1, 0.2, 0.3},
+                    {{"quantity", "mu"}, {"interpolation", "linear"}});
   try {
     read_table(file);
     FAIL();
@@ -255,26 +267,14 @@ TEST(TableFile, FaultsOfAForeignTableAreToldTogether) {
 // ln mu over psi at 1, 2 and 4, as version 0.1 wrote it, with `layout` as its schema.
 std::string file_of_logarithms(const test::TemporaryDirectory& directory,
                                const std::string& layout) {
-  std::string file = directory.path("logarithms.h5");
-  io::Hdf5Writer out(file);
-  const std::size_t shape[] = {3};
-  const std::vector<double> nodes{1, 2, 4}, mu{0.1, 0.2, 0.4};
-  std::vector<double> value;
-  for (const double one : mu)
-    value.push_back(std::log(one));
-  out.dataset("psi", shape, nodes);
-  out.attribute("psi", "units", std::string("1"));
-  out.attribute("psi", "transform", std::string("log"));
-  out.dataset("value", shape, value);
-  out.dimension_scale("value", 0, "psi");
-  out.attribute("value", "quantity", std::string("mu"));
-  out.attribute("value", "units", std::string("1"));
-  out.attribute("value", "transform", std::string("log"));
-  out.attribute("value", "interpolation", std::string("linear"));
-  out.attribute("value", "combine", std::string("value*sigma_n_MPa"));
-  if (!layout.empty()) out.attribute("/", "schema", layout);
-  out.close();
-  return file;
+  return foreign_table(directory, {1, 2, 4}, {{"units", "1"}, {"transform", "log"}},
+                       {std::log(0.1), std::log(0.2), std::log(0.4)},
+                       {{"quantity", "mu"},
+                        {"units", "1"},
+                        {"transform", "log"},
+                        {"interpolation", "linear"},
+                        {"combine", "value*sigma_n_MPa"}},
+                       layout);
 }
 
 TEST(TableFile, FirstLayoutHoldsLogarithmsAndIsReadWhereverItsValuesLie) {
@@ -312,23 +312,13 @@ TEST(TableFile, LayoutThatDoesNotSayWhetherItHoldsLogarithmsIsRefused) {
 
 TEST(TableFile, CubicTableMustSayWhichSplineAndBendOnlyAtNodes) {
   const test::TemporaryDirectory directory;
-  const std::string file = directory.path("foreign.h5");
-  {
-    io::Hdf5Writer out(file);
-    const std::size_t shape[] = {3};
-    const std::vector<double> nodes{1, 2, 3}, value{0.1, 0.2, 0.3};
-    out.dataset("psi", shape, nodes);
-    out.attribute("psi", "units", std::string("1"));
-    out.attribute("psi", "transform", std::string("linear"));
-    out.attribute("psi", "kinks", std::string("2 2.5 x"));
-    out.dataset("value", shape, value);
-    out.dimension_scale("value", 0, "psi");
-    out.attribute("value", "quantity", std::string("mu"));
-    out.attribute("value", "transform", std::string("linear"));
-    out.attribute("value", "interpolation", std::string("cubic"));
-    out.attribute("value", "spline", std::string("natural"));
-    out.close();
-  }
+  const std::string file = foreign_table(
+      directory, {1, 2, 3}, {{"units", "1"}, {"transform", "linear"}, {"kinks", "2 2.5 x"}},
+      {0.1, 0.2, 0.3},
+      {{"quantity", "mu"},
+       {"transform", "linear"},
+       {"interpolation", "cubic"},
+       {"spline", "natural"}});
   try {
     read_table(file);
     FAIL();
