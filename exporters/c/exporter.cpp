@@ -87,25 +87,24 @@ std::vector<std::string> unused(const std::vector<InputArgument>& inputs) {
   return names;
 }
 
-void add_axes(TemplateValues& values, const Table& table,
-              const std::vector<InputArgument>& inputs) {
+void add_axes(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
+              const Variables& variables) {
   std::size_t used = 0;
   for (const InputArgument& input : inputs) // NaN on an axis comes out of the interpolation
     if (input.used) values.lists["used"][used++].flags["formula_only"] = !input.axis;
-  const auto rename = symbol_names(table, inputs);
   Lines axes;
   long stride = static_cast<long>(table.nodes());
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     stride /= static_cast<long>(table.axes[a].nodes.size());
-    axes.push_back(axis_values(table.axes[a], a, stride, rename.at(table.axes[a].name)));
+    axes.push_back(axis_values(table.axes[a], a, stride, variables.name(table.axes[a].name)));
   }
   values.lists["axes"] = axes;
-  const std::vector<std::string> extending = extending_sides(table, inputs);
+  const std::vector<std::string> extending = extending_sides(table, variables);
   values.flags["extends"] = !extending.empty();
-  values.text["extending"] = join(extending, " || ");
+  values.text["extending"] = join(extending, " ||\n");
   values.text["piece"] = extending.empty() ? "" : piece(table, inputs);
-  values.text["piece_arguments"] = extending.empty() ? "" : piece_arguments(table, inputs);
-  values.lists["refusing"] = items(refusing_sides(table, inputs));
+  values.text["piece_call"] = extending.empty() ? "" : piece_call(table, inputs, variables);
+  values.lists["refusing"] = items(refusing_sides(table, variables));
 }
 
 std::string kernel(const Table& table) {
@@ -140,34 +139,33 @@ std::string values_file(const Table& table, const std::string& comment) {
 
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
-  const expr::Statements code =
-      to_statements(table.combine, expr::Language::c, symbol_names(table, inputs));
-  const SolverUnit stress = solver_unit("MPa", request.units);
+  Variables variables = variables_of(table, table.combine, inputs);
+  const Statements code = variables.statements({{table.combine, "tau_R"}});
   const bool file = values_in_file(request);
   const std::string comment = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
                   table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
   TemplateValues values;
-  values.text = {
-      {"model", comment_text(table.model)},
-      {"version", FRICTAB_VERSION},
-      {"kernel", kernel(table)},
-      {"interpolate",
-       fmt::format("ft_{}_{}", is_cubic(table) ? "cubic" : "linear", table.axes.size())},
-      {"n_axes", std::to_string(table.axes.size())},
-      {"state_text", file ? ", no state but the values" : ", no state"},
-      {"values", file ? values_file(table, comment) : values_in_source(table, comment)},
-      {"result", stress.same() ? code.result : code.result + " * " + c_number(stress.over)},
-      {"gradient", gradient_functions(request, inputs)},
-      {"outside", outside_functions(table, inputs)}};
+  values.text = {{"model", comment_text(table.model)},
+                 {"version", FRICTAB_VERSION},
+                 {"kernel", kernel(table)},
+                 {"interpolate",
+                  fmt::format("ft_{}_{}", is_cubic(table) ? "cubic" : "linear", table.axes.size())},
+                 {"n_axes", std::to_string(table.axes.size())},
+                 {"state_text", file ? ", no state but the values" : ", no state"},
+                 {"values", file ? values_file(table, comment) : values_in_source(table, comment)},
+                 {"result", in_units(code.results[0], request.units)},
+                 {"gradient", gradient_functions(request, inputs)},
+                 {"outside", outside_functions(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
                   {"in_file", file},
                   {"cubic", is_cubic(table)},
                   {"log_value", table.log_value}};
-  add_state(values, table, inputs, table.combine);
-  add_axes(values, table, inputs);
+  add_state(values, table, inputs, variables);
+  add_axes(values, table, inputs, variables);
   values.lists["unused"] = items(unused(inputs));
-  if (!expr::symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
+  if (!expr::symbols(table.combine).count("value"))
+    values.lists["unused"].push_back(item(variables.name("value")));
   values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_tau_R.c", values);
 }

@@ -1,5 +1,6 @@
 // tau_R with its derivatives by every argument, in C.
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "expr/derivative.h"
-#include "expr/several.h"
 #include "parts.h"
 
 namespace frictab::c_target {
@@ -24,14 +24,12 @@ bool behind_value(const Table& table, const InputArgument& input) {
   return input.axis || (table.extension && expr::symbols(*table.extension).count(input.name));
 }
 
-TemplateValues numbered(std::size_t index, std::size_t place) {
-  TemplateValues values;
-  values.text = {{"index", std::to_string(index)}, {"place", std::to_string(place)}};
-  return values;
-}
+// Slopes of the value by its states, by the states' names.
+using Slopes = std::map<std::string, std::string>;
 
-void add_states(TemplateValues& values, const Table& table,
-                const std::vector<InputArgument>& inputs) {
+Slopes add_states(TemplateValues& values, const Table& table,
+                  const std::vector<InputArgument>& inputs, Variables& variables) {
+  Slopes slopes;
   std::size_t used = 0, of_piece = 0;
   values.lists["behind"];
   values.lists["of_piece"];
@@ -39,28 +37,29 @@ void add_states(TemplateValues& values, const Table& table,
     if (!inputs[i].used) continue;
     values.lists["used"][used++].text["place"] = std::to_string(i);
     if (!behind_value(table, inputs[i])) continue;
-    TemplateValues state;
-    state.text["index"] = std::to_string(i + 1);
-    values.lists["behind"].push_back(state);
-    if (table.extension && expr::symbols(*table.extension).count(inputs[i].name))
-      values.lists["of_piece"].push_back(numbered(i + 1, of_piece++));
+    const std::string& slope = slopes[inputs[i].name] =
+        variables.slope(variables.name("value"), inputs[i].name);
+    values.lists["behind"].push_back(item(slope));
+    if (!table.extension || !expr::symbols(*table.extension).count(inputs[i].name)) continue;
+    values.lists["of_piece"].push_back(item(slope));
+    values.lists["of_piece"].back().text["place"] = std::to_string(of_piece++);
   }
   values.flags["none_used"] = used == 0;
   values.text["n_by"] = std::to_string(std::max<std::size_t>(of_piece, 1));
   values.text["n_arguments"] = std::to_string(inputs.size());
+  return slopes;
 }
 
-void add_axis_slopes(TemplateValues& values, const Table& table,
-                     const std::vector<InputArgument>& inputs) {
-  const auto rename = symbol_names(table, inputs);
+void add_axis_slopes(TemplateValues& values, const Table& table, const Variables& variables,
+                     const Slopes& slopes) {
   Lines axes;
   for (const table::TableAxis& axis :
        table.is_direct() ? std::vector<table::TableAxis>{} : table.axes) {
-    const std::string& x = rename.at(axis.name);
+    const std::string& x = variables.name(axis.name);
     TemplateValues one;
     one.text = {{"index", std::to_string(axes.size())},
                 {"variable", x},
-                {"state", x.substr(1)},
+                {"slope", slopes.at(axis.name)},
                 {"coordinate", axis.log ? "ft_log(" + x + ")" : x}};
     one.flags["log"] = axis.log;
     axes.push_back(one);
@@ -82,30 +81,33 @@ std::string conversion(const SolverUnit& stress, const SolverUnit& unit) {
 }
 
 void add_formula(TemplateValues& values, const ExportRequest& request,
-                 const std::vector<InputArgument>& inputs) {
+                 const std::vector<InputArgument>& inputs, Variables& variables,
+                 const Slopes& slopes) {
   const Table& table = request.table;
   const SolverUnit stress = solver_unit("MPa", request.units);
   // Of a value that no state changes nobody asks the slope.
   const bool changes = std::any_of(inputs.begin(), inputs.end(), [&](const InputArgument& input) {
     return behind_value(table, input);
   });
-  std::vector<expr::Expr> formulas{table.combine,
-                                   changes ? derivative(table.combine, "value") : expr::Expr(0.0)};
+  const std::string tau = "tau_R";
+  std::vector<Wanted> wanted{{table.combine, tau},
+                             {changes ? derivative(table.combine, "value") : expr::Expr(0.0),
+                              variables.slope(tau, "value")}};
   for (const InputArgument& input : inputs)
-    formulas.push_back(derivative(table.combine, input.name));
-  const expr::SeveralStatements code =
-      to_statements(formulas, expr::Language::c, symbol_names(table, inputs));
+    wanted.push_back({derivative(table.combine, input.name), variables.slope(tau, input.name)});
+  const Statements code = variables.statements(wanted);
   values.lists["statements"] = items(code.lines);
-  values.text["result"] =
-      stress.same() ? code.results[0] : code.results[0] + " * " + c_number(stress.over);
-  const bool by_value = !formulas[1].is_constant(0);
+  values.text["result"] = in_units(code.results[0], request.units);
+  const bool by_value = !wanted[1].formula.is_constant(0);
   values.lists["slopes"];
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool direct = !formulas[2 + i].is_constant(0);
+    const bool direct = !wanted[2 + i].formula.is_constant(0);
     const bool through = by_value && behind_value(table, inputs[i]);
     if (!direct && !through) continue; // 0
     std::string sum = direct ? code.results[2 + i] : "";
-    if (through) sum += fmt::format("{}{} * d{}", direct ? " + " : "", code.results[1], i + 1);
+    if (through)
+      sum +=
+          fmt::format("{}{} * {}", direct ? " + " : "", code.results[1], slopes.at(inputs[i].name));
     const std::string factor = conversion(stress, inputs[i].solver);
     TemplateValues slope =
         item(factor.empty() || !direct || !through ? sum + factor : "(" + sum + ")" + factor);
@@ -113,9 +115,10 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
     values.lists["slopes"].push_back(slope);
   }
   if (by_value) return;
-  if (!expr::symbols(table.combine).count("value")) values.lists["unused"].push_back(item("value"));
-  for (const TemplateValues& state : values.lists["behind"])
-    values.lists["unused"].push_back(item("d" + state.text.at("index")));
+  if (!expr::symbols(table.combine).count("value"))
+    values.lists["unused"].push_back(item(variables.name("value")));
+  for (const auto& [state, slope] : slopes)
+    values.lists["unused"].push_back(item(slope));
 }
 
 } // namespace
@@ -123,24 +126,24 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
 std::string gradient_functions(const ExportRequest& request,
                                const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
-  const std::vector<std::string> extending = extending_sides(table, inputs);
+  Variables variables = variables_of(table, table.combine, inputs);
+  const std::vector<std::string> extending = extending_sides(table, variables);
   const bool has_piece = table.is_direct() || !extending.empty();
   TemplateValues values;
-  add_state(values, table, inputs, table.combine);
-  add_states(values, table, inputs);
-  add_axis_slopes(values, table, inputs);
+  add_state(values, table, inputs, variables);
+  const Slopes slopes = add_states(values, table, inputs, variables);
+  add_axis_slopes(values, table, variables, slopes);
   values.flags["in_file"] = values_in_file(request);
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
     if (!input.used) unused.push_back(input.argument);
   values.lists["unused"] = items(unused);
-  add_formula(values, request, inputs);
-  values.lists["refusing"] = items(refusing_sides(table, inputs));
+  add_formula(values, request, inputs, variables, slopes);
+  values.lists["refusing"] = items(refusing_sides(table, variables));
   values.flags["has_piece"] = has_piece;
-  values.text["extending"] = join(extending, " || ");
+  values.text["extending"] = join(extending, " ||\n");
   values.text["piece_gradient"] = has_piece ? piece_gradient(table, inputs) : "";
-  const std::string arguments = has_piece ? piece_arguments(table, inputs) : "";
-  values.text["piece_arguments"] = arguments.empty() ? "" : arguments + ", ";
+  values.text["piece_call"] = has_piece ? piece_gradient_call(table, inputs, variables) : "";
   values.offered = {"names"}; // of the head of frictab_tau_R, which stands alone there
   return without_last_break(render_template("c/frictab_gradient.c", values));
 }

@@ -38,38 +38,40 @@ std::string canonical(const InputArgument& input, const std::string& element) {
   return argument;
 }
 
-std::map<std::string, std::string> symbol_names(const Table& table,
-                                                const std::vector<InputArgument>& inputs) {
-  std::map<std::string, std::string> rename{{"value", "value"}};
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    rename[inputs[i].name] = fmt::format("x{}", i + 1);
-  std::size_t c = 0;
-  for (const auto& [name, value] : table.constants)
-    rename[name] = fmt::format("c{}", ++c);
-  return rename;
+std::string in_units(const std::string& stress, const std::string& units) {
+  const SolverUnit unit = solver_unit("MPa", units);
+  return unit.same() ? stress : stress + " * " + c_number(unit.over);
 }
 
-std::vector<std::string> piece_states(const Table& table,
-                                      const std::vector<InputArgument>& inputs) {
+Variables variables_of(const Table& table, const Expr& formula,
+                       const std::vector<InputArgument>& inputs,
+                       const std::set<std::string>& taken) {
+  std::map<std::string, std::string> given;
+  std::set<std::string> all = taken;
+  for (const InputArgument& input : inputs) {
+    all.insert(lower_case(input.argument));
+    if (input.solver.same()) given[input.name] = input.argument;
+  }
+  return Variables(table, formula, Language::c, given, all);
+}
+
+std::vector<std::string> piece_states(const Table& table, const std::vector<InputArgument>& inputs,
+                                      const Variables& variables) {
   const std::set<std::string> used = symbols(*table.extension);
-  const auto rename = symbol_names(table, inputs);
   std::vector<std::string> states;
   for (const InputArgument& input : inputs)
-    if (used.count(input.name)) states.push_back(rename.at(input.name));
+    if (used.count(input.name)) states.push_back(variables.name(input.name));
   return states;
 }
 
-Lines constants_of(const Table& table, const Expr& formula) {
-  const std::set<std::string> used = symbols(formula);
+Lines constants_of(const Table& table, const Variables& variables) {
   Lines constants;
-  std::size_t index = 0;
-  for (const auto& [name, number] : table.constants) {
-    ++index;
-    if (!used.count(name)) continue;
+  for (const std::string& name : variables.constants()) {
     TemplateValues constant;
-    constant.text = {{"index", std::to_string(index)},
-                     {"value", c_number(number)},
-                     {"name", comment_text(name)}};
+    constant.text = {{"name", variables.name(name)},
+                     {"value", c_number(table.constants.at(name))},
+                     {"comment", comment_text(name)}};
+    constant.flags["renamed"] = variables.name(name) != name;
     constants.push_back(constant);
   }
   return constants;
@@ -89,13 +91,11 @@ std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string
   return i;
 }
 
-std::vector<std::string> sides(const Table& table, const std::vector<InputArgument>& inputs,
-                               Outside kind) {
-  const auto rename = symbol_names(table, inputs);
+std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
   std::vector<std::string> tests;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     const bool refuses = kind == Outside::error;
-    const std::string& x = rename.at(axis.name);
+    const std::string& x = variables.name(axis.name);
     if (axis.below == kind)
       tests.push_back(x + " < " + c_number(refuses ? axis.refused_below : axis.low));
     if (axis.above == kind)
@@ -107,7 +107,7 @@ std::vector<std::string> sides(const Table& table, const std::vector<InputArgume
 } // namespace
 
 void add_state(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
-               const Expr& formula) {
+               const Variables& variables) {
   Lines used;
   std::vector<std::string> names, arrays, unused_arrays;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -116,13 +116,13 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
     if (!inputs[i].used) unused_arrays.push_back(inputs[i].argument);
     if (!inputs[i].used) continue;
     TemplateValues input;
-    input.text = {{"index", std::to_string(i + 1)},
-                  {"canonical", canonical(inputs[i])},
-                  {"name", comment_text(inputs[i].name)}};
+    input.text = {{"name", variables.name(inputs[i].name)}, {"canonical", canonical(inputs[i])}};
+    input.flags["converted"] = !inputs[i].solver.same();
     used.push_back(input);
   }
   values.lists["used"] = used;
-  values.lists["constants"] = constants_of(table, formula);
+  values.lists["constants"] = constants_of(table, variables);
+  values.text["value"] = variables.name("value");
   values.lists["unused_arrays"] = items(unused_arrays);
   values.text["parameters"] = lines(parameters(inputs, "double"));
   values.text["arrays"] = lines(parameters(inputs, "const double*"));
@@ -130,18 +130,24 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
   values.text["items"] = lines(arrays);
 }
 
-std::string piece_arguments(const Table& table, const std::vector<InputArgument>& inputs) {
-  return join(piece_states(table, inputs), ", ");
+std::string piece_call(const Table& table, const std::vector<InputArgument>& inputs,
+                       const Variables& variables) {
+  return "ft_piece(" + lines(piece_states(table, inputs, variables)) + ")";
 }
 
-std::vector<std::string> refusing_sides(const Table& table,
-                                        const std::vector<InputArgument>& inputs) {
-  return sides(table, inputs, Outside::error);
+std::string piece_gradient_call(const Table& table, const std::vector<InputArgument>& inputs,
+                                const Variables& variables) {
+  std::vector<std::string> arguments = piece_states(table, inputs, variables);
+  arguments.push_back("by");
+  return "ft_piece_gradient(" + lines(arguments) + ")";
 }
 
-std::vector<std::string> extending_sides(const Table& table,
-                                         const std::vector<InputArgument>& inputs) {
-  return sides(table, inputs, Outside::law);
+std::vector<std::string> refusing_sides(const Table& table, const Variables& variables) {
+  return sides(table, variables, Outside::error);
+}
+
+std::vector<std::string> extending_sides(const Table& table, const Variables& variables) {
+  return sides(table, variables, Outside::law);
 }
 
 namespace {
@@ -187,11 +193,10 @@ std::string outside_functions(const Table& table, const std::vector<InputArgumen
 
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
-  const SolverUnit stress = solver_unit("MPa", request.units);
-  const expr::Statements code =
-      to_statements(table.combine, expr::Language::c, symbol_names(table, inputs));
+  Variables variables = variables_of(table, table.combine, inputs);
+  const Statements code = variables.statements({{table.combine, "tau_R"}});
   TemplateValues values;
-  add_state(values, table, inputs, table.combine);
+  add_state(values, table, inputs, variables);
   const std::string law = piece(table, inputs), all = law + join(code.lines, "\n");
   const std::string gradient = gradient_functions(request, inputs);
   const auto calls = [&](const char* helper) {
@@ -203,16 +208,16 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   values.text["model"] = comment_text(table.model);
   values.text["version"] = FRICTAB_VERSION;
   values.text["piece"] = law;
-  values.text["piece_arguments"] = piece_arguments(table, inputs);
-  values.text["result"] = stress.same() ? code.result : code.result + " * " + c_number(stress.over);
+  values.text["piece_call"] = piece_call(table, inputs, variables);
+  values.text["result"] = in_units(code.results[0], request.units);
   values.text["outside"] = outside_functions(table, inputs);
   values.text["gradient"] = gradient;
   std::vector<std::string> unused;
   for (const InputArgument& input : inputs)
     if (!input.used) unused.push_back(input.argument);
-  if (!symbols(table.combine).count("value")) unused.push_back("value");
+  if (!symbols(table.combine).count("value")) unused.push_back(variables.name("value"));
   values.lists["unused"] = items(unused);
-  values.lists["refusing"] = items(refusing_sides(table, inputs));
+  values.lists["refusing"] = items(refusing_sides(table, variables));
   values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_direct.c", values);
 }

@@ -1,13 +1,14 @@
 // What the C templates of the table and of the direct form have in common.
 #pragma once
 
-#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
 #include "codegen/template.h"
+#include "codegen/variables.h"
 
 namespace frictab::c_target {
 
@@ -21,37 +22,48 @@ std::string lines(const std::vector<std::string>& pieces);
 // The argument in its canonical unit; of an array's element: canonical(input, "[i]").
 std::string canonical(const codegen::InputArgument& input, const std::string& element = "");
 
-// How states (x1, ...), constants (c1, ...) and "value" are called inside the functions.
-std::map<std::string, std::string> symbol_names(const table::Table& table,
-                                                const std::vector<codegen::InputArgument>& inputs);
+// A stress in MPa, by its name, in the solver's unit.
+std::string in_units(const std::string& stress, const std::string& units);
 
-// What is the same in both forms: arguments, used states, constants of `formula`, its statements.
+// Of a function with this formula: an argument in its canonical unit is the state.
+codegen::Variables variables_of(const table::Table& table, const expr::Expr& formula,
+                                const std::vector<codegen::InputArgument>& inputs,
+                                const std::set<std::string>& taken = {});
+
+// What is the same in both forms: arguments, used states, the constants of the formula, the name of
+// what is tabulated.
 void add_state(codegen::TemplateValues& values, const table::Table& table,
-               const std::vector<codegen::InputArgument>& inputs, const expr::Expr& formula);
+               const std::vector<codegen::InputArgument>& inputs,
+               const codegen::Variables& variables);
 
-// Those of the table's constants that the formula uses.
-codegen::Lines constants_of(const table::Table& table, const expr::Expr& formula);
+// Of the formula, with their numbers.
+codegen::Lines constants_of(const table::Table& table, const codegen::Variables& variables);
 
 // Template texts end with a line break of their own.
 std::string without_last_break(std::string text);
 
 // The names of the states of the law's own formula, in the order of the arguments.
 std::vector<std::string> piece_states(const table::Table& table,
-                                      const std::vector<codegen::InputArgument>& inputs);
+                                      const std::vector<codegen::InputArgument>& inputs,
+                                      const codegen::Variables& variables);
 
 // The law's own formula as a function of the states, ft_piece; with its derivatives,
-// ft_piece_gradient; and the arguments of the first.
+// ft_piece_gradient; and a call of either, which may go over several lines.
 std::string piece(const table::Table& table, const std::vector<codegen::InputArgument>& inputs);
 std::string piece_gradient(const table::Table& table,
                            const std::vector<codegen::InputArgument>& inputs);
-std::string piece_arguments(const table::Table& table,
-                            const std::vector<codegen::InputArgument>& inputs);
+std::string piece_call(const table::Table& table, const std::vector<codegen::InputArgument>& inputs,
+                       const codegen::Variables& variables);
+std::string piece_gradient_call(const table::Table& table,
+                                const std::vector<codegen::InputArgument>& inputs,
+                                const codegen::Variables& variables);
 
-// "x1 < 4.5" for every side that refuses; "x3 > 200.0" for every side where the law goes on.
+// "sigma_n_MPa < 4.5" for every side that refuses; "T_contact_C > 200.0" for every side where the
+// law goes on.
 std::vector<std::string> refusing_sides(const table::Table& table,
-                                        const std::vector<codegen::InputArgument>& inputs);
+                                        const codegen::Variables& variables);
 std::vector<std::string> extending_sides(const table::Table& table,
-                                         const std::vector<codegen::InputArgument>& inputs);
+                                         const codegen::Variables& variables);
 
 // frictab_outside and frictab_count_outside.
 std::string outside_functions(const table::Table& table,

@@ -7,14 +7,12 @@
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "expr/derivative.h"
-#include "expr/several.h"
 #include "parts.h"
 #include "table/outside.h"
 
 namespace frictab::c_target {
 
 using expr::Expr;
-using expr::Language;
 using namespace codegen;
 using table::Outside;
 using table::Table;
@@ -28,12 +26,12 @@ std::string numbers(const std::vector<double>& values) {
   return number_lines(texts, 98, "    ");
 }
 
-// Axes where the formula is held at an end: h1 stands for x1 there.
-Lines held_axes(const Table& table, std::map<std::string, std::string>& rename) {
+// Axes where the formula is held at an end.
+Lines held_axes(const Table& table, Variables& variables) {
   Lines held;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     if (!expr::symbols(*table.extension).count(axis.name)) continue;
-    const std::string x = rename.at(axis.name), h = "h" + x.substr(1);
+    const std::string x = variables.name(axis.name);
     std::string value = x;
     if (axis.above != Outside::law)
       value = fmt::format("{0} > {1} ? {1} : {2}", x, c_number(axis.high), value);
@@ -41,31 +39,25 @@ Lines held_axes(const Table& table, std::map<std::string, std::string>& rename) 
       value = fmt::format("{0} < {1} ? {1} : {2}", x, c_number(axis.low), value);
     if (value == x) continue;
     TemplateValues one;
-    one.text = {{"name", h}, {"value", value}};
+    const std::string name = variables.give(x + "_held");
+    one.text = {{"name", name}, {"value", value}};
     held.push_back(one);
-    rename[axis.name] = h;
+    variables.set(axis.name, name);
   }
   return held;
 }
 
 void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
-               std::map<std::string, std::string>& rename) {
+               const Statements& code) {
   const UnitLayer none;
   const UnitLayer& l = layer ? *layer : none;
-  Lines before, features;
+  Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const expr::Statements code =
-        to_statements(l.features[f], Language::c, rename, fmt::format("f{}_", f));
-    for (const std::string& line : code.lines)
-      before.push_back(item(line));
     TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)}, {"name", code.result}};
+    feature.text = {{"index", std::to_string(f)}, {"name", code.results[f]}};
     features.push_back(feature);
   }
-  for (std::size_t m = 0; m < l.outputs; ++m)
-    rename[layer_output(m)] = fmt::format("net[{}]", m);
   values.flags["has_layer"] = layer.has_value();
-  values.lists["before"] = before;
   values.lists["features"] = features;
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);
@@ -98,37 +90,61 @@ Expr slope_by(const LayeredFormula& formula, const std::string& state) {
   return slope;
 }
 
-// What piece and derivatives have in common; `rename` takes the names of what they compute.
-LayeredFormula add_piece(TemplateValues& values, const Table& table,
-                         std::map<std::string, std::string>& rename) {
-  values.lists["held"] = held_axes(table, rename);
-  values.lists["constants"] = constants_of(table, *table.extension);
-  const LayeredFormula formula = split_layer(*table.extension);
-  add_layer(values, formula.layer, rename);
-  return formula;
+// The law's own formula on the way to its function.
+struct Law {
+  Variables variables;
+  LayeredFormula formula;
+  std::vector<std::string> states; // "double sigma_n_MPa", ...
+  std::vector<Wanted> wanted;      // the layer's features, then the value
+};
+
+Law law_of(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs) {
+  LayeredFormula formula = split_layer(*table.extension);
+  const UnitLayer none;
+  const UnitLayer& layer = formula.layer ? *formula.layer : none;
+  const auto taken =
+      formula.layer ? names_of_a_layer(layer.features.size()) : std::set<std::string>{};
+  Law law{variables_of(table, *table.extension, inputs, taken), formula, {}, {}};
+  for (const std::string& state : piece_states(table, inputs, law.variables))
+    law.states.push_back("double " + state);
+  values.lists["constants"] = constants_of(table, law.variables);
+  values.lists["held"] = held_axes(table, law.variables);
+  for (const Expr& feature : layer.features)
+    law.wanted.push_back(
+        {feature, law.variables.give(fmt::format("feature{}", law.wanted.size()))});
+  law.wanted.push_back({formula.rest, law.variables.name("value")});
+  for (std::size_t m = 0; m < layer.outputs; ++m)
+    law.variables.set(layer_output(m), fmt::format("net[{}]", m));
+  return law;
 }
 
-std::vector<std::string> state_parameters(const Table& table,
-                                          const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> states;
-  for (const std::string& state : piece_states(table, inputs))
-    states.push_back("double " + state);
-  return states;
+std::vector<std::string> from_to(const Statements& code, std::size_t from, std::size_t to) {
+  return {code.lines.begin() + static_cast<std::ptrdiff_t>(from),
+          code.lines.begin() + static_cast<std::ptrdiff_t>(to)};
+}
+
+// Lines in front of the layer's sums, and from there to those of the first `count` formulas behind
+// the features.
+void add_lines(TemplateValues& values, const LayeredFormula& formula, const Statements& code,
+               std::size_t count) {
+  const std::size_t features = formula.layer ? formula.layer->features.size() : 0;
+  const std::size_t before = features > 0 ? code.first_lines[features - 1] : 0;
+  values.lists["before"] = items(from_to(code, 0, before));
+  values.lists["statements"] = items(from_to(code, before, code.first_lines[features + count - 1]));
+  values.text["result"] = code.results[features];
+  add_layer(values, formula.layer, code);
 }
 
 } // namespace
 
 std::string piece(const Table& table, const std::vector<InputArgument>& inputs) {
-  const std::vector<std::string> states = state_parameters(table, inputs);
-  auto rename = symbol_names(table, inputs);
   TemplateValues values;
-  const LayeredFormula formula = add_piece(values, table, rename);
-  add_layer_data(values, formula.layer);
-  const expr::Statements code = to_statements(formula.rest, Language::c, rename);
-  values.lists["statements"] = items(code.lines);
-  values.text["result"] = code.result;
+  Law law = law_of(values, table, inputs);
+  const Statements code = law.variables.statements(law.wanted);
+  add_lines(values, law.formula, code, 1);
+  add_layer_data(values, law.formula.layer);
   values.text["quantity"] = models::quantity_name(table.quantity);
-  values.text["parameters"] = states.empty() ? "void" : lines(states);
+  values.text["parameters"] = law.states.empty() ? "void" : lines(law.states);
   return without_last_break(render_template("c/frictab_piece.c", values));
 }
 
@@ -148,43 +164,38 @@ std::string unless_held(const Table& table, const std::string& state, const std:
   return text;
 }
 
-std::vector<std::string> from_to(const expr::SeveralStatements& code, std::size_t from,
-                                 std::size_t to) {
-  return {code.lines.begin() + static_cast<std::ptrdiff_t>(from),
-          code.lines.begin() + static_cast<std::ptrdiff_t>(to)};
-}
-
 // Value and adjoints of the layer's outputs, then, behind the layer's sums, the slopes.
 void add_slopes(TemplateValues& values, const Table& table,
-                const std::vector<InputArgument>& inputs, const LayeredFormula& formula,
-                std::map<std::string, std::string> rename) {
+                const std::vector<InputArgument>& inputs, Law& law) {
+  const LayeredFormula& formula = law.formula;
+  const std::size_t features = law.wanted.size() - 1;
   const std::size_t outputs = formula.layer ? formula.layer->outputs : 0;
-  std::vector<Expr> formulas{formula.rest};
+  const std::string value = law.wanted.back().name;
   for (std::size_t m = 0; m < outputs; ++m)
-    formulas.push_back(derivative(formula.rest, layer_output(m)));
-  for (std::size_t f = 0; formula.layer && f < formula.layer->features.size(); ++f)
-    rename[layer_slope(f)] = fmt::format("slope{}", f);
+    law.wanted.push_back({derivative(formula.rest, layer_output(m)),
+                          law.variables.give(fmt::format("{}_by_net{}", value, m))});
+  for (std::size_t f = 0; f < features; ++f)
+    law.variables.set(layer_slope(f), fmt::format("slope{}", f));
   std::vector<std::string> states;
   for (const InputArgument& input : inputs)
     if (expr::symbols(*table.extension).count(input.name)) states.push_back(input.name);
   for (const std::string& state : states)
-    formulas.push_back(slope_by(formula, state));
-  const expr::SeveralStatements code = to_statements(formulas, Language::c, rename);
-  const std::size_t first = code.first_lines[outputs];
-  values.lists["statements"] = items(from_to(code, 0, first));
-  values.lists["slope_statements"] = items(from_to(code, first, code.lines.size()));
-  values.text["result"] = code.results[0];
+    law.wanted.push_back({slope_by(formula, state), law.variables.slope(value, state)});
+  const Statements code = law.variables.statements(law.wanted);
+  add_lines(values, formula, code, 1 + outputs);
+  values.lists["slope_statements"] =
+      items(from_to(code, code.first_lines[features + outputs], code.lines.size()));
   values.lists["by_outputs"];
   for (std::size_t m = 0; m < outputs; ++m) {
     TemplateValues output;
-    output.text = {{"index", std::to_string(m)}, {"name", code.results[1 + m]}};
+    output.text = {{"index", std::to_string(m)}, {"name", code.results[features + 1 + m]}};
     values.lists["by_outputs"].push_back(output);
   }
-  const auto names = symbol_names(table, inputs);
+  const Variables names = variables_of(table, *table.extension, inputs);
   values.lists["slopes"];
   for (std::size_t i = 0; i < states.size(); ++i) {
-    TemplateValues slope =
-        item(unless_held(table, states[i], names.at(states[i]), code.results[1 + outputs + i]));
+    TemplateValues slope = item(unless_held(table, states[i], names.name(states[i]),
+                                            code.results[features + 1 + outputs + i]));
     slope.text["place"] = std::to_string(i);
     values.lists["slopes"].push_back(slope);
   }
@@ -194,12 +205,11 @@ void add_slopes(TemplateValues& values, const Table& table,
 } // namespace
 
 std::string piece_gradient(const Table& table, const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> states = state_parameters(table, inputs);
-  auto rename = symbol_names(table, inputs);
   TemplateValues values;
-  const LayeredFormula formula = add_piece(values, table, rename);
-  add_slopes(values, table, inputs, formula, rename);
-  values.text["parameters"] = states.empty() ? "" : lines(states) + ", ";
+  Law law = law_of(values, table, inputs);
+  add_slopes(values, table, inputs, law);
+  law.states.push_back("double* by");
+  values.text["parameters"] = lines(law.states);
   return without_last_break(render_template("c/frictab_piece_gradient.c", values));
 }
 

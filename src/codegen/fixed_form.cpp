@@ -16,10 +16,10 @@ constexpr std::size_t statement_columns = 66; // 7..72
 constexpr std::size_t continuations = 19;
 
 // Where to cut: behind the last blank or comma that fits, or anywhere (blanks mean nothing).
-std::size_t cut(std::string_view text) {
-  if (text.size() <= statement_columns) return text.size();
-  const std::size_t at = text.find_last_of(" ,", statement_columns - 1);
-  return at == std::string_view::npos || at == 0 ? statement_columns : at + 1;
+std::size_t cut(std::string_view text, std::size_t columns) {
+  if (text.size() <= columns) return text.size();
+  const std::size_t at = text.find_last_of(" ,", columns - 1);
+  return at == std::string_view::npos || at == 0 ? columns : at + 1;
 }
 
 std::string data_statement(const std::string& head, const std::vector<std::string>& lines) {
@@ -58,14 +58,16 @@ std::string data(const std::string& name, const std::vector<std::string>& number
 
 std::string fixed_form(const std::string& statement) {
   std::string_view rest = statement;
-  std::string out;
+  std::string out, set_in; // where it is cut between words
   for (std::size_t line = 0; !rest.empty(); ++line) {
     if (line > continuations) throw std::logic_error("Fortran statement too long: " + statement);
-    const std::size_t end = cut(rest);
+    const std::size_t end = cut(rest, statement_columns - set_in.size());
     std::string piece(rest.substr(0, end));
+    const bool between = piece.back() == ' ' || piece.back() == ',';
     while (!piece.empty() && piece.back() == ' ')
       piece.pop_back();
-    out += (line == 0 ? "      " : "\n     &") + piece;
+    out += (line == 0 ? "      " : "\n     &" + set_in) + piece;
+    set_in = between ? "  " : "";
     rest.remove_prefix(end);
   }
   return out;

@@ -29,12 +29,11 @@ std::vector<table::TableAxis> tabulated(const Table& table) {
 }
 
 void add_coordinates(TemplateValues& values, const Table& table) {
-  const auto rename = symbol_names(table);
   bool logarithm = false;
   Lines& axes = values.lists["axes"];
   for (const table::TableAxis& axis : tabulated(table)) {
     logarithm = logarithm || axis.log;
-    const std::string& x = rename.at(axis.name);
+    const std::string x = place_of(table, axis.name);
     axes.emplace_back();
     axes.back().text["number"] = std::to_string(axes.size());
     axes.back().text["coordinate"] = axis.log ? "ftlog(" + x + ")" : x;
@@ -87,17 +86,21 @@ std::string add_parts(TemplateValues& values, const ExportRequest& request,
 std::string add_formula(TemplateValues& values, const ExportRequest& request,
                         const CoreOptions& options) {
   const Table& table = request.table;
-  const expr::Statements code =
-      to_statements(table.combine, expr::Language::fortran, symbol_names(table));
-  Lines statements;
-  for (const std::string& line : code.lines)
-    statements.push_back(item(fixed_form(line)));
+  const std::string tau = "fttau";
+  Variables variables(table, table.combine, Language::fortran);
+  Statements code = variables.statements({{table.combine, tau}});
+  std::vector<std::string> names;
+  values.lists["states"] = fixed_lines(states_from_x(table, variables, table.combine, names));
+  names.insert(names.end(), code.names.begin(), code.names.end());
+  std::erase(names, tau);
+  for (const std::string& line : moved(code.results[0], tau))
+    code.lines.push_back(line);
   const std::vector<std::string> helpers = helpers_of(join(code.lines, "\n"));
-  values.lists["statements"] = statements;
-  values.lists["constants"] = constant_lines(table, table.combine);
+  values.lists["statements"] = fixed_lines(code.lines);
+  values.lists["constants"] = constant_lines(table, variables);
   values.lists["helpers"] = items(helpers);
-  values.lists["temporaries"] = declarations(code.temporaries);
-  values.text["result"] = code.result;
+  values.lists["variables"] = declarations(names);
+  values.text["value"] = variables.name("value");
   values.flags["log_value"] = table.log_value;
   return add_parts(values, request, options, helpers);
 }

@@ -8,7 +8,6 @@
 #include "codegen/fixed_form.h"
 #include "core/text.h"
 #include "expr/derivative.h"
-#include "expr/several.h"
 #include "table/outside.h"
 
 namespace frictab::codegen::fortran {
@@ -43,34 +42,43 @@ std::vector<bool> behind_value(const table::Table& table) {
 // tau, then dtau(i) = what the formula says at a fixed value, and through the value.
 void add_formula(TemplateValues& values, const table::Table& table,
                  std::vector<std::string>& helpers) {
+  const std::string tau = "tau";
+  Variables variables(table, table.combine, Language::fortran);
   const std::vector<std::string> inputs = table.inputs();
-  std::vector<expr::Expr> formulas{table.combine, derivative(table.combine, "value")};
-  for (const std::string& name : inputs)
-    formulas.push_back(derivative(table.combine, name));
-  const expr::SeveralStatements code =
-      to_statements(formulas, expr::Language::fortran, symbol_names(table));
-  const auto value_lines = static_cast<std::ptrdiff_t>(code.first_lines[0]);
-  std::vector<std::string> lines(code.lines.begin() + value_lines, code.lines.end());
   const std::vector<bool> behind = behind_value(table);
-  const bool by_value = !formulas[1].is_constant(0);
+  // Of a value that no state changes nobody asks the slope.
+  const bool changes = std::count(behind.begin(), behind.end(), true) > 0;
+  std::vector<Wanted> wanted{{table.combine, tau},
+                             {changes ? derivative(table.combine, "value") : expr::Expr(0.0),
+                              variables.slope(tau, "value")}};
+  for (const std::string& state : inputs)
+    wanted.push_back({derivative(table.combine, state), variables.slope(tau, state)});
+  const Statements code = variables.statements(wanted);
+  const auto value_lines = static_cast<std::ptrdiff_t>(code.first_lines[0]);
+  std::vector<std::string> statements(code.lines.begin(), code.lines.begin() + value_lines);
+  for (const std::string& line : moved(code.results[0], tau))
+    statements.push_back(line);
+  std::vector<std::string> slopes(code.lines.begin() + value_lines, code.lines.end());
+  const bool by_value = !wanted[1].formula.is_constant(0);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool direct = !formulas[2 + i].is_constant(0), through = by_value && behind[i];
-    const std::string chain = formulas[1].is_constant(1)
+    const bool direct = !wanted[2 + i].formula.is_constant(0), through = by_value && behind[i];
+    const std::string chain = wanted[1].formula.is_constant(1)
                                   ? fmt::format("by({})", i + 1)
                                   : fmt::format("{}*by({})", code.results[1], i + 1);
-    lines.push_back(fmt::format("dtau({}) = {}{}{}", i + 1,
-                                direct || !through ? code.results[2 + i] : "",
-                                direct && through ? " + " : "", through ? chain : ""));
+    slopes.push_back(fmt::format("dtau({}) = {}{}{}", i + 1,
+                                 direct || !through ? code.results[2 + i] : "",
+                                 direct && through ? " + " : "", through ? chain : ""));
   }
-  if (inputs.empty()) lines.push_back("dtau(1) = 0.0D0");
-  values.lists["statements"];
-  values.lists["slopes"];
-  for (std::ptrdiff_t i = 0; i < value_lines; ++i)
-    values.lists["statements"].push_back(item(fixed_form(code.lines[static_cast<std::size_t>(i)])));
-  for (const std::string& line : lines)
-    values.lists["slopes"].push_back(item(fixed_form(line)));
-  values.text["result"] = code.results[0];
-  values.lists["temporaries"] = declarations(code.temporaries);
+  if (inputs.empty()) slopes.push_back("dtau(1) = 0.0D0");
+  std::vector<std::string> names;
+  values.lists["states"] = fixed_lines(states_from_x(table, variables, table.combine, names));
+  names.insert(names.end(), code.names.begin(), code.names.end());
+  std::erase(names, tau);
+  values.lists["statements"] = fixed_lines(statements);
+  values.lists["slopes"] = fixed_lines(slopes);
+  values.lists["variables"] = declarations(names);
+  values.lists["constants"] = constant_lines(table, variables);
+  values.text["value"] = variables.name("value");
   helpers = helpers_of(join(code.lines, "\n"));
 }
 
@@ -84,7 +92,6 @@ Piece gradient_unit(const ExportRequest& request, const TemplateValues& core, Un
   values.lists["axes"] = axes(table, core);
   values.lists["extending"] = core.lists.at("extending");
   values.lists["refusing"] = sides(table, table::Outside::error);
-  values.lists["constants"] = constant_lines(table, table.combine);
   values.lists["helpers"] = items(out.helpers);
   for (const char* name : {"n_x", "n_axes", "only_value", "pure_tau"})
     values.text[name] = core.text.at(name);

@@ -12,7 +12,6 @@
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "expr/derivative.h"
-#include "expr/several.h"
 #include "table/outside.h"
 
 namespace frictab::codegen::fortran {
@@ -42,15 +41,9 @@ std::string clip(const std::string& text, std::size_t indent) {
   return wrap_text(comment_text(text), width)[0].substr(0, width);
 }
 
-std::map<std::string, std::string> symbol_names(const Table& table) {
-  std::map<std::string, std::string> rename{{"value", "val"}};
+std::string place_of(const Table& table, const std::string& state) {
   const std::vector<std::string> inputs = table.inputs();
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    rename[inputs[i]] = fmt::format("x({})", i + 1);
-  std::size_t c = 0;
-  for (const auto& [name, value] : table.constants)
-    rename[name] = fmt::format("c{}", ++c);
-  return rename;
+  return fmt::format("x({})", std::find(inputs.begin(), inputs.end(), state) - inputs.begin() + 1);
 }
 
 void add_units(TemplateValues& values, Units units) {
@@ -63,29 +56,54 @@ void add_units(TemplateValues& values, Units units) {
 }
 
 Lines declarations(const std::vector<std::string>& names) {
-  constexpr std::size_t per_line = 8;
+  const std::string head = "double precision ";
   Lines lines;
-  for (std::size_t i = 0; i < names.size(); i += per_line) {
-    const std::size_t end = std::min(names.size(), i + per_line);
-    lines.push_back(
-        item(fixed_form("double precision " + join(std::span(names).subspan(i, end - i), ", "))));
+  std::string line;
+  for (const std::string& name : names) {
+    const bool fits = !line.empty() && line.size() + 2 + name.size() <= comment_width;
+    if (!fits && !line.empty()) lines.push_back(item(fixed_form(line)));
+    line = fits ? line + ", " + name : head + name;
+  }
+  if (!line.empty()) lines.push_back(item(fixed_form(line)));
+  return lines;
+}
+
+Lines constant_lines(const Table& table, const Variables& variables) {
+  Lines constants;
+  for (const std::string& name : variables.constants()) {
+    const std::string& own = variables.name(name);
+    TemplateValues constant;
+    constant.text = {
+        {"name", own},
+        {"comment", clip(name)},
+        {"statement", fixed_form(fmt::format("parameter ({} = {})", own,
+                                             fortran_number(table.constants.at(name))))}};
+    constant.flags["renamed"] = own != name;
+    constants.push_back(constant);
+  }
+  return constants;
+}
+
+std::vector<std::string> states_from_x(const Table& table, const Variables& variables,
+                                       const Expr& formula, std::vector<std::string>& names) {
+  std::vector<std::string> lines;
+  for (const std::string& state : variables.states_of(formula)) {
+    names.push_back(variables.name(state));
+    lines.push_back(names.back() + " = " + place_of(table, state));
   }
   return lines;
 }
 
-Lines constant_lines(const Table& table, const Expr& formula) {
-  const std::set<std::string> used = expr::symbols(formula);
-  const auto rename = symbol_names(table);
-  Lines constants;
-  for (const auto& [name, number] : table.constants) {
-    if (!used.count(name)) continue;
-    TemplateValues constant;
-    constant.text = {{"index", rename.at(name).substr(1)},
-                     {"comment", clip(name)},
-                     {"value", fortran_number(number)}};
-    constants.push_back(constant);
-  }
-  return constants;
+std::vector<std::string> moved(const std::string& result, const std::string& variable) {
+  if (result == variable) return {};
+  return {variable + " = " + result};
+}
+
+Lines fixed_lines(const std::vector<std::string>& statements) {
+  Lines lines;
+  for (const std::string& statement : statements)
+    lines.push_back(item(fixed_form(statement)));
+  return lines;
 }
 
 std::vector<std::string> helpers_of(const std::string& statements) {
@@ -97,57 +115,32 @@ std::vector<std::string> helpers_of(const std::string& statements) {
 
 namespace {
 
-// What ftpiec declares and does, gathered while its formula is written.
-struct Body {
-  std::map<std::string, std::string> rename;
-  std::vector<std::string> names; // of double precision variables
-  std::vector<std::string> held, before;
-  std::string all; // every statement, to see which helpers they call
-
-  std::string add(const expr::Statements& code, std::vector<std::string>& lines) {
-    names.insert(names.end(), code.temporaries.begin(), code.temporaries.end());
-    for (const std::string& line : code.lines) {
-      all += line + "\n";
-      lines.push_back(fixed_form(line));
-    }
-    return code.result;
-  }
-};
-
-// h1 stands for x(1) where an axis is held at an end.
-void hold(Body& body, const Table& table) {
+// Where an axis is held at an end, its state is.
+std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
+  std::vector<std::string> lines;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     if (!expr::symbols(*table.extension).count(axis.name)) continue;
-    if (axis.below == Outside::law && axis.above == Outside::law) continue;
-    const std::string h = fmt::format("h{}", axis.input + 1);
-    body.names.push_back(h);
-    body.held.push_back(fixed_form(h + " = " + body.rename.at(axis.name)));
-    const auto end = [&](const char* relation, double x) {
-      const std::string number = fortran_number(x);
-      body.held.push_back(
-          fixed_form(fmt::format("if ({0} {1} {2}) {0} = {2}", h, relation, number)));
+    const std::string& x = variables.name(axis.name);
+    const auto end = [&](const char* relation, double at) {
+      lines.push_back(fmt::format("if ({0} {1} {2}) {0} = {2}", x, relation, fortran_number(at)));
     };
     if (axis.below != Outside::law) end(".lt.", axis.low);
     if (axis.above != Outside::law) end(".gt.", axis.high);
-    body.rename[axis.name] = h;
   }
+  return lines;
 }
 
-void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer, Body& body) {
+void add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
+               const Statements& code) {
   const UnitLayer none;
   const UnitLayer& l = layer ? *layer : none;
-  Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const expr::Statements code =
-        to_statements(l.features[f], expr::Language::fortran, body.rename, fmt::format("f{}t", f));
     TemplateValues feature;
-    feature.text = {{"index", std::to_string(f)}, {"name", body.add(code, body.before)}};
-    features.push_back(feature);
+    feature.text = {{"index", std::to_string(f)}, {"name", code.results[f]}};
+    values.lists["features"].push_back(feature);
   }
-  for (std::size_t m = 0; m < l.outputs; ++m)
-    body.rename[layer_output(m)] = fmt::format("net({})", m + 1);
+  values.lists["features"];
   values.flags["has_layer"] = layer.has_value();
-  values.lists["features"] = features;
   values.text["units"] = std::to_string(l.units());
   values.text["outputs"] = std::to_string(l.outputs);
 }
@@ -187,45 +180,63 @@ std::vector<Expr> input_slopes(const Table& table, const LayeredFormula& formula
   return slopes;
 }
 
-// Value, adjoints of the layer's outputs and slopes, in this order: the layer's own sums stand
-// between the last two.
-void add_formulas(TemplateValues& values, const Table& table, const LayeredFormula& formula,
-                  bool gradient, Body& body) {
-  std::vector<Expr> formulas{formula.rest};
+// Features of the layer, value, adjoints of the layer's outputs and slopes, in this order: the
+// layer's own sums stand behind the first and before the last of them.
+std::vector<Wanted> formulas_of(const Table& table, const LayeredFormula& formula, bool gradient,
+                                const std::string& value, Variables& variables) {
+  const UnitLayer none;
+  const UnitLayer& layer = formula.layer ? *formula.layer : none;
+  std::vector<Wanted> wanted;
+  for (const Expr& feature : layer.features)
+    wanted.push_back({feature, variables.give(fmt::format("feature{}", wanted.size()))});
+  wanted.push_back({formula.rest, value});
+  for (std::size_t m = 0; m < layer.outputs; ++m)
+    variables.set(layer_output(m), fmt::format("net({})", m + 1));
+  if (!gradient) return wanted;
+  for (std::size_t m = 0; m < layer.outputs; ++m)
+    wanted.push_back({derivative(formula.rest, layer_output(m)),
+                      variables.give(fmt::format("{}_by_net{}", value, m + 1))});
+  for (std::size_t f = 0; f < layer.features.size(); ++f)
+    variables.set(feature_slope(f), fmt::format("b{}", f));
+  const std::vector<std::string> inputs = table.inputs();
+  const std::vector<Expr> slopes = input_slopes(table, formula);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    wanted.push_back({slopes[i], variables.slope(value, inputs[i])});
+  return wanted;
+}
+
+// Of ftpiec or ftpieg, whose result is `value`. Gives the statements.
+Statements add_formulas(TemplateValues& values, const Table& table, const LayeredFormula& formula,
+                        bool gradient, const std::string& value, Variables& variables) {
+  const Statements code =
+      variables.statements(formulas_of(table, formula, gradient, value, variables));
+  const std::size_t features = formula.layer ? formula.layer->features.size() : 0;
   const std::size_t outputs = formula.layer && gradient ? formula.layer->outputs : 0;
-  for (std::size_t m = 0; m < outputs; ++m)
-    formulas.push_back(derivative(formula.rest, layer_output(m)));
-  for (std::size_t f = 0; outputs > 0 && f < formula.layer->features.size(); ++f)
-    body.rename[feature_slope(f)] = fmt::format("b{}", f);
-  if (gradient)
-    for (const Expr& slope : input_slopes(table, formula))
-      formulas.push_back(slope);
-  const expr::SeveralStatements code =
-      to_statements(formulas, expr::Language::fortran, body.rename);
-  body.names.insert(body.names.end(), code.temporaries.begin(), code.temporaries.end());
-  std::vector<std::string> lines;
-  for (const std::string& line : code.lines) {
-    body.all += line + "\n";
-    lines.push_back(fixed_form(line));
-  }
   const auto part = [&](std::size_t from, std::size_t to) {
-    return items(std::vector<std::string>(lines.begin() + static_cast<std::ptrdiff_t>(from),
-                                          lines.begin() + static_cast<std::ptrdiff_t>(to)));
+    return std::vector<std::string>(code.lines.begin() + static_cast<std::ptrdiff_t>(from),
+                                    code.lines.begin() + static_cast<std::ptrdiff_t>(to));
   };
-  const std::size_t first = code.first_lines[0], second = code.first_lines[outputs];
-  values.text["result"] = code.results[0];
-  values.lists["statements"] = part(0, first);
-  values.lists["adjoints"] = part(first, second);
-  values.lists["slopes"] = part(second, lines.size());
+  const std::size_t before = features > 0 ? code.first_lines[features - 1] : 0;
+  const std::size_t first = code.first_lines[features];
+  const std::size_t second = code.first_lines[features + outputs];
+  std::vector<std::string> statements = part(before, first),
+                           slopes = part(second, code.lines.size());
+  for (const std::string& line : moved(code.results[features], value))
+    statements.push_back(line);
+  for (std::size_t i = features + 1 + outputs; i < code.results.size(); ++i)
+    slopes.push_back(fmt::format("dv({}) = {}", i - features - outputs, code.results[i]));
+  values.lists["before"] = fixed_lines(part(0, before));
+  values.lists["statements"] = fixed_lines(statements);
+  values.lists["adjoints"] = fixed_lines(part(first, second));
+  values.lists["slopes"] = fixed_lines(slopes);
   values.lists["by_outputs"];
   for (std::size_t m = 0; m < outputs; ++m) {
     TemplateValues output;
-    output.text = {{"index", std::to_string(m + 1)}, {"name", code.results[1 + m]}};
+    output.text = {{"index", std::to_string(m + 1)}, {"name", code.results[features + 1 + m]}};
     values.lists["by_outputs"].push_back(output);
   }
-  for (std::size_t i = 1 + outputs; i < formulas.size(); ++i)
-    values.lists["slopes"].push_back(
-        item(fixed_form(fmt::format("dv({}) = {}", i - outputs, code.results[i]))));
+  add_layer(values, formula.layer, code);
+  return code;
 }
 
 // Where an axis is held at an end, the formula does not change by it.
@@ -256,25 +267,31 @@ std::string without_last_break(std::string text) {
 
 Piece piece(const Table& table, bool gradient, Units units) {
   TemplateValues values;
-  Body body;
-  body.rename = symbol_names(table);
-  hold(body, table);
   const LayeredFormula formula = split_layer(*table.extension);
-  add_layer(values, formula.layer, body);
-  add_formulas(values, table, formula, gradient, body);
+  Variables variables(table, *table.extension, Language::fortran, {},
+                      formula.layer ? names_of_a_layer(formula.layer->features.size())
+                                    : std::set<std::string>{});
+  const std::string value = gradient ? variables.name("value") : "ftpiec";
+  std::vector<std::string> names;
+  std::vector<std::string> states = states_from_x(table, variables, *table.extension, names);
+  for (const std::string& line : held_lines(table, variables))
+    states.push_back(line);
+  const Statements code = add_formulas(values, table, formula, gradient, value, variables);
+  names.insert(names.end(), code.names.begin(), code.names.end());
+  std::erase(names, value);
+  values.text["value"] = value;
   values.text["quantity"] = models::quantity_name(table.quantity);
   values.text["n_x"] = std::to_string(std::max<std::size_t>(table.inputs().size(), 1));
   values.flags["gradient"] = gradient;
-  values.lists["declarations"] = declarations(body.names);
-  values.lists["constants"] = constant_lines(table, *table.extension);
-  values.lists["held"] = items(body.held);
-  values.lists["before"] = items(body.before);
+  values.lists["declarations"] = declarations(names);
+  values.lists["constants"] = constant_lines(table, variables);
+  values.lists["states"] = fixed_lines(states);
   values.lists["stopped"] = gradient ? stopped_sides(table) : Lines{};
   add_units(values, units);
   Piece out;
   out.data = formula.layer ? weights(*formula.layer) : "";
   values.text["data"] = units == Units::external ? out.data : "";
-  out.helpers = helpers_of(body.all);
+  out.helpers = helpers_of(join(code.lines, "\n"));
   values.lists["helpers"] = items(out.helpers);
   out.text = without_last_break(render_template("fortran/frictab_piece.f", values));
   return out;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codegen/template.h"
+#include "codegen/variables.h"
 #include "expr/expr.h"
 #include "table/table.h"
 
@@ -17,14 +18,24 @@ Lines comments(const std::vector<std::string>& texts);
 // The first line of a remark that is set in by `indent`: what follows is in the head of the file.
 std::string clip(const std::string& text, std::size_t indent = 0);
 
-// "double precision t1, t2, ..." in lines of eight.
+// "double precision mu, k, ..."
 Lines declarations(const std::vector<std::string>& names);
 
-// States as x(1), ..., constants as c1, ..., "value" as val.
-std::map<std::string, std::string> symbol_names(const table::Table& table);
+// Where a state stands in x: x(1), ...
+std::string place_of(const table::Table& table, const std::string& state);
 
 // The constants that a formula uses, as named constants.
-Lines constant_lines(const table::Table& table, const expr::Expr& formula);
+Lines constant_lines(const table::Table& table, const Variables& variables);
+
+// The states that a formula uses, by their names: declared in `names`, "sigma_n_MPa = x(1)".
+std::vector<std::string> states_from_x(const table::Table& table, const Variables& variables,
+                                       const expr::Expr& formula, std::vector<std::string>& names);
+
+// Where a result is not in its variable: the line that puts it there.
+std::vector<std::string> moved(const std::string& result, const std::string& variable);
+
+// Statements in fixed form.
+Lines fixed_lines(const std::vector<std::string>& statements);
 
 // ftmin, ftmax, ftwhle, where these statements call them.
 std::vector<std::string> helpers_of(const std::string& statements);

@@ -1,6 +1,6 @@
 // Formulas as data. A friction law is written once as an Expr; from it come its value, its
-// derivatives (parameters and state), the text in C, Fortran and Python, and its bounds (bounds.h,
-// taylor_model.h).
+// derivatives (parameters and state), its text in Python's spelling, its bounds (bounds.h,
+// taylor_model.h) and the statements of generated code (codegen/statements.h).
 #pragma once
 
 #include <functional>
@@ -97,21 +97,5 @@ std::string to_text(const Expr& formula);
 // Reads what to_text writes, and anything a person would write in that grammar. Throws InputError
 // with the column of the fault; `file` and `line` are only for its message.
 Expr parse_expr(std::string_view text, std::string_view file = "formula");
-
-// Straight-line code: one assignment per operation, so that generated lines stay short and every
-// shared subformula is computed once.
-struct Statements {
-  std::vector<std::string> lines; // "t1 = sigma_n_MPa*mu" without declarations or terminators
-  std::vector<std::string> temporaries;
-  std::string result; // a symbol, a literal or the last temporary
-};
-enum class Language { c, fortran };
-
-// Symbols appear under `rename` where given. C calls exp, log, pow, ... and the helpers ft_min,
-// ft_max; Fortran calls the intrinsics and ftmin, ftmax (double precision helpers of the
-// templates, with the NaN rule above). Temporaries are prefix1, prefix2, ...
-Statements to_statements(const Expr& formula, Language language,
-                         const std::map<std::string, std::string>& rename = {},
-                         std::string_view prefix = "t");
 
 } // namespace frictab::expr

@@ -30,18 +30,24 @@ static inline double ft_where_le(double a, double b, double x, double y) {
 static inline double ft_tau(
     @{parameters}) {
 @for input in used
-  const double x@{input.index} = @{input.canonical}; /* @{input.name} */
+@if input.converted
+  const double @{input.name} = @{input.canonical};
+@end
 @end
 @for constant in constants
-  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@if constant.renamed
+  /* @{constant.comment} */
 @end
-  const double value = ft_piece(@{piece_arguments});
+  const double @{constant.name} = @{constant.value};
+@end
+  const double @{value} =
+      @{piece_call};
 @for name in unused
   (void)@{name.text};
 @end
   double tau;
   {
-    /* the formula of the header, in MPa */
+    /* the formula of the header, in MPa; its value is @{value} */
 @for statement in statements
     const double @{statement.text};
 @end
@@ -51,7 +57,7 @@ static inline double ft_tau(
   tau = @{side.text} ? (double)NAN : tau; /* outside = error */
 @end
 @for input in used
-  tau = x@{input.index} != x@{input.index} ? x@{input.index} : tau; /* NaN in, NaN out */
+  tau = @{input.name} != @{input.name} ? @{input.name} : tau; /* NaN in, NaN out */
 @end
   return tau;
 }

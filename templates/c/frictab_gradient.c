@@ -16,13 +16,18 @@ double frictab_tau_R_gradient(
     @{parameters},
     double* derivative) {
 @for input in used
-  const double x@{input.index} = @{input.canonical}; /* @{input.name} */
+@if input.converted
+  const double @{input.name} = @{input.canonical};
+@end
 @end
 @for constant in constants
-  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@if constant.renamed
+  /* @{constant.comment} */
+@end
+  const double @{constant.name} = @{constant.value};
 @end
 @for state in behind
-  double d@{state.index} = 0.0; /* of value by x@{state.index} */
+  double @{state.text} = 0.0;
 @end
 @if interpolates
   double u[@{n_axes}], by_u[@{n_axes}];
@@ -30,7 +35,7 @@ double frictab_tau_R_gradient(
 @if has_piece
   double by[@{n_by}];
 @end
-  double value;
+  double @{value};
   int i;
 @for name in unused
   (void)@{name.text};
@@ -38,7 +43,8 @@ double frictab_tau_R_gradient(
   for (i = 0; i < @{n_arguments}; ++i)
     derivative[i] = 0.0;
 @for input in used
-  if (x@{input.index} != x@{input.index}) return ft_no_gradient(x@{input.index}, derivative);
+  if (@{input.name} != @{input.name})
+    return ft_no_gradient(@{input.name}, derivative);
 @end
 @if in_file
   if (!ft_ready()) return ft_no_gradient((double)NAN, derivative);
@@ -50,34 +56,36 @@ double frictab_tau_R_gradient(
 @for axis in axes
   u[@{axis.index}] = @{axis.coordinate};
 @end
-  value = @{interpolate}(ft_axes, ft_table, u, by_u, 0);
+  @{value} = @{interpolate}(ft_axes, ft_table, u, by_u, 0);
 @if log_value
-  value = exp(value);
+  @{value} = exp(@{value});
 @end
 @for axis in axes
 @if axis.log
-  if (by_u[@{axis.index}] != 0.0) d@{axis.state} = by_u[@{axis.index}] / @{axis.variable};
+  if (by_u[@{axis.index}] != 0.0) @{axis.slope} = by_u[@{axis.index}] / @{axis.variable};
 @else
-  d@{axis.state} = by_u[@{axis.index}];
+  @{axis.slope} = by_u[@{axis.index}];
 @end
 @if log_value
-  d@{axis.state} *= value;
+  @{axis.slope} *= @{value};
 @end
 @end
 @else
 @if tabulated
-  value = @{only_value};
+  @{value} = @{only_value};
 @end
 @end
 @if has_piece
 @if tabulated
-  if (@{extending}) {
+  if (/* outside = law */
+      @{extending}) {
 @else
   {
 @end
-    value = ft_piece_gradient(@{piece_arguments}by);
+    @{value} =
+        @{piece_call};
 @for state in of_piece
-    d@{state.index} = by[@{state.place}];
+    @{state.text} = by[@{state.place}];
 @end
   }
 @end

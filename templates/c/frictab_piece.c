@@ -40,10 +40,14 @@ FT_WIDE
 static double ft_piece(
     @{parameters}) {
 @for input in held
-  const double @{input.name} = @{input.value};
+  const double @{input.name} =
+      @{input.value};
 @end
 @for constant in constants
-  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@if constant.renamed
+  /* @{constant.comment} */
+@end
+  const double @{constant.name} = @{constant.value};
 @end
 @if has_layer
 @for statement in before

@@ -3,12 +3,16 @@
 FT_WIDE
 @end
 static double ft_piece_gradient(
-    @{parameters}double* by) {
+    @{parameters}) {
 @for input in held
-  const double @{input.name} = @{input.value};
+  const double @{input.name} =
+      @{input.value};
 @end
 @for constant in constants
-  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@if constant.renamed
+  /* @{constant.comment} */
+@end
+  const double @{constant.name} = @{constant.value};
 @end
 @if has_layer
 @for statement in before

@@ -70,42 +70,50 @@ static const ft_axis ft_axes[@{n_axes}] = {
 FT_INLINE double ft_tau(
     @{parameters}) {
 @for input in used
-  const double x@{input.index} = @{input.canonical}; /* @{input.name} */
+@if input.converted
+  const double @{input.name} = @{input.canonical};
+@end
 @end
 @for constant in constants
-  const double c@{constant.index} = @{constant.value}; /* @{constant.name} */
+@if constant.renamed
+  /* @{constant.comment} */
+@end
+  const double @{constant.name} = @{constant.value};
 @end
 @if has_axes
   double u[@{n_axes}];
 @end
-  double value;
+  double @{value};
 @for name in unused
   (void)@{name.text};
 @end
 @for input in used
 @if input.formula_only
-  if (x@{input.index} != x@{input.index}) return x@{input.index}; /* NaN in, NaN out */
+  if (@{input.name} != @{input.name}) return @{input.name}; /* NaN in, NaN out */
 @end
 @end
 @for axis in axes
   u[@{axis.index}] = @{axis.coordinate};
 @end
 @if has_axes
-  value = @{interpolate}(ft_axes, ft_table, u, (unsigned*)0);
-  if (value != value) return value; /* NaN in one of the axes */
+  @{value} = @{interpolate}(ft_axes, ft_table, u, (unsigned*)0);
+  if (@{value} != @{value}) return @{value}; /* NaN in one of the axes */
 @else
-  value = ft_value[0];
+  @{value} = ft_value[0];
 @end
 @if log_value
-  value = exp(value);
+  @{value} = exp(@{value});
 @end
 @for side in refusing
   if (@{side.text}) return (double)NAN; /* outside = error */
 @end
 @if extends
-  if (@{extending}) value = ft_piece(@{piece_arguments}); /* outside = law */
+  if (/* outside = law */
+      @{extending})
+    @{value} =
+        @{piece_call};
 @end
-  /* the formula of the header, in MPa */
+  /* the formula of the header, in MPa; its value is @{value} */
   {
 @for statement in statements
     const double @{statement.text};

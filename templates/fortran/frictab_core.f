@@ -8,7 +8,7 @@ C     @{line.text}
       @{pure_tau}double precision function fttau(x)
       implicit none
       double precision@{in} x(@{n_x})
-      double precision val
+      double precision @{value}
 @if interpolates
       double precision u(@{n_axes})
 @end
@@ -26,13 +26,15 @@ C     @{line.text}
       double precision @{name.text}
 @end
 @end
-@for line in temporaries
+@for line in variables
 @{line.text}
 @end
 @for constant in constants
-      double precision c@{constant.index}
+      double precision @{constant.name}
+@if constant.renamed
 C     @{constant.comment}
-      parameter (c@{constant.index} = @{constant.value})
+@end
+@{constant.statement}
 @end
 @if externals
       logical ftnan
@@ -63,21 +65,24 @@ C     @{constant.comment}
       u(@{axis.number}) = @{axis.coordinate}
 @end
 @if interpolates
-      val = ftintp(u)
+      @{value} = ftintp(u)
 @else
-      val = @{only_value}
+      @{value} = @{only_value}
 @end
 @if log_value
-      val = exp(val)
+      @{value} = exp(@{value})
 @end
 @for side in extending
       if (x(@{side.index}) @{side.relation} @{side.limit})
-     &  val = ftpiec(x)
+     &  @{value} = ftpiec(x)
+@end
+C     the formula at the head; its value is @{value}
+@for line in states
+@{line.text}
 @end
 @for line in statements
 @{line.text}
 @end
-      fttau = @{result}
       return
       end
 C

@@ -5,7 +5,7 @@ C     where x holds one@{refused_text}.
       implicit none
       double precision@{in} x(@{n_x})
       double precision@{out} tau, dtau(@{n_x})
-      double precision val
+      double precision @{value}
 @if has_by
       double precision by(@{n_x})
 @end
@@ -27,13 +27,15 @@ C     where x holds one@{refused_text}.
       logical ftload
 @end
 @end
-@for line in temporaries
+@for line in variables
 @{line.text}
 @end
 @for constant in constants
-      double precision c@{constant.index}
+      double precision @{constant.name}
+@if constant.renamed
 C     @{constant.comment}
-      parameter (c@{constant.index} = @{constant.value})
+@end
+@{constant.statement}
 @end
 @if extends
       logical beyond
@@ -64,7 +66,7 @@ C     @{constant.comment}
         return
       end if
 @end
-C     val and its derivatives by x
+C     @{value} and its derivatives by x
 @if has_by
       do i = 1, @{n_x}
         by(i) = 0.0D0
@@ -74,9 +76,9 @@ C     val and its derivatives by x
 @for axis in axes
       u(@{axis.number}) = @{axis.coordinate}
 @end
-      call ftintg(u, val, du@{wish})
+      call ftintg(u, @{value}, du@{wish})
 @if log_value
-      val = exp(val)
+      @{value} = exp(@{value})
 @end
 @for axis in axes
 @if axis.log
@@ -86,7 +88,7 @@ C     val and its derivatives by x
       by(@{axis.input}) = du(@{axis.number})
 @end
 @if log_value
-      by(@{axis.input}) = val*by(@{axis.input})
+      by(@{axis.input}) = @{value}*by(@{axis.input})
 @end
 @end
 @if extends
@@ -95,22 +97,25 @@ C     val and its derivatives by x
       if (x(@{side.index}) @{side.relation} @{side.limit})
      &  beyond = .true.
 @end
-      if (beyond) call ftpieg(x, val, by, .true.)
+      if (beyond) call ftpieg(x, @{value}, by, .true.)
 @end
 @else
 @if has_piece
-      call ftpieg(x, val, by, .true.)
+      call ftpieg(x, @{value}, by, .true.)
 @else
-      val = @{only_value}
+      @{value} = @{only_value}
 @if log_value
-      val = exp(val)
+      @{value} = exp(@{value})
 @end
 @end
+@end
+C     the formula at the head and its derivatives
+@for line in states
+@{line.text}
 @end
 @for line in statements
 @{line.text}
 @end
-      tau = @{result}
 @for line in slopes
 @{line.text}
 @end

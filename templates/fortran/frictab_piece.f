@@ -11,11 +11,11 @@ C     the ends of the range on sides that clamp.
 C
 C     The same, and where asked for its derivatives dv by x: 0 where x
 C     is held at an end.
-      @{pure}subroutine ftpieg(x, val, dv, deriv)
+      @{pure}subroutine ftpieg(x, @{value}, dv, deriv)
       implicit none
       logical@{in} deriv
       double precision@{in} x(@{n_x})
-      double precision@{out} val, dv(@{n_x})
+      double precision@{out} @{value}, dv(@{n_x})
 @else
       double precision@{in} x(@{n_x})
 @end
@@ -28,9 +28,11 @@ C     is held at an end.
 @end
 @end
 @for constant in constants
-      double precision c@{constant.index}
+      double precision @{constant.name}
+@if constant.renamed
 C     @{constant.comment}
-      parameter (c@{constant.index} = @{constant.value})
+@end
+@{constant.statement}
 @end
 @if has_layer
 C     @{units} units of tanh, @{outputs} outputs: unit i belongs to output
@@ -47,7 +49,7 @@ C     1 + mod(i-1, @{outputs}).
 @end
 @{data}
 @end
-@for line in held
+@for line in states
 @{line.text}
 @end
 @if has_layer
@@ -93,7 +95,6 @@ C     formula twice. Beyond 19.1 tanh is 1 to 5e-17.
 @{line.text}
 @end
 @if gradient
-      val = @{result}
       if (.not. deriv) return
 @for line in adjoints
 @{line.text}
@@ -126,8 +127,6 @@ C     Slopes of the units, times what the result changes by them.
       if (x(@{side.index}) @{side.relation} @{side.limit})
      &  dv(@{side.index}) = 0.0D0
 @end
-@else
-      ftpiec = @{result}
 @end
       return
       end

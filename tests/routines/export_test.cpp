@@ -81,10 +81,11 @@ TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {
       EXPECT_NO_THROW(test::compiled(key, *find_exporter("c"), request, "c99",
                                      {"-Wall", "-Wextra", "-pedantic", "-Werror"}));
     }
-    if (have_program("gfortran")) {
-      EXPECT_NO_THROW(test::compiled(key, *find_exporter("abaqus_vfric"), request, "double",
-                                     test::no_warnings));
-    }
+    for (const char* target : {"abaqus_vfric", "abaqus_fric"}) // without derivatives, and with
+      if (have_program("gfortran")) {
+        EXPECT_NO_THROW(
+            test::compiled(key, *find_exporter(target), request, "double", test::no_warnings));
+      }
   }
 }
 
@@ -162,6 +163,24 @@ TEST(Export, RefusesTablesNoCompilerTakesAndNamesTheRemedy) {
         refusal({table, "mm-t-s", {}}, exporter.name),
         testing::AllOf(HasSubstr(std::string("needs ") + numbers + " numbers in the source"),
                        HasSubstr("table.interpolation = \"cubic\"")));
+  }
+}
+
+TEST(Export, NamesOfParametersClashWithNothingInARoutine) {
+  Table table = test::four_axis_table();
+  for (const char* name : {"x", "MU", "Mu", "tau", "TAU_R", "u", "i", "bits", "ftmin", "exp", "t1",
+                           "double", "end", "SIGMA_N_MPA", "tau_coulomb", "dtau_dpsi"}) {
+    table.constants[name] = 1;
+    table.combine = table.combine * expr::Expr::symbol(name);
+  }
+  for (const char* target : {"c", "fortran"}) {
+    const Exporter& exporter = *find_exporter(target);
+    const ExportRequest request{table, "m-kg-s", {}};
+    const BuildVariant variant = exporter.variants(request)[0];
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
+    EXPECT_LE(test::worst_driven(exporter, request, variant.name, {"-Wall", "-Wextra", "-Werror"}),
+              1e-13)
+        << target;
   }
 }
 

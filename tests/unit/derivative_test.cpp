@@ -5,7 +5,6 @@
 
 #include "expr/derivative.h"
 #include "expr/program.h"
-#include "expr/several.h"
 #include "support/generated.h"
 #include "support/sample_data.h"
 #include "table/drift.h"
@@ -111,15 +110,6 @@ TEST(Derivative, OfEveryLawIsThatOfTheSweep) {
             << law.name << " by " << states[s];
     }
   }
-}
-
-TEST(SeveralFormulas, ComputeWhatTheyShareOnce) {
-  const Expr x = Expr::symbol("x");
-  const std::vector<Expr> several = {exp(x) * 2.0, exp(Expr::symbol("x")) + x, 3.0, exp(x) * 2.0};
-  const expr::SeveralStatements code = to_statements(several, expr::Language::c);
-  EXPECT_EQ(code.lines, (std::vector<std::string>{"t1 = exp(x)", "t2 = t1*2.0", "t3 = t1 + x"}));
-  EXPECT_EQ(code.results, (std::vector<std::string>{"t2", "t3", "3.0", "t2"}));
-  EXPECT_EQ(code.first_lines, (std::vector<std::size_t>{2, 3, 3, 3}));
 }
 
 } // namespace

@@ -139,16 +139,5 @@ TEST(Program, DerivativesOfEveryOperationAgreeWithCentralDifferences) {
   }
 }
 
-TEST(Expr, StatementsShareSubformulas) {
-  const Expr x = Expr::symbol("x");
-  const Expr shared = exp(x);
-  const expr::Statements c = to_statements(shared * shared + 1.0, expr::Language::c);
-  EXPECT_EQ(c.lines, (std::vector<std::string>{"t1 = exp(x)", "t2 = t1*t1", "t3 = t2 + 1.0"}));
-  EXPECT_EQ(c.result, "t3");
-  const expr::Statements f =
-      to_statements(pow(x, 0.5) * 1e-7, expr::Language::fortran, {{"x", "p"}}, "w");
-  EXPECT_EQ(f.lines, (std::vector<std::string>{"w1 = p**0.5D0", "w2 = w1*9.9999999999999995D-08"}));
-}
-
 } // namespace
 } // namespace frictab

@@ -240,15 +240,14 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
       double precision function fttau(x)
       implicit none
       double precision x(4)
-      double precision val
+      double precision mu
       double precision u(3)
       double precision ftintp
       double precision ftmin
       double precision ftmax
-      double precision t1, t2, t3, t4, t5
-      double precision c1
-C     m
-      parameter (c1 = 0.8D0)
+      double precision sigma_n_MPa, sigma_f_MPa, k, limit
+      double precision m
+      parameter (m = 0.8D0)
       logical ftnan
       integer(8) i
       integer(8) bits, most
@@ -265,13 +264,13 @@ C     m
       u(1) = x(1)
       u(2) = x(2)
       u(3) = x(3)
-      val = ftintp(u)
-      t1 = val*x(1)
-      t2 = ftmax(t1, 0.0D0)
-      t3 = 0.57735026918962584D0*x(4)
-      t4 = c1*t3
-      t5 = ftmin(t2, t4)
-      fttau = t5
+      mu = ftintp(u)
+C     the formula at the head; its value is mu
+      sigma_n_MPa = x(1)
+      sigma_f_MPa = x(4)
+      k = 0.5773502691896258D0*sigma_f_MPa
+      limit = m*k
+      fttau = ftmin(ftmax(mu*sigma_n_MPa, 0.0D0), limit)
       return
       end
 C
@@ -282,18 +281,18 @@ C     where x holds one.
       implicit none
       double precision x(4)
       double precision tau, dtau(4)
-      double precision val
+      double precision mu
       double precision by(4)
       double precision u(3), du(3)
       double precision ftmin
       double precision ftmax
       double precision ftwhle
       logical ftnan
-      double precision t1, t2, t3, t4, t5, t6, t7, t8
-      double precision t9, t10, t11
-      double precision c1
-C     m
-      parameter (c1 = 0.8D0)
+      double precision sigma_n_MPa, sigma_f_MPa, tau_coulomb, tau_free
+      double precision k, limit, t1, dtau_dmu, t2, dtau_dsigma_n
+      double precision dtau_dsigma_f
+      double precision m
+      parameter (m = 0.8D0)
       integer i, j
       integer(8) bits, most
       most = 0
@@ -311,33 +310,35 @@ C     m
           end if
         end do
       end if
-C     val and its derivatives by x
+C     mu and its derivatives by x
       do i = 1, 4
         by(i) = 0.0D0
       end do
       u(1) = x(1)
       u(2) = x(2)
       u(3) = x(3)
-      call ftintg(u, val, du, .true.)
+      call ftintg(u, mu, du, .true.)
       by(1) = du(1)
       by(2) = du(2)
       by(3) = du(3)
-      t1 = val*x(1)
-      t2 = ftmax(t1, 0.0D0)
-      t3 = 0.57735026918962584D0*x(4)
-      t4 = c1*t3
-      t5 = ftmin(t2, t4)
-      tau = t5
-      t6 = ftwhle(0.0D0, t1, x(1), 0.0D0)
-      t7 = ftwhle(t2, t4, t6, 0.0D0)
-      t8 = ftwhle(0.0D0, t1, val, 0.0D0)
-      t9 = ftwhle(t2, t4, t8, 0.0D0)
-      t10 = c1*0.57735026918962584D0
-      t11 = ftwhle(t2, t4, 0.0D0, t10)
-      dtau(1) = t9 + t7*by(1)
-      dtau(2) = t7*by(2)
-      dtau(3) = t7*by(3)
-      dtau(4) = t11
+C     the formula at the head and its derivatives
+      sigma_n_MPa = x(1)
+      sigma_f_MPa = x(4)
+      tau_coulomb = mu*sigma_n_MPa
+      tau_free = ftmax(tau_coulomb, 0.0D0)
+      k = 0.5773502691896258D0*sigma_f_MPa
+      limit = m*k
+      tau = ftmin(tau_free, limit)
+      t1 = ftwhle(0.0D0, tau_coulomb, sigma_n_MPa, 0.0D0)
+      dtau_dmu = ftwhle(tau_free, limit, t1, 0.0D0)
+      t2 = ftwhle(0.0D0, tau_coulomb, mu, 0.0D0)
+      dtau_dsigma_n = ftwhle(tau_free, limit, t2, 0.0D0)
+      dtau_dsigma_f = ftwhle(tau_free, limit, 0.0D0,
+     &  m*0.5773502691896258D0)
+      dtau(1) = dtau_dsigma_n + dtau_dmu*by(1)
+      dtau(2) = dtau_dmu*by(2)
+      dtau(3) = dtau_dmu*by(3)
+      dtau(4) = dtau_dsigma_f
       return
       end
 C

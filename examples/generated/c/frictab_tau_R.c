@@ -392,29 +392,23 @@ static const ft_values ft_table = {ft_value, 0};
 FT_INLINE double ft_tau(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa) {
-  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
-  const double x3 = v_rel_mm_s; /* v_rel_mm_s */
-  const double x4 = T_contact_C; /* T_contact_C */
-  const double x6 = sigma_f_MPa; /* sigma_f_MPa */
-  const double c1 = 0.8; /* m */
+  const double m = 0.8;
   double u[3];
-  double value;
+  double mu;
   (void)psi;
   (void)s_mm;
-  if (x6 != x6) return x6; /* NaN in, NaN out */
-  u[0] = x1;
-  u[1] = x3;
-  u[2] = x4;
-  value = ft_linear_3(ft_axes, ft_table, u, (unsigned*)0);
-  if (value != value) return value; /* NaN in one of the axes */
-  /* the formula of the header, in MPa */
+  if (sigma_f_MPa != sigma_f_MPa) return sigma_f_MPa; /* NaN in, NaN out */
+  u[0] = sigma_n_MPa;
+  u[1] = v_rel_mm_s;
+  u[2] = T_contact_C;
+  mu = ft_linear_3(ft_axes, ft_table, u, (unsigned*)0);
+  if (mu != mu) return mu; /* NaN in one of the axes */
+  /* the formula of the header, in MPa; its value is mu */
   {
-    const double t1 = value*x1;
-    const double t2 = ft_max(t1, 0.0);
-    const double t3 = 0.57735026918962584*x6;
-    const double t4 = c1*t3;
-    const double t5 = ft_min(t2, t4);
-    return t5;
+    const double k = 0.5773502691896258*sigma_f_MPa;
+    const double limit = m*k;
+    const double tau_R = ft_min(ft_max(mu*sigma_n_MPa, 0.0), limit);
+    return tau_R;
   }
 }
 
@@ -500,49 +494,48 @@ double frictab_tau_R_gradient(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa,
     double* derivative) {
-  const double x1 = sigma_n_MPa; /* sigma_n_MPa */
-  const double x3 = v_rel_mm_s; /* v_rel_mm_s */
-  const double x4 = T_contact_C; /* T_contact_C */
-  const double x6 = sigma_f_MPa; /* sigma_f_MPa */
-  const double c1 = 0.8; /* m */
-  double d1 = 0.0; /* of value by x1 */
-  double d3 = 0.0; /* of value by x3 */
-  double d4 = 0.0; /* of value by x4 */
+  const double m = 0.8;
+  double dmu_dsigma_n = 0.0;
+  double dmu_dv_rel = 0.0;
+  double dmu_dT_contact = 0.0;
   double u[3], by_u[3];
-  double value;
+  double mu;
   int i;
   (void)psi;
   (void)s_mm;
   for (i = 0; i < 6; ++i)
     derivative[i] = 0.0;
-  if (x1 != x1) return ft_no_gradient(x1, derivative);
-  if (x3 != x3) return ft_no_gradient(x3, derivative);
-  if (x4 != x4) return ft_no_gradient(x4, derivative);
-  if (x6 != x6) return ft_no_gradient(x6, derivative);
-  u[0] = x1;
-  u[1] = x3;
-  u[2] = x4;
-  value = ft_linear_gradient_3(ft_axes, ft_table, u, by_u, 0);
-  d1 = by_u[0];
-  d3 = by_u[1];
-  d4 = by_u[2];
+  if (sigma_n_MPa != sigma_n_MPa)
+    return ft_no_gradient(sigma_n_MPa, derivative);
+  if (v_rel_mm_s != v_rel_mm_s)
+    return ft_no_gradient(v_rel_mm_s, derivative);
+  if (T_contact_C != T_contact_C)
+    return ft_no_gradient(T_contact_C, derivative);
+  if (sigma_f_MPa != sigma_f_MPa)
+    return ft_no_gradient(sigma_f_MPa, derivative);
+  u[0] = sigma_n_MPa;
+  u[1] = v_rel_mm_s;
+  u[2] = T_contact_C;
+  mu = ft_linear_gradient_3(ft_axes, ft_table, u, by_u, 0);
+  dmu_dsigma_n = by_u[0];
+  dmu_dv_rel = by_u[1];
+  dmu_dT_contact = by_u[2];
   {
-    const double t1 = value*x1;
-    const double t2 = ft_max(t1, 0.0);
-    const double t3 = 0.57735026918962584*x6;
-    const double t4 = c1*t3;
-    const double t5 = ft_min(t2, t4);
-    const double t6 = ft_where_le(0.0, t1, x1, 0.0);
-    const double t7 = ft_where_le(t2, t4, t6, 0.0);
-    const double t8 = ft_where_le(0.0, t1, value, 0.0);
-    const double t9 = ft_where_le(t2, t4, t8, 0.0);
-    const double t10 = c1*0.57735026918962584;
-    const double t11 = ft_where_le(t2, t4, 0.0, t10);
-    derivative[0] = t9 + t7 * d1;
-    derivative[2] = t7 * d3;
-    derivative[3] = t7 * d4;
-    derivative[5] = t11;
-    return t5;
+    const double tau_coulomb = mu*sigma_n_MPa;
+    const double tau_free = ft_max(tau_coulomb, 0.0);
+    const double k = 0.5773502691896258*sigma_f_MPa;
+    const double limit = m*k;
+    const double tau_R = ft_min(tau_free, limit);
+    const double t1 = ft_where_le(0.0, tau_coulomb, sigma_n_MPa, 0.0);
+    const double dtau_R_dmu = ft_where_le(tau_free, limit, t1, 0.0);
+    const double t2 = ft_where_le(0.0, tau_coulomb, mu, 0.0);
+    const double dtau_R_dsigma_n = ft_where_le(tau_free, limit, t2, 0.0);
+    const double dtau_R_dsigma_f = ft_where_le(tau_free, limit, 0.0, m*0.5773502691896258);
+    derivative[0] = dtau_R_dsigma_n + dtau_R_dmu * dmu_dsigma_n;
+    derivative[2] = dtau_R_dmu * dmu_dv_rel;
+    derivative[3] = dtau_R_dmu * dmu_dT_contact;
+    derivative[5] = dtau_R_dsigma_f;
+    return tau_R;
   }
 }
 

@@ -143,15 +143,14 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
       double precision function fttau(x)
       implicit none
       double precision x(4)
-      double precision val
+      double precision mu
       double precision u(3)
       double precision ftintp
       double precision ftmin
       double precision ftmax
-      double precision t1, t2, t3, t4, t5
-      double precision c1
-C     m
-      parameter (c1 = 0.8D0)
+      double precision sigma_n_MPa, sigma_f_MPa, k, limit
+      double precision m
+      parameter (m = 0.8D0)
       logical ftnan
       integer(8) i
       integer(8) bits, most
@@ -168,13 +167,13 @@ C     m
       u(1) = x(1)
       u(2) = x(2)
       u(3) = x(3)
-      val = ftintp(u)
-      t1 = val*x(1)
-      t2 = ftmax(t1, 0.0D0)
-      t3 = 0.57735026918962584D0*x(4)
-      t4 = c1*t3
-      t5 = ftmin(t2, t4)
-      fttau = t5
+      mu = ftintp(u)
+C     the formula at the head; its value is mu
+      sigma_n_MPa = x(1)
+      sigma_f_MPa = x(4)
+      k = 0.5773502691896258D0*sigma_f_MPa
+      limit = m*k
+      fttau = ftmin(ftmax(mu*sigma_n_MPa, 0.0D0), limit)
       return
       end
 C

@@ -168,7 +168,7 @@ C         T_contact_C: mean of the node and the segment where it
             h3 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 + tt(ii))
             h4 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 + tt(ii))
             tseg = h1*temp(ix1(ii)) + h2*temp(ix2(ii)) +
-     &h3*temp(ix3(ii)) + h4*temp(ix4(ii))
+     &  h3*temp(ix3(ii)) + h4*temp(ix4(ii))
             x(3) = 0.5D0*(temp(insv(ii)) + tseg)
           else
             x(3) = 110.0D0
@@ -258,15 +258,14 @@ C     x(4) sigma_f_MPa, flow stress of the workpiece
       double precision function fttau(x)
       implicit none
       double precision x(4)
-      double precision val
+      double precision mu
       double precision u(3)
       double precision ftintp
       double precision ftmin
       double precision ftmax
-      double precision t1, t2, t3, t4, t5
-      double precision c1
-C     m
-      parameter (c1 = 0.8D0)
+      double precision sigma_n_MPa, sigma_f_MPa, k, limit
+      double precision m
+      parameter (m = 0.8D0)
       logical ftnan
       integer(8) i
       integer(8) bits, most
@@ -283,13 +282,13 @@ C     m
       u(1) = x(1)
       u(2) = x(2)
       u(3) = x(3)
-      val = ftintp(u)
-      t1 = val*x(1)
-      t2 = ftmax(t1, 0.0D0)
-      t3 = 0.57735026918962584D0*x(4)
-      t4 = c1*t3
-      t5 = ftmin(t2, t4)
-      fttau = t5
+      mu = ftintp(u)
+C     the formula at the head; its value is mu
+      sigma_n_MPa = x(1)
+      sigma_f_MPa = x(4)
+      k = 0.5773502691896258D0*sigma_f_MPa
+      limit = m*k
+      fttau = ftmin(ftmax(mu*sigma_n_MPa, 0.0D0), limit)
       return
       end
 C

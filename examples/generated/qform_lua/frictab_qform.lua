@@ -93,18 +93,21 @@ local function ft_interpolate(u)
 end
 
 -- tau_R in MPa; states in canonical units.
-local function ft_tau(x1, x2, x3, x4)
-  if x1 ~= x1 then return x1 end
-  if x2 ~= x2 then return x2 end
-  if x3 ~= x3 then return x3 end
-  if x4 ~= x4 then return x4 end
-  local value = ft_interpolate({x1, x2, x3})
-  local t1 = value*x1
-  local t2 = ft_max(t1, 0.0)
-  local t3 = 0.57735026918962584*x4
-  local t4 = 0.8*t3
-  local t5 = ft_min(t2, t4)
-  return t5
+local function ft_tau(
+  sigma_n_MPa, v_rel_mm_s, T_contact_C, sigma_f_MPa
+)
+  if sigma_n_MPa ~= sigma_n_MPa then return sigma_n_MPa end
+  if v_rel_mm_s ~= v_rel_mm_s then return v_rel_mm_s end
+  if T_contact_C ~= T_contact_C then return T_contact_C end
+  if sigma_f_MPa ~= sigma_f_MPa then return sigma_f_MPa end
+  local mu = ft_interpolate({
+    sigma_n_MPa, v_rel_mm_s, T_contact_C
+  })
+  -- the formula at the head; its value is mu
+  local k = 0.5773502691896258*sigma_f_MPa
+  local limit = 0.8*k
+  local tau_R = ft_min(ft_max(mu*sigma_n_MPa, 0.0), limit)
+  return tau_R
 end
 
 function frictab_tau_R(sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa)

@@ -12,13 +12,13 @@
 #include "codegen/number_text.h"
 #include "codegen/table_text.h"
 #include "codegen/template.h"
+#include "codegen/variables.h"
 #include "core/text.h"
 #include "table/outside.h"
 #include "table/spline.h"
 
 namespace frictab::qform::lua {
 
-using expr::Language;
 using namespace codegen;
 using table::axis_ends;
 using table::AxisEnds;
@@ -45,48 +45,62 @@ template <class Numbers> std::string block(const Numbers& numbers, std::size_t i
   return number_lines(texts, 98, std::string(indent, ' '));
 }
 
-std::map<std::string, std::string> symbol_names(const Table& table) {
-  std::map<std::string, std::string> rename{{"value", "value"}};
-  const std::vector<std::string> inputs = table.inputs();
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    rename[inputs[i]] = fmt::format("x{}", i + 1);
-  for (const auto& [name, value] : table.constants)
-    rename[name] = number(value);
-  return rename;
+// Of a function with this formula; constants stand in it as numbers.
+Variables variables_of(const Table& table, const expr::Expr& formula,
+                       const std::set<std::string>& taken = {}) {
+  Variables variables(table, formula, Language::c, {}, taken);
+  for (const std::string& name : variables.constants())
+    variables.set(name, number(table.constants.at(name)));
+  return variables;
+}
+
+std::vector<std::string> names_of(const std::vector<std::string>& states,
+                                  const Variables& variables) {
+  std::vector<std::string> names;
+  for (const std::string& state : states)
+    names.push_back(variables.name(state));
+  return names;
+}
+
+// Arguments, broken into lines that the template sets in.
+std::string arguments(const std::vector<std::string>& names) {
+  return number_lines(names, 76, "");
+}
+
+// Of the law's own formula; the template calls it by these.
+std::vector<std::string> piece_arguments(const Table& table, const Variables& variables) {
+  return names_of(variables.states_of(*table.extension), variables);
 }
 
 // Statements as lines of Lua; many of them keep their results in a table, not in locals.
 struct Code {
   std::vector<std::string> lines;
-  std::string result;
+  std::vector<std::string> results;
+  std::vector<std::size_t> first_lines;
   bool in_table = false;
 };
-Code code_of(const expr::Expr& formula, const std::map<std::string, std::string>& rename,
-             char name) {
-  expr::Statements code = to_statements(formula, Language::c, rename, std::string(1, name));
+Code code_of(const std::vector<Wanted>& wanted, const Variables& variables) {
+  const auto written = [&](const std::string& owner) {
+    Variables own = variables;
+    return own.statements(wanted, owner);
+  };
+  Statements code = written("");
   Code out;
   out.in_table = code.lines.size() > most_locals;
-  if (out.in_table)
-    code = to_statements(formula, Language::c, rename, fmt::format("{0}.{0}", name));
+  if (out.in_table) code = written("steps.");
   for (const std::string& line : code.lines)
     out.lines.push_back((out.in_table ? "" : "local ") + line);
-  out.result = code.result;
+  out.results = code.results;
+  out.first_lines = code.first_lines;
   return out;
 }
 
-std::vector<std::string> names_up_to(std::size_t count) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i)
-    names.push_back(fmt::format("x{}", i + 1));
-  return names;
-}
-
-std::vector<std::string> sides(const Table& table, Outside kind) {
+std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
   std::vector<std::string> tests;
   for (const AxisEnds& axis : axis_ends(table)) {
     const bool refuses = kind == Outside::error;
     const auto add = [&](const char* relation, double limit) {
-      tests.push_back(fmt::format("x{} {} {}", axis.input + 1, relation, number(limit)));
+      tests.push_back(fmt::format("{} {} {}", variables.name(axis.name), relation, number(limit)));
     };
     if (axis.below == kind) add("<", refuses ? axis.refused_below : axis.low);
     if (axis.above == kind) add(">", refuses ? axis.refused_above : axis.high);
@@ -94,45 +108,28 @@ std::vector<std::string> sides(const Table& table, Outside kind) {
   return tests;
 }
 
-// h1 stands for x1 where an axis is held at an end.
-void add_held(TemplateValues& values, const Table& table,
-              std::map<std::string, std::string>& rename) {
+// Where an axis is held at an end, its state is.
+std::vector<std::string> held_lines(const Table& table, const Variables& variables) {
   std::vector<std::string> lines;
   for (const AxisEnds& axis : axis_ends(table)) {
     if (!expr::symbols(*table.extension).count(axis.name)) continue;
-    if (axis.below == Outside::law && axis.above == Outside::law) continue;
-    const std::string h = fmt::format("h{}", axis.input + 1);
-    lines.push_back(fmt::format("local {} = {}", h, rename.at(axis.name)));
-    const auto end = [&](const char* relation, double x) {
-      lines.push_back(fmt::format("if {0} {1} {2} then {0} = {2} end", h, relation, number(x)));
+    const auto end = [&](const char* relation, double at) {
+      lines.push_back(fmt::format("if {0} {1} {2} then {0} = {2} end", variables.name(axis.name),
+                                  relation, number(at)));
     };
     if (axis.below != Outside::law) end("<", axis.low);
     if (axis.above != Outside::law) end(">", axis.high);
-    rename[axis.name] = h;
   }
-  values.lists["held"] = items(lines);
+  return lines;
 }
 
-std::vector<std::string> add_layer(TemplateValues& values, const std::optional<UnitLayer>& layer,
-                                   std::map<std::string, std::string>& rename) {
-  const UnitLayer none;
-  const UnitLayer& l = layer ? *layer : none;
-  std::vector<std::string> before, names;
+void add_layer(TemplateValues& values, const UnitLayer& l, const std::vector<std::string>& names) {
   Lines features;
   for (std::size_t f = 0; f < l.features.size(); ++f) {
-    const expr::Statements code =
-        to_statements(l.features[f], Language::c, rename, fmt::format("f{}_", f));
-    for (const std::string& line : code.lines)
-      before.push_back("local " + line);
-    names.push_back(code.result);
     TemplateValues feature;
     feature.text["weights"] = block(l.weight[f]);
     features.push_back(feature);
   }
-  for (std::size_t m = 0; m < l.outputs; ++m)
-    rename[layer_output(m)] = fmt::format("net[{}]", m + 1);
-  values.flags["has_layer"] = layer.has_value();
-  values.lists["before"] = items(before);
   values.lists["features"] = features;
   values.text["feature_names"] = join(names, ", ");
   values.text["units"] = std::to_string(l.units());
@@ -140,29 +137,43 @@ std::vector<std::string> add_layer(TemplateValues& values, const std::optional<U
   values.text["bias"] = block(l.bias, 2);
   values.text["gain"] = block(l.gain, 2);
   values.text["offset"] = block(l.offset, 2);
-  return before;
 }
 
-// All statements, to see which functions they call.
+// ft_piece: the law's own formula. All statements, to see which functions they call.
 std::string add_piece(TemplateValues& values, const Table& table) {
-  const bool any = table.is_direct() || !sides(table, Outside::law).empty();
-  values.flags["has_piece"] = any;
-  values.flags["has_layer"] = values.flags["piece_table"] = false;
-  values.text["quantity"] = models::quantity_name(table.quantity);
-  for (const char* list : {"held", "before", "features", "piece"})
-    values.lists[list];
-  values.text["piece_result"] = "";
-  auto rename = symbol_names(table);
-  add_layer(values, std::nullopt, rename);
-  if (!any) return "";
-  add_held(values, table, rename);
   const LayeredFormula formula = split_layer(*table.extension);
-  const std::vector<std::string> before = add_layer(values, formula.layer, rename);
-  const Code code = code_of(formula.rest, rename, 'p');
-  values.lists["piece"] = items(code.lines);
+  const UnitLayer none;
+  const UnitLayer& layer = formula.layer ? *formula.layer : none;
+  const std::size_t features = layer.features.size();
+  Variables variables =
+      variables_of(table, *table.extension,
+                   formula.layer ? names_of_a_layer(features) : std::set<std::string>{});
+  std::vector<Wanted> wanted;
+  for (const expr::Expr& feature : layer.features)
+    wanted.push_back({feature, variables.give(fmt::format("feature{}", wanted.size()))});
+  wanted.push_back({formula.rest, variables.name("value")});
+  for (std::size_t m = 0; m < layer.outputs; ++m)
+    variables.set(layer_output(m), fmt::format("net[{}]", m + 1));
+  const Code code = code_of(wanted, variables);
+  const auto before = code.lines.begin() + static_cast<std::ptrdiff_t>(
+                                               features > 0 ? code.first_lines[features - 1] : 0);
+  values.flags["has_layer"] = formula.layer.has_value();
+  add_layer(values, layer, {code.results.begin(), code.results.end() - 1});
+  values.lists["held"] = items(held_lines(table, variables));
+  values.lists["before"] = items({code.lines.begin(), before});
+  values.lists["piece"] = items({before, code.lines.end()});
   values.flags["piece_table"] = code.in_table;
-  values.text["piece_result"] = code.result;
-  return join(before, "\n") + "\n" + join(code.lines, "\n");
+  values.text["piece_result"] = code.results.back();
+  values.text["piece_parameters"] = arguments(piece_arguments(table, variables));
+  return join(code.lines, "\n");
+}
+
+void add_no_piece(TemplateValues& values) {
+  values.flags["has_layer"] = values.flags["piece_table"] = false;
+  for (const char* list : {"held", "before", "piece"})
+    values.lists[list];
+  add_layer(values, UnitLayer{}, {});
+  values.text["piece_result"] = values.text["piece_parameters"] = "";
 }
 
 void add_values(TemplateValues& values, const std::vector<double>& numbers) {
@@ -175,9 +186,8 @@ void add_values(TemplateValues& values, const std::vector<double>& numbers) {
   }
 }
 
-void add_axes(TemplateValues& values, const Table& table) {
+void add_axes(TemplateValues& values, const Table& table, const Variables& variables) {
   const bool cubic = is_cubic(table);
-  const auto rename = symbol_names(table);
   std::vector<std::string> strides, supports, weights, coordinates;
   long stride = static_cast<long>(table.nodes());
   bool logarithm = false;
@@ -186,7 +196,7 @@ void add_axes(TemplateValues& values, const Table& table) {
     strides.push_back(std::to_string(stride /= static_cast<long>(n)));
     supports.push_back(std::to_string(std::min<std::size_t>(n, 4)));
     weights.push_back(cubic ? "{}" : "0.0");
-    const std::string& x = rename.at(axis.name);
+    const std::string& x = variables.name(axis.name);
     coordinates.push_back(axis.log ? "ft_log(" + x + ")" : x);
     logarithm = logarithm || axis.log;
     TemplateValues one;
@@ -201,21 +211,21 @@ void add_axes(TemplateValues& values, const Table& table) {
   values.text["strides"] = join(strides, ", ");
   values.text["supports"] = join(supports, ", ");
   values.text["no_weights"] = join(weights, ", ");
-  values.text["coordinates"] = join(coordinates, ", ");
+  values.text["coordinates"] = arguments(coordinates);
   values.flags["uses_log"] = logarithm;
   add_values(values, baked_values(table));
 }
 
 // What stands where nothing is interpolated; empty where something is.
-std::string only_value(const Table& table) {
+std::string only_value(const Table& table, const Variables& variables) {
   if (table.is_direct())
-    return fmt::format("ft_piece({})", join(names_up_to(table.inputs().size()), ", "));
+    return fmt::format("ft_piece({})", arguments(piece_arguments(table, variables)));
   if (!table.axes.empty()) return "";
   const std::string value = number(table.coordinate(table.value[0]));
   return table.log_value ? "exp(" + value + ")" : value;
 }
 
-void add_interpolation(TemplateValues& values, const Table& table) {
+void add_interpolation(TemplateValues& values, const Table& table, const Variables& variables) {
   const bool interpolates = !table.is_direct() && !table.axes.empty();
   values.flags["interpolates"] = interpolates;
   values.flags["cubic"] = is_cubic(table);
@@ -227,8 +237,8 @@ void add_interpolation(TemplateValues& values, const Table& table) {
   values.text["value_comment"] = comment_text(
       fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "coefficients of " : "",
                   table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
-  values.text["only_value"] = only_value(table);
-  if (interpolates) add_axes(values, table);
+  values.text["only_value"] = only_value(table, variables);
+  if (interpolates) add_axes(values, table, variables);
 }
 
 // What the solver gives under the argument's name, or what stands for it.
@@ -335,10 +345,19 @@ const SolverGives& gives() {
 std::string lua_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const Table& table = request.table;
   TemplateValues values;
-  const Code formula = code_of(table.combine, symbol_names(table), 't');
-  const std::string all = add_piece(values, table) + "\n" + join(formula.lines, "\n");
+  const Variables variables = variables_of(table, table.combine);
+  const Code formula = code_of({{table.combine, "tau_R"}}, variables);
+  const std::vector<std::string> extending =
+      table.is_direct() ? std::vector<std::string>{} : sides(table, variables, Outside::law);
+  std::string all = join(formula.lines, "\n") + "\n";
+  values.flags["has_piece"] = table.is_direct() || !extending.empty();
+  values.text["quantity"] = models::quantity_name(table.quantity);
+  if (values.flags["has_piece"])
+    all += add_piece(values, table);
+  else
+    add_no_piece(values);
   const auto calls = [&](const char* name) { return all.find(name) != std::string::npos; };
-  add_interpolation(values, table);
+  add_interpolation(values, table, variables);
   values.flags["uses_pow"] = calls("pow(");
   values.flags["uses_min"] = calls("ft_min(");
   values.flags["uses_max"] = calls("ft_max(");
@@ -347,12 +366,16 @@ std::string lua_source(const ExportRequest& request, const std::vector<SolverInp
   values.flags["uses_unit"] = calls("tanh(") || values.flags["has_layer"];
   values.flags["formula_table"] = formula.in_table;
   values.lists["formula"] = items(formula.lines);
-  values.text["result"] = formula.result;
-  const auto names = names_up_to(inputs.size());
+  values.text["result"] = formula.results[0];
+  values.text["value"] = variables.name("value");
+  const std::vector<std::string> names = names_of(table.inputs(), variables);
   values.lists["states"] = items(names);
-  values.text["parameters"] = join(names, ", ");
-  values.lists["refusing"] = items(sides(table, Outside::error));
-  values.lists["extending"] = table.is_direct() ? Lines{} : items(sides(table, Outside::law));
+  values.text["parameters"] = arguments(names);
+  values.lists["refusing"] = items(sides(table, variables, Outside::error));
+  values.flags["extends"] = !extending.empty();
+  values.text["extending"] = join(extending, " or\n");
+  values.text["piece_call"] =
+      extending.empty() ? "" : "ft_piece(" + arguments(piece_arguments(table, variables)) + ")";
   values.lists["about"] = items(about(request));
   values.lists["outside"] = items(outside(table));
   add_entry(values, request, inputs);

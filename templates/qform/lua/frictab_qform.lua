@@ -198,12 +198,14 @@ local net = {}
 @end
 @if has_piece
 -- The law's own @{quantity}; held at the ends of the range on sides that clamp.
-local function ft_piece(@{parameters})
+local function ft_piece(
+  @{piece_parameters}
+)
 @for line in held
   @{line.text}
 @end
 @if piece_table
-  local p = {}
+  local steps = {}
 @end
 @if has_layer
 @for line in before
@@ -231,7 +233,9 @@ end
 
 @end
 -- tau_R in MPa; states in canonical units.
-local function ft_tau(@{parameters})
+local function ft_tau(
+  @{parameters}
+)
 @for name in states
   if @{name.text} ~= @{name.text} then return @{name.text} end
 @end
@@ -239,18 +243,27 @@ local function ft_tau(@{parameters})
   if @{side.text} then return ft_nan end -- outside = error
 @end
 @if interpolates
-  local value = ft_interpolate({@{coordinates}})
+  local @{value} = ft_interpolate({
+    @{coordinates}
+  })
 @if log_value
-  value = exp(value)
+  @{value} = exp(@{value})
 @end
 @else
-  local value = @{only_value}
+  local @{value} =
+    @{only_value}
 @end
-@for side in extending
-  if @{side.text} then value = ft_piece(@{parameters}) end -- outside = law
+@if extends
+  if -- outside = law
+    @{extending}
+  then
+    @{value} =
+      @{piece_call}
+  end
 @end
+  -- the formula at the head; its value is @{value}
 @if formula_table
-  local t = {}
+  local steps = {}
 @end
 @for line in formula
   @{line.text}

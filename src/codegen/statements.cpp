@@ -1,0 +1,246 @@
+// Writes formulas as statements, operation by operation.
+#include "codegen/statements.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "codegen/number_text.h"
+#include "core/text.h"
+
+namespace frictab::codegen {
+
+using expr::Expr;
+using expr::Op;
+
+namespace {
+
+constexpr std::size_t longest_name = 28;
+constexpr std::size_t line_width = 80; // "tau = ..."; with its declaration 100 columns hold it in C
+constexpr std::size_t inline_width = 60; // of a step that is written out inside another one
+
+} // namespace
+
+Names::Names(std::set<std::string> taken) : taken_(std::move(taken)) {}
+
+std::string Names::give(const std::string& wish) {
+  std::string name;
+  for (const char c : wish.substr(0, longest_name))
+    name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  // Names of the templates start with ft.
+  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0])) ||
+      lower_case(name).starts_with("ft"))
+    name.insert(0, "c_");
+  const std::string first = name;
+  for (int n = 2; !taken_.insert(lower_case(name)).second; ++n)
+    name = fmt::format("{}_{}", first, n);
+  return name;
+}
+
+namespace {
+
+// How tightly a text holds together: what stands inside something tighter needs parentheses.
+enum Strength { negation, sum, product, power, call, atom };
+
+struct Text {
+  std::string text;
+  Strength strength = atom;
+
+  std::string at_least(Strength least) const { return strength < least ? "(" + text + ")" : text; }
+};
+
+const char* function_name(Op op, Language language) {
+  const bool c = language == Language::c;
+  switch (op) {
+  case Op::exp:
+    return "exp";
+  case Op::log:
+    return "log";
+  case Op::sqrt:
+    return "sqrt";
+  case Op::sin:
+    return "sin";
+  case Op::tanh:
+    return "tanh";
+  case Op::acos:
+    return "acos";
+  case Op::power:
+    return "pow";
+  case Op::minimum:
+    return c ? "ft_min" : "ftmin";
+  case Op::maximum:
+    return c ? "ft_max" : "ftmax";
+  case Op::where_le:
+    return c ? "ft_where_le" : "ftwhle";
+  default:
+    throw std::logic_error("not a function");
+  }
+}
+
+Text called(Op op, const std::vector<Text>& a, Language language) {
+  std::string arguments;
+  for (const Text& text : a)
+    arguments += (arguments.empty() ? "" : ", ") + text.text;
+  return {fmt::format("{}({})", function_name(op, language), arguments), call};
+}
+
+// `tight` puts the parentheses that a Fortran compiler keeps to.
+Text spelled(Op op, const std::vector<Text>& a, Language language) {
+  const bool tight = language == Language::fortran;
+  switch (op) {
+  case Op::negate:
+    return {"-" + a[0].at_least(call), negation};
+  case Op::add:
+    return {a[0].at_least(tight ? product : sum) + " + " + a[1].at_least(product), sum};
+  case Op::subtract:
+    return {a[0].at_least(tight ? product : sum) + " - " + a[1].at_least(product), sum};
+  case Op::multiply:
+    return {a[0].at_least(tight ? power : product) + "*" + a[1].at_least(power), product};
+  case Op::divide:
+    return {a[0].at_least(tight ? power : product) + "/" + a[1].at_least(power), product};
+  case Op::power:
+    if (tight) return {a[0].at_least(call) + "**" + a[1].at_least(call), power};
+    break;
+  default:
+    break;
+  }
+  return called(op, a, language);
+}
+
+// Operations that are not defined everywhere, or may overflow.
+bool is_delicate(Op op) {
+  return op == Op::divide || op == Op::power || op == Op::exp || op == Op::log || op == Op::sqrt ||
+         op == Op::acos;
+}
+
+class Writer {
+public:
+  Writer(const std::vector<Wanted>& wanted, const Spelling& spelling, Names& names)
+      : spelling_(spelling), names_(names) {
+    for (const Wanted& one : wanted)
+      count(one.formula);
+    for (const Wanted& one : wanted) {
+      out.results.push_back(result(one));
+      out.first_lines.push_back(out.lines.size());
+    }
+  }
+
+  Statements out;
+
+private:
+  void count(const Expr& e) {
+    if (++uses_[e.id()] > 1) return;
+    for (const Expr& operand : e.operands())
+      count(operand);
+  }
+
+  // Numbers and named constants alone.
+  bool is_fixed(const Expr& e) {
+    if (e.op() == Op::constant) return true;
+    if (e.op() == Op::symbol) return spelling_.numbers.count(e.name()) > 0;
+    const auto known = fixed_.find(e.id());
+    if (known != fixed_.end()) return known->second;
+    const bool fixed = std::all_of(e.operands().begin(), e.operands().end(),
+                                   [this](const Expr& operand) { return is_fixed(operand); });
+    return fixed_[e.id()] = fixed;
+  }
+
+  Text leaf(const Expr& e) const {
+    if (e.op() == Op::symbol) {
+      const auto found = spelling_.symbols.find(e.name());
+      return {found == spelling_.symbols.end() ? e.name() : found->second};
+    }
+    const double value = e.value();
+    if (!std::isfinite(value))
+      throw std::logic_error("a formula holds a number that is not finite");
+    const std::string text =
+        spelling_.language == Language::c ? c_number(value) : fortran_number(value);
+    return {std::signbit(value) ? "(" + text + ")" : text};
+  }
+
+  // Under the step's own name where none is given.
+  Text assign(const Expr& e, const std::string& text, const std::string& given) {
+    const std::string name = given.empty() ? step_name(e) : given;
+    out.names.push_back(name);
+    out.lines.push_back(spelling_.owner + name + " = " + text);
+    return done_.emplace(e.id(), Text{spelling_.owner + name}).first->second;
+  }
+
+  std::string step_name(const Expr& e) {
+    const auto found = spelling_.steps.find(e.id());
+    return names_.give(found != spelling_.steps.end() ? found->second.name
+                                                      : fmt::format("t{}", ++unnamed_));
+  }
+
+  // What is left of a line behind a name.
+  std::size_t room_behind(std::size_t name) const {
+    return line_width - std::min(line_width, spelling_.owner.size() + name + 3);
+  }
+
+  bool own_line(const Expr& e) const {
+    const auto found = spelling_.steps.find(e.id());
+    return uses_.at(e.id()) > 1 || (found != spelling_.steps.end() && found->second.own_line);
+  }
+
+  // On a line of its own.
+  Text line(const Expr& e) {
+    const auto found = spelling_.steps.find(e.id());
+    const std::size_t name = found == spelling_.steps.end() ? 4 : found->second.name.size();
+    return assign(e, written(e, room_behind(name)).text, "");
+  }
+
+  Text operand(const Expr& e, Op of) {
+    if (e.operands().empty()) return leaf(e);
+    if (const auto found = done_.find(e.id()); found != done_.end()) return found->second;
+    // Fortran compilers work out what holds no state, and refuse what is not defined, even in a
+    // branch that is never taken: not where it is spread over statements.
+    const bool apart = is_delicate(of) && is_fixed(e);
+    return own_line(e) || apart ? line(e) : written(e, inline_width);
+  }
+
+  // Operands that make it too wide get lines of their own, the longest first.
+  Text written(const Expr& e, std::size_t width) {
+    std::vector<Text> a;
+    for (const Expr& one : e.operands())
+      a.push_back(operand(one, e.op()));
+    for (Text text = spelled(e.op(), a, spelling_.language);;
+         text = spelled(e.op(), a, spelling_.language)) {
+      const auto longest = std::max_element(a.begin(), a.end(), [](const Text& x, const Text& y) {
+        return (x.strength == atom ? 0 : x.text.size()) < (y.strength == atom ? 0 : y.text.size());
+      });
+      if (text.text.size() <= width || longest->strength == atom) return text;
+      const Expr& part = e.operands()[static_cast<std::size_t>(longest - a.begin())];
+      *longest = assign(part, longest->text, "");
+    }
+  }
+
+  std::string result(const Wanted& wanted) {
+    const Expr& e = wanted.formula;
+    if (e.operands().empty()) return leaf(e).text;
+    if (const auto found = done_.find(e.id()); found != done_.end()) return found->second.text;
+    const auto named = spelling_.steps.find(e.id());
+    const bool known = named != spelling_.steps.end() && named->second.own_line;
+    if (known) return line(e).text;
+    return assign(e, written(e, room_behind(wanted.name.size())).text, wanted.name).text;
+  }
+
+  const Spelling& spelling_;
+  Names& names_;
+  std::unordered_map<const Expr::Node*, std::size_t> uses_;
+  std::unordered_map<const Expr::Node*, bool> fixed_;
+  std::unordered_map<const Expr::Node*, Text> done_;
+  int unnamed_ = 0;
+};
+
+} // namespace
+
+Statements to_statements(const std::vector<Wanted>& wanted, const Spelling& spelling,
+                         Names& names) {
+  return Writer(wanted, spelling, names).out;
+}
+
+} // namespace frictab::codegen
