@@ -130,16 +130,25 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
   values.text["items"] = lines(arrays);
 }
 
+namespace {
+
+std::string call_of(const std::string& function, const std::vector<std::string>& arguments) {
+  const std::string set_in(8, ' ');
+  return function + "(" + number_lines(arguments, 80, set_in).substr(set_in.size()) + ")";
+}
+
+} // namespace
+
 std::string piece_call(const Table& table, const std::vector<InputArgument>& inputs,
                        const Variables& variables) {
-  return "ft_piece(" + lines(piece_states(table, inputs, variables)) + ")";
+  return call_of("ft_piece", piece_states(table, inputs, variables));
 }
 
 std::string piece_gradient_call(const Table& table, const std::vector<InputArgument>& inputs,
                                 const Variables& variables) {
   std::vector<std::string> arguments = piece_states(table, inputs, variables);
   arguments.push_back("by");
-  return "ft_piece_gradient(" + lines(arguments) + ")";
+  return call_of("ft_piece_gradient", arguments);
 }
 
 std::vector<std::string> refusing_sides(const Table& table, const Variables& variables) {

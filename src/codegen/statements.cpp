@@ -44,11 +44,11 @@ std::string Names::give(const std::string& wish) {
 namespace {
 
 // How tightly a text holds together: what stands inside something tighter needs parentheses.
-enum Strength { negation, sum, product, power, call, atom };
+enum class Strength { negation, sum, product, power, call, atom };
 
 struct Text {
   std::string text;
-  Strength strength = atom;
+  Strength strength = Strength::atom;
 
   std::string at_least(Strength least) const { return strength < least ? "(" + text + ")" : text; }
 };
@@ -85,30 +85,34 @@ Text called(Op op, const std::vector<Text>& a, Language language) {
   std::string arguments;
   for (const Text& text : a)
     arguments += (arguments.empty() ? "" : ", ") + text.text;
-  return {fmt::format("{}({})", function_name(op, language), arguments), call};
+  return {fmt::format("{}({})", function_name(op, language), arguments), Strength::call};
 }
 
-// `tight` puts the parentheses that a Fortran compiler keeps to.
+Text joined(const std::vector<Text>& a, const char* sign, Strength left, Strength right,
+            Strength whole) {
+  return {a[0].at_least(left) + sign + a[1].at_least(right), whole};
+}
+
+// In Fortran with the parentheses that its compilers keep to.
 Text spelled(Op op, const std::vector<Text>& a, Language language) {
-  const bool tight = language == Language::fortran;
+  using enum Strength;
+  const bool fortran = language == Language::fortran;
   switch (op) {
   case Op::negate:
     return {"-" + a[0].at_least(call), negation};
   case Op::add:
-    return {a[0].at_least(tight ? product : sum) + " + " + a[1].at_least(product), sum};
+    return joined(a, " + ", fortran ? product : sum, product, sum);
   case Op::subtract:
-    return {a[0].at_least(tight ? product : sum) + " - " + a[1].at_least(product), sum};
+    return joined(a, " - ", fortran ? product : sum, product, sum);
   case Op::multiply:
-    return {a[0].at_least(tight ? power : product) + "*" + a[1].at_least(power), product};
+    return joined(a, "*", fortran ? power : product, power, product);
   case Op::divide:
-    return {a[0].at_least(tight ? power : product) + "/" + a[1].at_least(power), product};
+    return joined(a, "/", fortran ? power : product, power, product);
   case Op::power:
-    if (tight) return {a[0].at_least(call) + "**" + a[1].at_least(call), power};
-    break;
+    return fortran ? joined(a, "**", call, call, power) : called(op, a, language);
   default:
-    break;
+    return called(op, a, language);
   }
-  return called(op, a, language);
 }
 
 // Operations that are not defined everywhere, or may overflow.
@@ -117,9 +121,9 @@ bool is_delicate(Op op) {
          op == Op::acos;
 }
 
-class Writer {
+class StatementWriter {
 public:
-  Writer(const std::vector<Wanted>& wanted, const Spelling& spelling, Names& names)
+  StatementWriter(const std::vector<Wanted>& wanted, const Spelling& spelling, Names& names)
       : spelling_(spelling), names_(names) {
     for (const Wanted& one : wanted)
       count(one.formula);
@@ -210,9 +214,10 @@ private:
     for (Text text = spelled(e.op(), a, spelling_.language);;
          text = spelled(e.op(), a, spelling_.language)) {
       const auto longest = std::max_element(a.begin(), a.end(), [](const Text& x, const Text& y) {
-        return (x.strength == atom ? 0 : x.text.size()) < (y.strength == atom ? 0 : y.text.size());
+        return (x.strength == Strength::atom ? 0 : x.text.size()) <
+               (y.strength == Strength::atom ? 0 : y.text.size());
       });
-      if (text.text.size() <= width || longest->strength == atom) return text;
+      if (text.text.size() <= width || longest->strength == Strength::atom) return text;
       const Expr& part = e.operands()[static_cast<std::size_t>(longest - a.begin())];
       *longest = assign(part, longest->text, "");
     }
@@ -240,7 +245,7 @@ private:
 
 Statements to_statements(const std::vector<Wanted>& wanted, const Spelling& spelling,
                          Names& names) {
-  return Writer(wanted, spelling, names).out;
+  return StatementWriter(wanted, spelling, names).out;
 }
 
 } // namespace frictab::codegen

@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is written as memory holds it");
 
-constexpr const char* option_name = "values";
+constexpr const char* values_key = "values";
 
 std::string bytes_of(const std::vector<double>& numbers) {
   std::string bytes(numbers.size() * sizeof(double), '\0');
@@ -34,7 +34,7 @@ std::uint32_t crc32_of(const char* bytes, std::size_t size) {
 
 bool has_option(const Exporter& exporter) {
   for (const ExportOption& option : exporter.options)
-    if (option.name == option_name) return true;
+    if (option.name == values_key) return true;
   return false;
 }
 
@@ -50,7 +50,7 @@ void check_values(const table::Table& table) {
 void check_size(const ExportRequest& request) {
   const bool file = values_in_file(request);
   if (file) check_values(request.table);
-  const bool held_back = request.options.count(option_name) > 0 && !file;
+  const bool held_back = request.options.count(values_key) > 0 && !file;
   check_table_size(request.table, file ? request.table.nodes() : 0,
                    held_back ? "export.options.values = \"auto\", " : "");
 }
@@ -58,7 +58,7 @@ void check_size(const ExportRequest& request) {
 } // namespace
 
 ExportOption values_option() {
-  return {option_name,
+  return {values_key,
           {"auto", "source", "file", "file_windows"},
           fmt::format("where the table's values lie: in the source, or in {}, which the routine "
                       "reads at its first call (the choice of \"auto\" above {} numbers); Fortran "
@@ -68,13 +68,13 @@ ExportOption values_option() {
 
 bool values_in_file(const ExportRequest& request) {
   if (request.table.is_direct() || request.table.axes.empty()) return false;
-  const std::string said = request.said(option_name);
+  const std::string said = request.said(values_key);
   if (!said.empty() && said != "auto") return said != "source";
   return baked_numbers(request.table) > most_baked_numbers;
 }
 
 bool values_for_windows(const ExportRequest& request) {
-  return request.said(option_name) == "file_windows";
+  return request.said(values_key) == "file_windows";
 }
 
 void check_request(const ExportRequest& request) {

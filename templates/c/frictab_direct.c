@@ -40,8 +40,7 @@ static inline double ft_tau(
 @end
   const double @{constant.name} = @{constant.value};
 @end
-  const double @{value} =
-      @{piece_call};
+  const double @{value} = @{piece_call};
 @for name in unused
   (void)@{name.text};
 @end

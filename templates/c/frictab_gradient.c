@@ -82,8 +82,7 @@ double frictab_tau_R_gradient(
 @else
   {
 @end
-    @{value} =
-        @{piece_call};
+    @{value} = @{piece_call};
 @for state in of_piece
     @{state.text} = by[@{state.place}];
 @end

@@ -110,8 +110,7 @@ FT_INLINE double ft_tau(
 @if extends
   if (/* outside = law */
       @{extending})
-    @{value} =
-        @{piece_call};
+    @{value} = @{piece_call};
 @end
   /* the formula of the header, in MPa; its value is @{value} */
   {
