@@ -1,7 +1,6 @@
 // What the parts of Fortran sources in fixed form are filled with.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
