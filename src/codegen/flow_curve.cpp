@@ -17,36 +17,35 @@ namespace frictab::codegen {
 
 namespace {
 
-constexpr const char* flow_stress = "sigma_f_MPa";
-constexpr const char* strain = strain_name;
+constexpr const char* stress_name = "sigma_f_MPa";
 constexpr std::string_view curve_choice = "curve:";
 
-const Place place{"export.inputs.sigma_f_MPa", 0, 0};
+const Place curve_place{"export.inputs.sigma_f_MPa", 0, 0};
 
-void check(const expr::Expr& curve, const table::Table& table) {
+void check_curve(const expr::Expr& curve, const table::Table& table) {
   std::vector<std::string> known = table.inputs();
-  std::erase(known, flow_stress);
-  for (const char* name : {strain, "T_contact_C"})
+  std::erase(known, stress_name);
+  for (const char* name : {strain_name, "T_contact_C"})
     if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
   for (const std::string& name : symbols(curve))
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(place, "the curve has '" + name + "', which is no state",
+      throw InputError(curve_place, "the curve has '" + name + "', which is no state",
                        suggest(name, known));
   const std::vector<std::string> needed = table.inputs();
-  if (std::find(needed.begin(), needed.end(), strain) != needed.end())
-    throw InputError(place, "the law has a state of its own that is called strain",
+  if (std::find(needed.begin(), needed.end(), strain_name) != needed.end())
+    throw InputError(curve_place, "the law has a state of its own that is called strain",
                      "\"field:1\" or \"property\", or another name for that column of the data");
-  if (!symbols(curve).contains(strain))
-    throw InputError(place, "the curve does not depend on strain",
+  if (!symbols(curve).contains(strain_name))
+    throw InputError(curve_place, "the curve does not depend on strain",
                      "a formula in strain (equivalent plastic strain), or \"constant:480\"");
-  if (table::find_axis(table, flow_stress))
-    throw InputError(place,
+  if (table::find_axis(table, stress_name))
+    throw InputError(curve_place,
                      "a curve cannot take the place of sigma_f_MPa, which is an axis of the table",
                      "\"field:1\" or \"property\"");
 }
 
 // Where nothing else is said of a state.
-double usual(const table::Table& table, const std::string& name) {
+double usual_value(const table::Table& table, const std::string& name) {
   if (const auto typical = typical_value(table, name)) return *typical;
   const data::Quantity* known = data::find_quantity(name);
   return known ? known->unknown.value_or(0) : 0;
@@ -80,7 +79,7 @@ public:
 
 private:
   static std::vector<std::string> with_strain(std::vector<std::string> others) {
-    others.emplace_back(strain);
+    others.emplace_back(strain_name);
     return others;
   }
 
@@ -101,7 +100,7 @@ private:
 std::vector<std::string> other_states(const expr::Expr& curve) {
   std::vector<std::string> others;
   for (const std::string& name : symbols(curve))
-    if (name != strain) others.push_back(name);
+    if (name != strain_name) others.push_back(name);
   return others;
 }
 
@@ -109,29 +108,30 @@ std::vector<std::string> other_states(const expr::Expr& curve) {
 
 CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gives)
     : original_(request) {
-  const auto said = request.inputs.find(flow_stress);
+  const auto said = request.inputs.find(stress_name);
   if (said == request.inputs.end() || !said->second.starts_with(curve_choice)) return;
   const std::vector<std::string> needed = request.table.inputs();
-  if (std::find(needed.begin(), needed.end(), flow_stress) == needed.end()) return;
-  if (gives.find(flow_stress))
-    throw InputError(place, "the solver gives this state itself",
+  if (std::find(needed.begin(), needed.end(), stress_name) == needed.end()) return;
+  if (gives.find(stress_name))
+    throw InputError(curve_place, "the solver gives this state itself",
                      "\"solver\", or the curve for other targets: [export.TARGET.inputs]");
-  curve_ = expr::parse_expr(std::string_view(said->second).substr(curve_choice.size()), place.file);
-  check(curve_, request.table);
+  curve_ = expr::parse_expr(std::string_view(said->second).substr(curve_choice.size()),
+                            curve_place.file);
+  check_curve(curve_, request.table);
   table_ = request.table;
-  table_.combine = substitute(table_.combine, {{flow_stress, curve_}});
+  table_.combine = substitute(table_.combine, {{stress_name, curve_}});
   set_range();
   curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
-  curved_->inputs.erase(flow_stress);
+  curved_->inputs.erase(stress_name);
 }
 
 // The strains over which the curve stays where the law was tested.
 void CurvedRequest::set_range() {
-  const auto tested = original_.table.range(flow_stress);
+  const auto tested = original_.table.range(stress_name);
   AlongStrain curve(curve_, other_states(curve_));
   const std::vector<std::string> others = other_states(curve_);
   for (std::size_t i = 0; i < others.size(); ++i)
-    curve.others()[i] = usual(original_.table, others[i]);
+    curve.others()[i] = usual_value(original_.table, others[i]);
   double low = most_strain, high = 0, smallest = HUGE_VAL, largest = -HUGE_VAL;
   for (int cell = 0; cell <= AlongStrain::cells; ++cell) {
     const double at = most_strain * cell / AlongStrain::cells, value = curve(at);
@@ -142,17 +142,17 @@ void CurvedRequest::set_range() {
     high = std::max(high, at);
   }
   if (low > high)
-    throw InputError(place,
+    throw InputError(curve_place,
                      fmt::format("the curve gives {:.4g} .. {:.4g} MPa for strains of 0 to {:g}, "
                                  "the law was made for {:.4g} .. {:.4g} MPa",
                                  smallest, largest, most_strain, tested->first, tested->second),
                      "a curve in MPa, of the material that was tested");
-  table::InputRecord& record = table_.record.inputs[strain];
+  table::InputRecord& record = table_.record.inputs[strain_name];
   record.low = low;
   record.high = high;
   record.long_name = "equivalent plastic strain";
   record.unit = "1";
-  table_.record.inputs.erase(flow_stress);
+  table_.record.inputs.erase(stress_name);
 }
 
 std::vector<double> CurvedRequest::strains(std::size_t rows,
@@ -163,12 +163,12 @@ std::vector<double> CurvedRequest::strains(std::size_t rows,
     return at == needed.end() ? nullptr : columns[static_cast<std::size_t>(at - needed.begin())];
   };
   AlongStrain curve(curve_, others);
-  const double* const wanted = column(flow_stress);
+  const double* const wanted = column(stress_name);
   std::vector<double> out(rows);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t i = 0; i < others.size(); ++i)
       curve.others()[i] =
-          column(others[i]) ? column(others[i])[row] : usual(original_.table, others[i]);
+          column(others[i]) ? column(others[i])[row] : usual_value(original_.table, others[i]);
     out[row] = curve.solve(wanted[row]);
   }
   return out;
@@ -188,10 +188,10 @@ void CurvedRequest::drive(std::size_t rows, std::span<const double* const> colum
     const auto at = std::find(needed.begin(), needed.end(), name);
     std::vector<double>& one = states.emplace_back();
     for (const std::size_t row : posed)
-      if (name == strain)
+      if (name == strain_name)
         one.push_back(strain_of[row]);
       else if (at == needed.end())
-        one.push_back(usual(original_.table, name));
+        one.push_back(usual_value(original_.table, name));
       else
         one.push_back(columns[static_cast<std::size_t>(at - needed.begin())][row]);
   }

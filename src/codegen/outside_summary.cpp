@@ -16,10 +16,10 @@ namespace frictab::codegen {
 
 namespace {
 
-constexpr const char* option_name = "outside_summary";
+constexpr const char* summary_key = "outside_summary";
 
 // What may stand between apostrophes in a line of Fortran.
-std::string literal(std::string_view text) {
+std::string in_apostrophes(std::string_view text) {
   std::string out = comment_text(text).substr(0, 30);
   std::replace(out.begin(), out.end(), '\'', ' ');
   return out;
@@ -40,8 +40,8 @@ TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis
               {"low", fortran_number(axis.low)},
               {"high", fortran_number(axis.high)},
               {"length", fortran_number(length > 0 ? length : 1)},
-              {"name", literal(axis.name)},
-              {"unit", unit == "1" ? "" : " " + literal(unit)},
+              {"name", in_apostrophes(axis.name)},
+              {"unit", unit == "1" ? "" : " " + in_apostrophes(unit)},
               {"range", fmt::format("{:.6g} .. {:.6g}", axis.low, axis.high)}};
   return one;
 }
@@ -50,16 +50,16 @@ TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis
 
 ExportOption outside_summary_option() {
   return {
-      option_name,
+      summary_key,
       {"none", "at_exit", "at_exit_windows"},
       "one message on the standard output when the program ends, if contact points were outside "
       "the range of the law: how often, and the state furthest beyond an end"};
 }
 
 std::string fortran::outside_summary(const Exporter& exporter, const ExportRequest& request) {
-  const std::string said = request.said(option_name);
+  const std::string said = request.said(summary_key);
   const bool offered = std::any_of(exporter.options.begin(), exporter.options.end(),
-                                   [](const auto& option) { return option.name == option_name; });
+                                   [](const auto& option) { return option.name == summary_key; });
   const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
   if (!offered || said.empty() || said == "none" || ends.empty()) return "";
   TemplateValues values;
@@ -72,7 +72,7 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
     values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
   }
   values.flags["windows"] = said == "at_exit_windows";
-  values.text = {{"model", literal(request.table.model)},
+  values.text = {{"model", in_apostrophes(request.table.model)},
                  {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
   return without_last_break(render_template("fortran/frictab_seen.f", values));
 }

@@ -5,12 +5,12 @@ namespace frictab::codegen {
 
 namespace {
 
-constexpr const char* option_name = "speed_scale";
+constexpr const char* scale_key = "speed_scale";
 
 } // namespace
 
 ExportOption speed_scale_option() {
-  return {option_name,
+  return {scale_key,
           {"none", "property"},
           "for simulations scaled in speed or time: a property of the deck, behind those of the "
           "states, says how many times faster than the process they run; the law gets the "
@@ -19,10 +19,10 @@ ExportOption speed_scale_option() {
 
 FurtherProperties speed_scale(const ExportRequest& request,
                               const std::vector<SolverInput>& inputs) {
-  if (request.said(option_name) != "property") return {};
+  if (request.said(scale_key) != "property") return {};
   const std::string meaning = "how many times faster than the process the simulation runs";
   return {{.number = property_count(inputs) + 1,
-           .quantity = option_name,
+           .quantity = scale_key,
            .unit = "1",
            .meaning = meaning,
            .line = meaning + ", above 0 (1)",
