@@ -41,6 +41,7 @@ struct ForceRoutine {
   std::string arguments_note;         // for the recipe
   std::string user;                   // "user=friction"
   std::string deck_tail;              // the keyword lines behind those of the interaction
+  bool general = false;               // contact; else pairs
 };
 
 // The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.

@@ -154,6 +154,10 @@ std::string file_of(const ForceRoutine& routine) {
   return "frictab_" + routine.entry + ".f";
 }
 
+std::string arguments(const ForceRoutine& routine) {
+  return render_template("abaqus/" + routine.entry + "/arguments.f", {});
+}
+
 std::string source(const ForceRoutine& routine, const ExportRequest& request,
                    const std::vector<SolverInput>& inputs) {
   const frictab::table::Table& table = request.table;
@@ -166,6 +170,7 @@ std::string source(const ForceRoutine& routine, const ExportRequest& request,
   TemplateValues values;
   values.text = {{"head", explicit_head(*find_exporter(routine.about.name), request, inputs,
                                         remarks(routine, request, inputs))},
+                 {"arguments", fortran::without_last_break(arguments(routine))},
                  {"body", body(routine, request, inputs, n_x)},
                  {"point", point(routine, request, inputs, n_x)},
                  {"core", core.text}};
@@ -250,7 +255,10 @@ Exporter force_exporter(const ForceRoutine& routine) {
        .drive =
            [routine](const ExportRequest&, const std::vector<SolverInput>&) {
              return explicit_driver(routine.gives, fortran::Coefficient::stress);
-           }});
+           },
+       .arguments = [routine](const ExportRequest&) { return arguments(routine); },
+       .selector = interaction("surfInt", routine.general),
+       .quit = [] { return quit(Solver::explicit_); }});
 }
 
 } // namespace frictab::abaqus

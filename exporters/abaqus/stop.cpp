@@ -29,6 +29,17 @@ std::string quit(Solver solver) {
   return fortran::without_last_break(render_template("abaqus/frictab_quit.f", values));
 }
 
+LawSelector interaction(const std::string& argument, bool general) {
+  LawSelector by;
+  by.argument = argument;
+  by.meaning = "name of the *SURFACE INTERACTION";
+  by.alone = "FRICTAB";
+  // Without names the assignment is for all surfaces: that would be the last law's.
+  if (general) by.deck.push_back({" , , FRICTAB", " <surface>, <surface>, @"});
+  by.deck.push_back({"FRICTAB", "@"});
+  return by;
+}
+
 std::string directory_routine(Solver solver) {
   return names(solver).directory;
 }

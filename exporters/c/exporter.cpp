@@ -9,6 +9,7 @@
 #include "codegen/entry_arguments.h"
 #include "codegen/entry_text.h"
 #include "codegen/number_text.h"
+#include "codegen/prefix.h"
 #include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/template.h"
@@ -221,7 +222,7 @@ SourceBundle generate(const ExportRequest& request) {
       request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
   add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+  return with_prefix(files, request);
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
@@ -235,7 +236,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
                  "-shared",
                  "-o",
                  "@{out}",
-                 "@{dir}/frictab_tau_R.c",
+                 "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
                  "-lm"};
   c99.eps = 0x1p-53;
   return {c99};
@@ -247,17 +248,22 @@ const char* const notes =
     "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
     "-ffast-math: otherwise the bits that were verified are not the bits that run.";
 
+// Functions are called by a program of the user's own.
+const char* const several_laws =
+    "give each law names of its own, [export.options] prefix = \"die_oil\"";
+
 const Registered<Exporter> registered{[] {
   return Exporter{.name = "c",
                   .order = 10,
                   .title = "C99 function",
                   .signature_source = "verified: ours, fixed by frictab's contract",
                   .notes = notes,
-                  .options = {values_option()},
+                  .options = {values_option(), prefix_option()},
                   .generate = generate,
                   .variants = variants,
                   .drive = drive_entry,
-                  .batch = batch_entry};
+                  .batch = batch_entry,
+                  .several_laws = several_laws};
 }};
 
 } // namespace

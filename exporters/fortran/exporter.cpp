@@ -9,6 +9,7 @@
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/number_text.h"
+#include "codegen/prefix.h"
 #include "codegen/recipe.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
@@ -177,7 +178,7 @@ SourceBundle generate(const ExportRequest& request) {
   files["frictab_tau_R.f90"] = source(request, inputs);
   add_values_file(files, request);
   files["recipe.json"] = recipe(request, inputs, files);
-  return files;
+  return with_prefix(files, request);
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
@@ -187,7 +188,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
                    "-std=f2008", "-ffp-contract=off",
                    "-fPIC",      "-J@{dir}",
                    "-shared",    "-o",
-                   "@{out}",     "@{dir}/frictab_tau_R.f90"};
+                   "@{out}",     "@{dir}/" + prefixed(request, "frictab_tau_R.f90")};
   build.eps = 0x1p-53;
   return {build};
 }
@@ -198,17 +199,22 @@ const char* const notes =
     "programs of your own, and for solvers whose routine you write yourself; those with a target "
     "here have their argument list written already. No state, safe from any thread.";
 
+// Functions are called by a program of the user's own.
+const char* const several_laws =
+    "give each law names of its own, [export.options] prefix = \"die_oil\"";
+
 const Registered<Exporter> registered{[] {
   return Exporter{.name = "fortran",
                   .order = 15,
                   .title = "Fortran 2008 module",
                   .signature_source = "verified: ours, the C interface fixed by frictab's contract",
                   .notes = notes,
-                  .options = {values_option()},
+                  .options = {values_option(), prefix_option()},
                   .generate = generate,
                   .variants = variants,
                   .drive = drive_entry,
-                  .batch = batch_entry};
+                  .batch = batch_entry,
+                  .several_laws = several_laws};
 }};
 
 } // namespace

@@ -92,11 +92,13 @@ Explanation about(const effects::EffectForm& effect) {
 Explanation about(const codegen::Exporter& target) {
   Explanation out{target.name, "target", target.title, {}, "choices in [export.options]", {}};
   out.fields = {{"signature", target.signature_source}, {"notes", target.notes}};
-  for (const codegen::ExportOption& option : target.options)
-    out.items.push_back(
-        {option.name,
-         option.meaning,
-         {{"one of", join(option.allowed, ", ")}, {"default", option.allowed.front()}}});
+  if (target.combine) out.fields.push_back({"laws told apart by", target.several_laws});
+  for (const codegen::ExportOption& option : target.options) {
+    Explanation::Item& item = out.items.emplace_back();
+    item = {option.name, option.meaning, {}};
+    if (!option.fault) item.fields.push_back({"one of", join(option.allowed, ", ")});
+    item.fields.push_back({"default", option.allowed.front()});
+  }
   return out;
 }
 

@@ -1,9 +1,11 @@
-// frictab export: the sources of a job's tables, or of one table file alone.
+// frictab export: the sources of a job's tables, of one table file alone, or of several laws in one
+// user file.
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/combined.h"
 #include "cli/job_commands.h"
 #include "codegen/exporter.h"
 #include "codegen/values_file.h"
@@ -19,6 +21,7 @@ struct Options {
   std::string table;
   std::vector<std::string> targets{"c", "abaqus_vfric"};
   std::string units = "mm-t-s";
+  std::vector<std::string> combine;
 };
 
 int export_alone(const Options& options, const CommonOptions& common) {
@@ -47,18 +50,31 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--table", options->table, "A table file, without a job; needs -o DIR")
       ->type_name("FILE");
   app.add_option("--targets", options->targets,
-                 "With --table: FE codes, a list or all (frictab list targets)")
+                 "Without a JOB: FE codes, a list or all (frictab list targets)")
       ->delimiter(',')
       ->type_name("NAMES");
-  app.add_option("--units", options->units, "With --table: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
+  app.add_option("--units", options->units, "Without a JOB: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
       ->type_name("SYSTEM");
+  app.add_option("--combine", options->combine,
+                 "Several laws in one user file, each by the name or number of its contact in the "
+                 "deck: PUNCH=A.h5 DIE=B.h5; needs -o DIR. With a JOB its [export] holds for all, "
+                 "else --targets and --units")
+      ->type_name("NAME=TABLE");
   return [options, &common]() -> int {
+    if (!options->combine.empty()) {
+      if (!options->table.empty())
+        throw InputError({}, "--combine and --table exclude each other",
+                         "--combine NAME=FILE takes the tables itself");
+      return export_combined({options->combine, options->job, options->targets, options->units},
+                             common);
+    }
     if (options->table.empty() == options->job.empty())
       throw InputError({},
                        options->job.empty() ? "nothing to export"
                                             : "JOB and --table exclude "
                                               "each other",
-                       "give a JOB file, or --table FILE -o DIR [--targets c,abaqus_vfric]");
+                       "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], or "
+                       "--combine NAME=FILE ... -o DIR --targets abaqus_vfric");
     if (!options->table.empty()) return export_alone(*options, common);
     return run_stages(options->job, common, [](run::Pipeline& p) { p.generate(); });
   };

@@ -1,10 +1,12 @@
-// frictab verify: a job's tables and sources, or one table alone for CI pipelines.
+// frictab verify: a job's tables and sources, one table alone for CI pipelines, or several laws in
+// one user file.
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
+#include "cli/combined.h"
 #include "cli/command.h"
 #include "core/error.h"
 #include "data/load.h"
@@ -23,6 +25,7 @@ struct Options {
   std::string table;
   std::string model;
   std::string data;
+  std::string combined;
   std::string junit;
   std::optional<double> max_drift_MPa;
 };
@@ -62,6 +65,15 @@ int verify_alone(const Options& options, const CommonOptions& common) {
   return verification.passed() ? 0 : 1;
 }
 
+int verify_together(const Options& options, const CommonOptions& common) {
+  const verify::Verification verification =
+      verify_combined(options.combined, options.max_drift_MPa);
+  write_junit(options, verification);
+  fmt::print("{}", common.json ? verify::verification_json(verification)
+                               : combined_drift_text(verification));
+  return verification.passed() ? 0 : 1;
+}
+
 int verify_job(const Options& options, const CommonOptions& common) {
   job::Job job = job::read_job(options.job, common.set);
   if (!common.output.empty()) job.directory = common.output;
@@ -86,18 +98,29 @@ const Registered<Command> registered{[] {
     app.add_option("--table", options->table, "A table file, without a job")->type_name("FILE");
     app.add_option("--model", options->model, "The model file it was made from")->type_name("FILE");
     app.add_option("--data", options->data, "Rows to compare on (CSV or HDF5)")->type_name("FILE");
+    app.add_option(
+           "--combined", options->combined,
+           "Directory of `export --combine`: each law through the entry they share, against "
+           "its table")
+        ->type_name("DIR");
     app.add_option("--max-drift-MPa", options->max_drift_MPa, "Largest drift allowed")
         ->type_name("X")
         ->check(CLI::PositiveNumber);
     app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
     return [options, &common]() -> int {
+      if (!options->combined.empty()) {
+        if (!options->job.empty() || !options->table.empty() || !options->model.empty())
+          throw InputError({}, "--combined DIR stands alone", "without JOB, --table and --model");
+        return verify_together(*options, common);
+      }
       const bool alone = !options->table.empty() || !options->model.empty();
       if (alone && (options->table.empty() || options->model.empty()))
         throw InputError({}, "--table and --model belong together",
                          "give both: --table tables/NAME.h5 --model models/NAME.json");
       if (!alone && options->job.empty())
         throw InputError({}, "nothing to verify",
-                         "give a JOB file, or --table FILE --model FILE [--data FILE]");
+                         "give a JOB file, --table FILE --model FILE [--data FILE], or --combined "
+                         "DIR");
       return alone ? verify_alone(*options, common) : verify_job(*options, common);
     };
   };

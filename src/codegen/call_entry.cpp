@@ -7,6 +7,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/entry_arguments.h"
+#include "codegen/prefix.h"
 
 namespace frictab::codegen {
 
@@ -67,7 +68,8 @@ void batch_entry(void* library, const ExportRequest& request, std::size_t rows,
   for (std::size_t c = 0; c < needed.size(); ++c)
     for (std::size_t i = 0; i < inputs.size(); ++i)
       if (inputs[i].name == needed[c]) x[i] = columns[c];
-  calls[inputs.size()](Library::address(library, "frictab_tau_R_batch"), rows, x, tau.data());
+  calls[inputs.size()](Library::address(library, prefixed(request, "frictab_tau_R_batch")), rows, x,
+                       tau.data());
 }
 
 void drive_entry(const Built& built, const ExportRequest& request, std::size_t rows,
@@ -76,7 +78,7 @@ void drive_entry(const Built& built, const ExportRequest& request, std::size_t r
   const std::vector<InputArgument> inputs = entry_arguments(request.table, request.units);
   const std::vector<std::string> needed = request.table.inputs();
   if (inputs.size() > most_arguments) throw std::runtime_error("too many arguments to call with");
-  void* function = Library::address(built.library, "frictab_tau_R");
+  void* function = Library::address(built.library, prefixed(request, "frictab_tau_R"));
   const SolverUnit stress = solver_unit("MPa", request.units);
   std::vector<double> x(inputs.size(), 0.0);
   std::vector<std::size_t> argument_of(needed.size());

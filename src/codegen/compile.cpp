@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "codegen/prefix.h"
 #include "core/text.h"
 
 extern char** environ;
@@ -32,14 +33,6 @@ void write_files(const SourceBundle& files, const fs::path& directory) {
     out.close();
     if (!out) throw std::runtime_error("cannot write " + (directory / path).string());
   }
-}
-
-std::string replace_all(std::string text, std::string_view from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
-    text.replace(at, from.size(), to);
-    at += to.size();
-  }
-  return text;
 }
 
 std::string file_text(const fs::path& file) {
@@ -118,8 +111,8 @@ void* Library::address(void* handle, const std::string& symbol) {
   return found;
 }
 
-void Library::tell_directory(const fs::path& directory) const {
-  if (void* tell = dlsym(handle_, "frictab_directory"))
+void Library::tell_directory(const fs::path& directory, const std::string& symbol) const {
+  if (void* tell = dlsym(handle_, symbol.c_str()))
     reinterpret_cast<void (*)(const char*)>(tell)(directory.c_str());
 }
 
@@ -137,11 +130,15 @@ TemporaryDirectory::~TemporaryDirectory() {
 CompiledTarget::CompiledTarget(const Exporter& exporter, const ExportRequest& request,
                                const SourceBundle& bundle, const BuildVariant& variant)
     : exporter_(exporter), request_(request), variant_(variant) {
-  if (variant.command.empty())
+  if (variant.command.empty()) {
     write_files(bundle, directory_.path());
-  else
-    library_.emplace(compile_library(bundle, variant, directory_.path()))
-        .tell_directory(directory_.path());
+    return;
+  }
+  library_.emplace(compile_library(bundle, variant, directory_.path()));
+  // The option is there for all targets of a job, and not all follow it.
+  for (const std::string& symbol :
+       {std::string("frictab_directory"), prefixed(request, "frictab_directory")})
+    library_->tell_directory(directory_.path(), symbol);
 }
 
 } // namespace frictab::codegen

@@ -37,8 +37,10 @@ public:
     return reinterpret_cast<Function*>(address(handle_, symbol));
   }
   static void* address(void* handle, const std::string& symbol);
-  // Tells generated code that reads a file of values where it lies; nothing to tell to other code.
-  void tell_directory(const std::filesystem::path& directory) const;
+  // Tells generated code that reads a file of values where it lies, by this C name; nothing to tell
+  // to code without it.
+  void tell_directory(const std::filesystem::path& directory,
+                      const std::string& symbol = "frictab_directory") const;
 
 private:
   void* handle_;

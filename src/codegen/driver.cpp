@@ -10,6 +10,7 @@
 
 #include <dlfcn.h>
 
+#include "codegen/combine.h"
 #include "codegen/compile.h"
 #include "codegen/histories.h"
 #include "codegen/solver_units.h"
@@ -37,10 +38,11 @@ struct Block {
 class Routine {
 public:
   Routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
-          std::string_view units, std::span<const double* const> columns)
-      : driver_(driver), inputs_(inputs), columns_(columns), stress_(solver_unit("MPa", units)),
+          const ExportRequest& request, std::span<const double* const> columns)
+      : driver_(driver), inputs_(inputs), columns_(columns),
+        stress_(solver_unit("MPa", request.units)),
         call_(reinterpret_cast<Ftdriv*>(Library::address(built.library, "ftdriv_"))),
-        constants_(static_cast<double*>(dlsym(built.library, "ftcons_"))) {
+        constants_(static_cast<double*>(dlsym(built.library, (stem(request) + "cons_").c_str()))) {
     for (const SolverInput& input : inputs_)
       fields_ = std::max(fields_, input.field);
     for (const GivenState& state : driver.gives.states)
@@ -204,7 +206,7 @@ std::vector<std::vector<std::size_t>> call_groups(const std::vector<SolverInput>
 void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
                    const ExportRequest& request, std::size_t rows,
                    std::span<const double* const> columns, std::span<double> tau) {
-  const Routine routine(driver, inputs, built, request.units, columns);
+  const Routine routine(driver, inputs, built, request, columns);
   std::vector<std::size_t> asked;
   for (std::size_t row = 0; row < rows; ++row)
     if (routine.row_can_be_posed(row)) asked.push_back(row);

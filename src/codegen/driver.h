@@ -9,7 +9,8 @@
 // solver has them and gives back what the routine says of each. v(i,k): the state of row i of the
 // solver's table (SolverGives::states) at point k; prop: the deck's properties; field: field
 // variables; hist: state variables of further histories (codegen/histories.h). All in the solver's
-// units.
+// units. @{contact} is what tells the contact apart where the routine has several laws: the name or
+// number of the law that is asked for.
 #pragma once
 
 #include <span>
@@ -34,7 +35,7 @@ struct Driver {
 // As Exporter::drive; `inputs` are those of the driver's table for this request. Rows that
 // contradict themselves as the state of a contact point (two sliding distances, a peak below the
 // present pressure) keep what is in `tau`. Constants of the source are set where it has them in
-// COMMON /FTCONS/.
+// COMMON /FTCONS/ (of one of several laws, /F1CONS/ and so on).
 void drive_routine(const Driver& driver, const std::vector<SolverInput>& inputs, const Built& built,
                    const ExportRequest& request, std::size_t rows,
                    std::span<const double* const> columns, std::span<double> tau);

@@ -24,6 +24,10 @@ struct ExportRequest {
   std::string units = "mm-t-s"; // mm-t-s: MPa, mm/s, mm, N | m-kg-s: Pa, m/s, m, N
   std::map<std::string, std::string> inputs = {};  // job's [export.inputs]; checked by the exporter
   std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
+  // One of several laws of a user file (codegen/combine.h): the name by which its entry knows this
+  // one, and its number from 1. 0: the only law.
+  std::string law_name = {};
+  std::size_t law_number = 0;
 
   // What the job says for an option; empty: nothing.
   std::string said(const std::string& option) const {
@@ -38,6 +42,9 @@ struct ExportOption {
   std::string name;
   std::vector<std::string> allowed; // the first is the default
   std::string meaning;
+  // Of an option of any text: what is wrong with one, "must be a name"; empty: nothing. Null: the
+  // allowed ones are all.
+  std::string (*fault)(const std::string& text) = nullptr;
 };
 
 // One way to make a bundle ready to be driven here: compiled to a shared library, or run by an
@@ -59,6 +66,12 @@ struct Built {
   void* library;                   // dlopen handle; null where nothing is compiled
   std::filesystem::path directory; // holds the bundle's files
   const BuildVariant& variant;
+};
+
+// Several laws in one user file.
+struct CombinedBundle {
+  SourceBundle files;
+  std::vector<ExportRequest> laws; // with names and numbers
 };
 
 struct Exporter {
@@ -94,6 +107,14 @@ struct Exporter {
   // what a benchmark calls. Null where the target has none.
   void (*batch)(void* library, const ExportRequest&, std::size_t rows,
                 std::span<const double* const> columns, std::span<double> tau) = nullptr;
+
+  // Several laws in one user file (codegen/combine.h), for requests with these names: the bundle,
+  // and the requests by which a variant of it is built and driven for one of the laws. Null: the
+  // target has no such file.
+  std::function<CombinedBundle(const std::vector<ExportRequest>&,
+                               const std::vector<std::string>& names)>
+      combine = {};
+  std::string several_laws = {}; // what tells them apart; where nothing is combined, why
 
   // A routine, which is the law's; not so a table of the solver's, made from the law for it.
   bool whole() const { return !own_table; }

@@ -122,6 +122,8 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
   table_.combine = substitute(table_.combine, {{stress_name, curve_}});
   set_range();
   curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
+  curved_->law_name = request.law_name;
+  curved_->law_number = request.law_number;
   curved_->inputs.erase(stress_name);
 }
 

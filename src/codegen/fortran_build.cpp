@@ -1,6 +1,9 @@
 // The flags of gfortran, and a stand-in for what ends an analysis.
 #include "codegen/fortran_build.h"
 
+#include <set>
+
+#include "codegen/combine.h"
 #include "codegen/fortran_stop.h"
 #include "core/text.h"
 
@@ -35,11 +38,14 @@ BuildVariant fortran_variant(const ExportRequest& request, const std::string& na
   out.command = library_command(flags);
   if (quits || ends(request)) { // of two definitions the linker takes the first
     out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
-    out.extra["ftquit.f"] =
-        "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
-        "      subroutine ftquit(text)\n"
-        "      character*(*) text\n"
-        "      end\n";
+    for (const std::string& letters : std::set<std::string>{"ft", stem(request)})
+      out.extra["ftquit.f"] +=
+          "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
+          "      subroutine " +
+          letters +
+          "quit(text)\n"
+          "      character*(*) text\n"
+          "      end\n";
   }
   for (const std::string& source : sources)
     out.command.push_back("@{dir}/" + source);

@@ -54,7 +54,7 @@ bool refuses(const table::Table& table) {
 }
 
 bool ends(const ExportRequest& request) {
-  return refuses(request.table) || values_in_file(request);
+  return refuses(request.table) || values_in_file(request) || request.law_number > 0;
 }
 
 } // namespace frictab::codegen::fortran

@@ -21,8 +21,8 @@ bool refuses(const table::Table& table);
 // ftquit(text) of a module: writes the text to the error unit, and ends nothing.
 std::string say();
 
-// Whether a routine of this request can end the analysis: where a side refuses, or a file of values
-// cannot be read.
+// Whether a routine of this request can end the analysis: where a side refuses, a file of values
+// cannot be read, or none of several laws is for a contact.
 bool ends(const ExportRequest& request);
 
 } // namespace frictab::codegen::fortran

@@ -40,11 +40,25 @@ std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportR
   const ExportRequest& request = curved.get();
   TemplateValues values;
   if (target.driver_values) values = target.driver_values(request, checked_inputs(target, request));
+  values.text["contact"] = request.law_number > 0 ? request.law_name : target.selector.alone;
+  values.offered = {"contact"};
   const std::string text = render_template(target.driver, values);
   std::vector<BuildVariant> all = target.variants(request);
   for (BuildVariant& one : all)
     add_driver(one, text);
   return all;
+}
+
+CombinedBundle combined(const RoutineTarget& target, const std::vector<ExportRequest>& requests,
+                        const std::vector<std::string>& names) {
+  CombinedBundle out{{}, named_laws(requests, names, target.selector)};
+  std::vector<SourceBundle> bundles;
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    bundles.push_back(said_of(names[i], [&] { return bundle(target, requests[i]); }));
+  out.files = combine({*find_exporter(target.about.name), target.entry,
+                       target.arguments(requests.front()), target.quit(), target.selector},
+                      out.laws, bundles);
+  return out;
 }
 
 } // namespace
@@ -53,6 +67,13 @@ Exporter routine_exporter(const RoutineTarget& target) {
   Exporter out = target.about;
   out.generate = [target](const ExportRequest& request) { return bundle(target, request); };
   out.variants = [target](const ExportRequest& request) { return with_driver(target, request); };
+  const LawSelector& by = target.selector;
+  out.several_laws = by.argument.empty() ? by.meaning : by.argument + ", " + by.meaning;
+  if (!by.argument.empty())
+    out.combine = [target](const std::vector<ExportRequest>& requests,
+                           const std::vector<std::string>& names) {
+      return combined(target, requests, names);
+    };
   out.caution = target.caution;
   out.held = [target](const ExportRequest& request) {
     const CurvedRequest curved(request, target.gives(request));

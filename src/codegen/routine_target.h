@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "codegen/combine.h"
 #include "codegen/driver.h"
 #include "codegen/exporter.h"
 #include "codegen/solver_inputs.h"
@@ -35,6 +36,11 @@ struct RoutineTarget {
   std::function<TemplateValues(const ExportRequest&, const std::vector<SolverInput>&)>
       driver_values = {};
   std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
+  // The head of the entry in its template: argument list and declarations of the arguments.
+  std::function<std::string(const ExportRequest&)> arguments = {};
+  LawSelector selector = {}; // what of them tells several laws apart
+  // ftquit of fortran::Core, for a contact that none of them is for.
+  std::function<std::string()> quit = {};
 };
 
 Exporter routine_exporter(const RoutineTarget& target);

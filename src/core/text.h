@@ -24,6 +24,8 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 // Bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
+std::string replace_all(std::string text, std::string_view from, std::string_view to);
+
 // Shortest text that reads back to the same bits: 0.1, 1e-20, nan, inf.
 std::string shortest(double value);
 

@@ -136,6 +136,10 @@ Problem option_problem(const std::string& name, const KeyValue& value) {
   const std::string& text = std::get<std::string>(value);
   for (const codegen::ExportOption& option : codegen::all_export_options()) {
     if (option.name != name) continue;
+    if (option.fault) {
+      const std::string fault = option.fault(text);
+      return fault.empty() ? Problem{} : Problem{fault + ", not the text " + toml_quoted(text), ""};
+    }
     if (std::find(option.allowed.begin(), option.allowed.end(), text) != option.allowed.end())
       return {};
     return {"must be one of " + join(option.allowed, ", ") + ", not the text " + toml_quoted(text),

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "table/bound.h"
 #include "table/outside.h"
+#include "verify/answers.h"
 #include "verify/beyond.h"
 
 namespace frictab::verify {
@@ -23,12 +24,6 @@ using table::Probe;
 namespace {
 
 using Columns = std::vector<const double*>;
-
-double difference(double a, double b) {
-  if (std::isnan(a) && std::isnan(b)) return 0;
-  const double d = std::abs(a - b);
-  return std::isnan(d) ? HUGE_VAL : d;
-}
 
 // Everything of one table that its sources are compared with.
 struct Subjects {
@@ -185,9 +180,6 @@ void compare_below(DriftRecord& record, const Subjects& s, const std::vector<dou
     record.below->max_abs_MPa =
         std::max(record.below->max_abs_MPa, difference(answer[i], s.below.law[i]));
 }
-
-// What a driver leaves where its solver can never be: tau_R is not negative.
-constexpr double not_posed = -1;
 
 // Such rows say nothing of a source, so they count as the table's own. A source that was asked
 // nothing at all has shown nothing. Gives how many they are.

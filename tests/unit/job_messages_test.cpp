@@ -191,6 +191,13 @@ TEST(JobMessages, SayTheAllowedWords) {
       "  hint: did you mean '2024'?\n"
       "job.toml:5:1: error: unknown option 'marc_fricton' in [export.options]\n"
       "  hint: did you mean 'marc_friction'?");
+  for (const std::string prefix :
+       {"2nd", "die oil", "_die", "d\u00fcse", "a23456789b123456789c12345"})
+    EXPECT_EQ(with("[export.options]\nprefix = \"" + prefix + "\""),
+              "job.toml:4:10: error: export.options.prefix must be a name of at most 24 letters, "
+              "digits and underscores that starts with a letter, not the text \"" +
+                  prefix + "\"");
+  EXPECT_EQ(with("[export.options]\nprefix = \"Die_oil_2\""), "accepted");
   EXPECT_EQ(with("[export.inputs]\n"
                  "psi = \"const:1\""),
             "job.toml:4:7: error: export.inputs.psi must be \"constant:NUMBER\", \"property\", "

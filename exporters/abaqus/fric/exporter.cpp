@@ -7,6 +7,7 @@
 
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
+#include "abaqus/stop.h"
 #include "codegen/fortran_build.h"
 #include "codegen/outside_summary.h"
 #include "codegen/recipe_states.h"
@@ -119,7 +120,10 @@ const Registered<Exporter> registered{[] {
                            .recipe = add_recipe,
                            .variants = variants,
                            .driver = "abaqus/fric/driver.f",
-                           .drive = driver});
+                           .drive = driver,
+                           .arguments = arguments,
+                           .selector = abaqus::interaction("ciname"),
+                           .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
 }};
 
 } // namespace

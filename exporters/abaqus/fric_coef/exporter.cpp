@@ -7,6 +7,7 @@
 
 #include "abaqus/deck.h"
 #include "abaqus/standard.h"
+#include "abaqus/stop.h"
 #include "codegen/fortran_build.h"
 #include "codegen/recipe_states.h"
 #include "codegen/routine_target.h"
@@ -131,7 +132,10 @@ const Registered<Exporter> registered{[] {
            [](const ExportRequest& request, const std::vector<SolverInput>&) {
              return TemplateValues{.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
            },
-       .drive = driver});
+       .drive = driver,
+       .arguments = arguments,
+       .selector = abaqus::interaction("surfInt"),
+       .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
 }};
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "abaqus/standard.h"
 #include "codegen/coefficient.h"
+#include "codegen/fortran_parts.h"
 #include "codegen/histories.h"
 #include "core/error.h"
 
@@ -88,6 +89,12 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return history + history_count(inputs);
 }
 
+std::string arguments(const ExportRequest& request) {
+  TemplateValues values;
+  values.flags["new"] = is_2024(request);
+  return render_template("abaqus/fric_coef/arguments.f", values);
+}
+
 std::string coef_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool newer = is_2024(request);
   if (!newer && abaqus::coefficient_is_frozen(target(), request))
@@ -102,6 +109,7 @@ std::string coef_source(const ExportRequest& request, const std::vector<SolverIn
   values.text["reads"] = fortran::reads(inputs, gives(request), "", 4);
   values.text["slopes"] = fortran::slopes(inputs, gives(request), {}, 4);
   values.flags["new"] = newer;
+  values.text["arguments"] = fortran::without_last_break(arguments(request));
   values.text["most"] = fortran::most_text();
   abaqus::add_states(values, state_count(inputs));
   return render_template("abaqus/fric_coef/frictab_fric_coef.f", values);

@@ -19,6 +19,9 @@ const codegen::SolverGives& gives(const codegen::ExportRequest& request);
 inline constexpr std::size_t history = 5;
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
+// The head of the entry: argument list and its declarations.
+std::string arguments(const codegen::ExportRequest& request);
+
 // Throws InputError where the coefficient shall be kept by an argument list without state
 // variables.
 std::string coef_source(const codegen::ExportRequest& request,

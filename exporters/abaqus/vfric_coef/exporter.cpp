@@ -63,6 +63,10 @@ std::vector<std::string> remarks(const ExportRequest& request) {
   return lines;
 }
 
+std::string arguments(const ExportRequest&) {
+  return render_template("abaqus/vfric_coef/arguments.f", {});
+}
+
 std::string source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const bool refuses = fortran::refuses(request.table);
   const bool unknown = fortran::needs_unknown(inputs, gives(request));
@@ -74,6 +78,7 @@ std::string source(const ExportRequest& request, const std::vector<SolverInput>&
   TemplateValues values;
   values.text = {{"head", abaqus::explicit_head(*find_exporter("abaqus_vfric_coef"), request,
                                                 inputs, remarks(request))},
+                 {"arguments", fortran::without_last_break(arguments(request))},
                  {"n_x", std::to_string(core.n_x)},
                  {"reads_once", fortran::reads(inputs, gives(request), "once")},
                  {"reads_point", fortran::reads(inputs, gives(request), "point", 2)},
@@ -156,7 +161,10 @@ const Registered<Exporter> registered{[] {
        .recipe = add_recipe,
        .variants = variants,
        .driver = "abaqus/vfric_coef/driver.f",
-       .drive = driver});
+       .drive = driver,
+       .arguments = arguments,
+       .selector = abaqus::interaction("surfInt", true),
+       .quit = [] { return abaqus::quit(abaqus::Solver::explicit_); }});
 }};
 
 } // namespace

@@ -63,6 +63,7 @@ abaqus::ForceRoutine routine() {
   r.state_by = "contact point";
   r.arguments_note = "VFRICTION's own 39 arguments; listed is where each state comes from";
   r.user = "user=friction";
+  r.general = true;
   r.deck_tail = "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
                 "*Contact Property Assignment\n , , FRICTAB\n";
   return r;

@@ -138,7 +138,9 @@ const Registered<Exporter> registered{[] {
                            .recipe = add_recipe,
                            .variants = variants,
                            .driver = "calculix/usrmu/driver.f",
-                           .drive = driver});
+                           .drive = driver,
+                           .selector = {.meaning = "USRMU is called with numbers of the contact "
+                                                   "point, which do not say which contact it is"}});
 }};
 
 } // namespace

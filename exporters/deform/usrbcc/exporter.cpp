@@ -118,6 +118,11 @@ Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
   return {.gives = gives(request), .result = coefficient_kind(request), .peak_presses = true};
 }
 
+// USRBCC is called for heat as well, and for edges that touch nothing.
+const char* const guard = "      if (imode .ne. 1) return\n"
+                          "      if (itype .ne. 2) return\n"
+                          "      if (ndie .eq. 0) return\n";
+
 const char* const source_of_signature =
     "verified: argument list, IMODE, ITYPE and that SLDVEL and PRESS exist for elastic dies only, "
     "in a public copy of the v14 manual; COMMON /UFHCOM/, /UFHCOM2/, /NODCOM/, /NODCOM2/, /USRCTL/ "
@@ -157,7 +162,15 @@ const Registered<Exporter> registered{[] {
        .recipe = add_recipe,
        .variants = variants,
        .driver = "deform/usrbcc/driver.f",
-       .drive = driver});
+       .drive = driver,
+       .arguments = arguments,
+       .selector = {.argument = "ndie",
+                    .meaning = "number of the object that is touched",
+                    .number = true,
+                    .alone = "2",
+                    .guard = guard,
+                    .deck = {{"<die>", "@"}}},
+       .quit = quit});
 }};
 
 } // namespace

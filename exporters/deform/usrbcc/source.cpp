@@ -141,6 +141,14 @@ void check_fields(const ExportRequest&, const std::vector<SolverInput>& inputs) 
   faults.throw_if_any();
 }
 
+std::string arguments(const ExportRequest&) {
+  return render_template("deform/usrbcc/arguments.f", {});
+}
+
+std::string quit() {
+  return fortran::quit("stop 1");
+}
+
 std::string usrbcc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const frictab::table::Table& table = request.table;
   const Coefficient kind = coefficient_kind(request);
@@ -162,8 +170,8 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, kind);
-  values.text["core"] =
-      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("stop 1")}).text;
+  values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
+  values.text["arguments"] = fortran::without_last_break(arguments(request));
   values.flags["histories"] = takes_history(inputs);
   Lines& warmest = values.lists["warmest"];
   for (const std::size_t state : peak_temperatures(inputs))

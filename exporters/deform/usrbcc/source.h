@@ -24,6 +24,10 @@ std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 // Throws InputError where a field's number is one of the histories.
 void check_fields(const codegen::ExportRequest&, const std::vector<codegen::SolverInput>& inputs);
 
+// The head of the entry: argument list and its declarations; and ftquit.
+std::string arguments(const codegen::ExportRequest&);
+std::string quit();
+
 std::string usrbcc_source(const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs);
 std::string usrupd_source(const codegen::ExportRequest& request,

@@ -156,7 +156,14 @@ const Registered<Exporter> registered{[] {
        .variants = variants,
        .driver = "lsdyna/usrfrc/driver.f",
        .driver_values = area_of_driver,
-       .drive = driver});
+       .drive = driver,
+       .arguments = arguments,
+       .selector = {.argument = "nosl",
+                    .meaning = "number of the contact",
+                    .number = true,
+                    .alone = "1",
+                    .deck = {{"<contact>", "@"}}},
+       .quit = quit});
 }};
 
 } // namespace

@@ -57,9 +57,16 @@ std::size_t state_count(const std::vector<SolverInput>& inputs) {
   return before_histories + 2 * history_count(inputs) + 2;
 }
 
+std::string arguments(const ExportRequest&) {
+  return render_template("lsdyna/usrfrc/arguments.f", {});
+}
+
+std::string quit() {
+  return fortran::quit("call cstop('E r r o r   t e r m i n a t i o n')");
+}
+
 std::string usrfrc_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const frictab::table::Table& table = request.table;
-  const std::string end = "call cstop('E r r o r   t e r m i n a t i o n')";
   TemplateValues values;
   fortran::add_head(values, *find_exporter("lsdyna_usrfrc"), request, inputs,
                     {.error_action = "CSTOP ends the analysis",
@@ -79,10 +86,11 @@ std::string usrfrc_source(const ExportRequest& request, const std::vector<Solver
   values.text["core"] =
       fortran::core(request,
                     {.unknown = true,
-                     .quit = fortran::quit(end),
+                     .quit = quit(),
                      .quits = true,
                      .summary = fortran::outside_summary(*find_exporter("lsdyna_usrfrc"), request)})
           .text;
+  values.text["arguments"] = fortran::without_last_break(arguments(request));
   values.flags["has_ends"] = !frictab::table::all_ends(table).empty();
   add_speed_scale(values, request, inputs);
   values.flags["uses_temperature"] = takes(inputs, "T_contact_C");

@@ -16,6 +16,10 @@ inline constexpr std::size_t before_histories = 4; // of UFHIST
 // be looked at the frictional shear stress and its share of the pressure.
 std::size_t state_count(const std::vector<codegen::SolverInput>& inputs);
 
+// The head of the entry: argument list and its declarations; and ftquit.
+std::string arguments(const codegen::ExportRequest&);
+std::string quit();
+
 std::string usrfrc_source(const codegen::ExportRequest& request,
                           const std::vector<codegen::SolverInput>& inputs);
 

@@ -129,7 +129,13 @@ const Registered<Exporter> registered{[] {
        .recipe = add_recipe,
        .variants = variants,
        .driver = "marc/ufric/driver.f",
-       .drive = driver});
+       .drive = driver,
+       .arguments = arguments,
+       .selector = {.argument = "nsurf",
+                    .meaning = "number of the contact body that is touched",
+                    .number = true,
+                    .alone = "1"},
+       .quit = quit});
 }};
 
 } // namespace

@@ -77,6 +77,18 @@ std::vector<std::string> result_lines(const Choices& chosen, const std::string& 
 
 } // namespace
 
+std::string quit() {
+  return fortran::quit("call quit(1234)");
+}
+
+std::string arguments(const ExportRequest& request) {
+  const int components = choices(request).slip_components;
+  TemplateValues values;
+  values.text = {{"n_coord", std::to_string(components + 1)},
+                 {"n_slip", std::to_string(components)}};
+  return render_template("marc/ufric/arguments.f", values);
+}
+
 std::string ufric_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   const table::Table& table = request.table;
   const Choices chosen = choices(request);
@@ -94,14 +106,13 @@ std::string ufric_source(const ExportRequest& request, const std::vector<SolverI
   const SolverUnit stress = solver_unit("MPa", request.units);
   values.lists["result"] = fortran::comments(result_lines(chosen, stress.name));
   values.text["result_name"] = coulomb ? "friction coefficient mu" : "shear factor m";
-  values.text["n_coord"] = std::to_string(chosen.slip_components + 1);
+  values.text["arguments"] = fortran::without_last_break(arguments(request));
   values.text["n_slip"] = std::to_string(chosen.slip_components);
   values.text["stress_convert"] = stress.same() ? "" : "/" + fortran_number(stress.over);
   values.text["common"] = fortran::constants_common(std::max<std::size_t>(inputs.size(), 1));
   values.text["constants"] = fortran::constants_data(inputs);
   values.text["coefficient"] = fortran::coefficient(table, chosen.coefficient);
-  values.text["core"] =
-      fortran::core(request, {.unknown = refuses, .quit = fortran::quit("call quit(1234)")}).text;
+  values.text["core"] = fortran::core(request, {.unknown = refuses, .quit = quit()}).text;
   values.flags["coulomb"] = coulomb;
   values.flags["by_force"] = chosen.by_force;
   values.flags["guards_pressure"] = refuses || (chosen.by_force && coulomb);

@@ -20,6 +20,10 @@ Choices choices(const codegen::ExportRequest& request);
 // What UFRIC's arguments hold.
 const codegen::SolverGives& gives(const codegen::ExportRequest& request);
 
+// The head of the entry: argument list and its declarations; and ftquit.
+std::string arguments(const codegen::ExportRequest& request);
+std::string quit();
+
 // Throws InputError where FN is a force and the coefficient depends on the pressure.
 std::string ufric_source(const codegen::ExportRequest& request,
                          const std::vector<codegen::SolverInput>& inputs);

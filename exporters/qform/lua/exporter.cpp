@@ -135,6 +135,7 @@ Exporter exporter() {
       "verified: a lubricant's subroutine is Lua (LuaJIT), a function FrictionStress that returns "
       "the stress, parameter(name, default) gives a number of the user's (QForm documentation). "
       "recalled, check against your release: the names of the arguments of FrictionStress";
+  out.several_laws = "QForm loads a file for each lubricant: export each law by itself";
   out.notes =
       "frictab_tau_R holds law, table and interpolation and is what is verified; FrictionStress "
       "only calls it, with argument names that you have to check against your release. Pressure, "

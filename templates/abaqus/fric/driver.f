@@ -15,7 +15,7 @@ C     more than the critical slip.
       dimension st(15+2*nh), pre(2,nf), props(np+1), along(2)
       save npoint
       data npoint /0/
-      cin = 'FRICTAB'
+      cin = '@{contact}'
       csl = 'SEC'
       cms = 'MAIN'
       nst = 15 + 2*nh

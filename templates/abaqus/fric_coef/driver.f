@@ -18,7 +18,7 @@ C     3 temperature.
 @else
       dimension coef(n), deriv(n,3), slip(n), rdata(3), idata(2)
 @end
-      cin = 'FRICTAB'
+      cin = '@{contact}'
       csl = 'SEC'
       cms = 'MAIN'
       nprops = np

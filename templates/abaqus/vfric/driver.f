@@ -14,7 +14,7 @@ C     Powers of two, as areas: dividing by them changes no bits.
       dimension tsec(n), psec(n,nf), tmain(n), pmain(n,nf)
       dimension jsec(n+3), jmain(4), jcs(n), jcm(4,n)
       nst = 8 + 2*nh
-      cin = 'FRICTAB'
+      cin = '@{contact}'
       csec = 'SEC'
       cmain = 'MAIN'
       ftan = 0

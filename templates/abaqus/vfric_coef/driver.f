@@ -8,7 +8,7 @@ C     2 speed, 3 temperature.
       character*80 cin, csec, cmain
       dimension coef(n), deriv(n,3), props(np), rate(n), press(n)
       dimension temp(n), fav(n,nf), jflags(2), rdata(3)
-      cin = ' '
+      cin = '@{contact}'
       csec = ' '
       cmain = ' '
       jflags = 1

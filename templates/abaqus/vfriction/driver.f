@@ -14,7 +14,7 @@ C     Powers of two, as areas: dividing by them changes no bits.
       dimension vm(3,4,n), ts(n), tm(n), fs(nf,n), fm(nf,n), props(np)
       dimension jsec(1,n), jmain(4,n), jflags(3), rdata(4)
       nst = 8 + 2*nh
-      cin = 'FRICTAB'
+      cin = '@{contact}'
       csec = ' '
       cmain = ' '
       jflags = 1

@@ -7,7 +7,7 @@ C     it is not is 0.
       implicit none
       integer*4 n, ns, np, nf, nh
       real*8 v(ns,n), prop(np), field(nf,n), hist(nh,n), tau(n)
-      integer nbcd(2,2), i, k, nusrn
+      integer nbcd(2,2), ndie, i, k, nusrn
       double precision rz(2,2), drz(2,2), usrnod(max(nf,3+nh),2)
       double precision temo(2), temc(2)
       double precision tmpenv, tmpslf, sldvel, press
@@ -16,6 +16,7 @@ C     it is not is 0.
       common /ufhcom2/ strch, efsts, efeps
       nusrn = max(nf, 3 + nh)
       nbcd = 0
+      ndie = @{contact}
       rz = 0.0D0
       drz = 0.0D0
       temo = 20.0D0
@@ -40,7 +41,7 @@ C     it is not is 0.
         end do
         usrnod(:,2) = usrnod(:,1)
         tau(k) = 777.0D0
-        call usrbcc(tau(k), 1, 2, 5, nbcd, 2, rz, drz, usrnod, nusrn,
-     &    20.0D0, temo, temc, 0.0D0, 1, 1, 2, 2)
+        call usrbcc(tau(k), 1, 2, 5, nbcd, ndie, rz, drz, usrnod,
+     &    nusrn, 20.0D0, temo, temc, 0.0D0, 1, 1, 2, 2)
       end do
       end

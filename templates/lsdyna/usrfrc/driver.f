@@ -11,7 +11,7 @@ C     Powers of two: dividing by them changes no bits.
       parameter (step = 2.0D0**(-30))
       integer insv(n), lsv(n), ix(n,4), iisv5(n), iseg(n), ilbsv(n)
       integer npc(1), lcfst(1), lcfdt(1), isurf(5*n,1), nhv, i, k, j
-      integer nact, nin, nodes
+      integer nact, nin, nodes, nosl
       real areas(n), none(5*n), fni(n), d(n,3), ua(np), rn(n,3)
       real fdat(5,n), f(n,3), ss(n), tt(n), stfk(n), frc(2,n), pld(2,1)
       real temp(5*n), ufhist(6+2*nh,n), ufeps(1,1)
@@ -79,8 +79,9 @@ C       What was slipped before this cycle
      &      kind(ufhist))
         end do
       end do
-      call usrfrc(1, none, 1, none, insv, areas, none, none, none, lsv,
-     &  ix(1,1), ix(1,2), ix(1,3), ix(1,4), none, none, none, none,
+      nosl = @{contact}
+      call usrfrc(nosl, none, 1, none, insv, areas, none, none, none,
+     &  lsv, ix(1,1), ix(1,2), ix(1,3), ix(1,4), none, none, none, none,
      &  none, none, fni, d(1,1), d(1,2), d(1,3), real(1/step, kind(d)),
      &  nin, ua, side, iisv5, nact, rn(1,1), rn(1,2), rn(1,3), none,
      &  none, none, none, none, fdat, iseg, f(1,1), f(1,2), f(1,3), ss,

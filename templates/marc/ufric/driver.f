@@ -14,7 +14,7 @@ C     3 temperature, 4 flow stress.
       coord = 0.0D0
       time = 0.0D0
       inc = 1
-      nsurf = 1
+      nsurf = @{contact}
       do k = 1, n
         vrel(1) = v(2,k)
         vrel(2) = 0.0D0

@@ -13,12 +13,7 @@ C     in BLOCK DATA FTDATA below.
 C     @{line.text}
 @end
 C
-      subroutine ufric(mibody,coord,fn,vrel,temp,yiel,fric,time,inc,
-     &  nsurf)
-      implicit none
-      integer mibody(4), inc, nsurf
-      double precision coord(@{n_coord}), fn, vrel(@{n_slip}), temp(2)
-      double precision yiel, fric, time
+@{arguments}
 C
       double precision x(@{n_x}), press, flow, speed
       double precision ftcoef

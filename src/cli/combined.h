@@ -1,0 +1,30 @@
+// `export --combine` and `verify --combined`: several laws in one user file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "verify/verification.h"
+
+namespace frictab::cli {
+
+struct CombineOptions {
+  std::vector<std::string> laws; // "PUNCH=tables/coulomb.h5"
+  std::string job;               // its [export] holds for all laws; empty: the next two
+  std::vector<std::string> targets;
+  std::string units;
+};
+
+// Writes DIR/<target>/ for each target.
+int export_combined(const CombineOptions& options, const CommonOptions& common);
+
+// Of all targets in the directory. Throws InputError where there is none.
+verify::Verification verify_combined(const std::string& directory,
+                                     std::optional<double> max_drift_MPa);
+
+// A line for each law and variant.
+std::string combined_drift_text(const verify::Verification& verification);
+
+} // namespace frictab::cli

@@ -1,0 +1,372 @@
+// Fills templates/fortran/frictab_combined.f, and writes the recipe of several laws.
+#include "codegen/combine.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codegen/fixed_form.h"
+#include "codegen/fortran_parts.h"
+#include "codegen/prefix.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "io/json.h"
+
+namespace frictab::codegen {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+// In a line of its own: '     &  ' and quotes, within 72 columns.
+constexpr std::size_t longest_name = 50;
+
+// DEFORM's USRUPD calls it, once for all laws.
+constexpr const char* called_by_solver = "ftupd";
+
+// ---- names ----
+
+std::string fault_of(const std::string& name, const LawSelector& by) {
+  const auto all = [&](auto fits) { return std::all_of(name.begin(), name.end(), fits); };
+  if (by.number) {
+    const bool digits = all([](unsigned char c) { return std::isdigit(c); });
+    if (digits && !name.empty() && name[0] != '0' && name.size() <= 9) return "";
+    return "is no " + by.meaning;
+  }
+  const auto printed = [](unsigned char c) { return c >= 32 && c < 127 && c != '\''; };
+  if (name.empty() || !all(printed) || name.front() == ' ' || name.back() == ' ')
+    return "is no " + by.meaning;
+  if (name.size() > longest_name)
+    return fmt::format("has {} characters; {} are allowed", name.size(), longest_name);
+  return "";
+}
+
+void check_names(const std::vector<std::string>& names, const LawSelector& by) {
+  FaultList faults;
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    const std::string fault = fault_of(name, by);
+    if (!fault.empty())
+      faults.add({}, fmt::format("'{}' {}", name, fault),
+                 "--combine NAME=TABLE, as the deck has it");
+    else if (!seen.insert(lower_case(name)).second)
+      faults.add({}, fmt::format("two laws for '{}'", name),
+                 "each name once; decks do not tell small letters from capitals");
+  }
+  faults.throw_if_any();
+}
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+// ---- other names for program units ----
+
+bool is_comment(std::string_view line) {
+  return !line.empty() && (line[0] == 'C' || line[0] == 'c' || line[0] == '*' || line[0] == '!');
+}
+
+// Calls `word(text)` for every word of a line that is not in quotes; what it gives takes the word's
+// place.
+template <class Word> std::string with_words(std::string_view line, const Word& word) {
+  const auto part_of_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
+  const bool comment = is_comment(line);
+  bool quoted = false;
+  std::string out;
+  for (std::size_t at = 0; at < line.size();) {
+    std::size_t end = at;
+    while (end < line.size() && part_of_word(line[end]))
+      ++end;
+    if (end > at && !quoted) {
+      out += word(std::string(line.substr(at, end - at)));
+    } else {
+      end = std::max(end, at + 1);
+      if (line[at] == '\'' && !comment) quoted = !quoted;
+      out += line.substr(at, end - at);
+    }
+    at = end;
+  }
+  return out;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+// Words of statements, in small letters.
+std::set<std::string> words_of_statements(const std::vector<std::string>& lines) {
+  std::set<std::string> words;
+  for (const std::string& line : lines)
+    if (!is_comment(line))
+      with_words(line, [&](const std::string& word) {
+        words.insert(lower_case(word));
+        return word;
+      });
+  return words;
+}
+
+// Of the statements' words those that are ours.
+std::set<std::string> own_names(const std::vector<std::string>& lines) {
+  std::set<std::string> names = words_of_statements(lines);
+  std::erase_if(names, [](const std::string& word) {
+    return word.size() < 3 || !word.starts_with("ft") || word == called_by_solver;
+  });
+  return names;
+}
+
+// fttau -> f1tau, FTCONS -> F1CONS; other words stay.
+std::string renamed(const std::string& word, const std::set<std::string>& names,
+                    const std::string& stem) {
+  if (!names.count(lower_case(word))) return word;
+  return (word[0] == 'f' ? stem : upper_case(stem)) + word.substr(2);
+}
+
+// A name that goes on in the next line could not be found by its words.
+void check_whole_words(const std::vector<std::string>& lines) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::string &before = lines[i - 1], &line = lines[i];
+    const bool goes_on = !is_comment(line) && line.size() > 6 && line[5] != ' ';
+    if (goes_on && !before.empty() && !is_comment(before) && in_word(before.back()) &&
+        in_word(line[6]))
+      throw std::logic_error("a name is cut between two lines: " + before);
+  }
+}
+
+// One law's source among several: its own names with another stem, in statements and comments, and
+// its entry. Texts in quotes stay.
+std::string with_stem(const std::string& source, const std::string& entry,
+                      const std::string& stem) {
+  const std::vector<std::string> lines = lines_of(source);
+  check_whole_words(lines);
+  const std::set<std::string> names = own_names(lines), words = words_of_statements(lines);
+  for (const std::string& name : names)
+    if (words.count(renamed(name, names, stem)))
+      throw std::logic_error("two meanings of " + renamed(name, names, stem));
+  std::string out;
+  for (const std::string& line : lines) {
+    const bool statement = !is_comment(line);
+    const std::string text = with_words(line, [&](const std::string& word) {
+      return statement && word == entry ? stem + entry : renamed(word, names, stem);
+    });
+    if (statement && text.size() > 72) throw std::logic_error("beyond column 72: " + text);
+    out += text + "\n";
+  }
+  return out;
+}
+
+// ---- the entry ----
+
+// The names between the brackets of "subroutine vfric(...)".
+std::string argument_names(const std::string& arguments) {
+  std::string code;
+  for (const std::string& line : lines_of(arguments))
+    if (!is_comment(line) && line.size() > 6) code += line.substr(6);
+  const std::size_t open = code.find('('), close = code.find(')');
+  std::string names;
+  for (const char c : code.substr(open + 1, close - open - 1))
+    if (c != ' ') names += c == ',' ? std::string(", ") : std::string(1, c);
+  return names;
+}
+
+// Decks come in capitals, unless a name stands in quotes there.
+std::string condition(const std::string& name, const LawSelector& by) {
+  if (by.number) return fmt::format("{} .eq. {}", by.argument, name);
+  const auto is = [&](const std::string& text) {
+    return fmt::format("{} .eq.\n     &  '{}'", by.argument, text);
+  };
+  const std::string capitals = upper_case(name);
+  return is(capitals) + (capitals == name ? "" : "\n     &  .or. " + is(name));
+}
+
+std::string about_law(const ExportRequest& law) {
+  return fmt::format("{}: {}", law.law_name, law.table.model);
+}
+
+std::string comment_lines(const std::string& text) {
+  std::string out;
+  for (const TemplateValues& line : fortran::comments({text}))
+    out += (out.empty() ? "C     " : "\nC     ") + line.text.at("text");
+  return out;
+}
+
+std::string combined_source(const Combination& c, const std::vector<ExportRequest>& laws,
+                            const std::vector<std::string>& sources) {
+  TemplateValues values;
+  values.text = {{"title", c.exporter.title},
+                 {"version", FRICTAB_VERSION},
+                 {"arguments", fortran::without_last_break(c.arguments)},
+                 {"guard", fortran::without_last_break(c.by.guard)},
+                 {"argument", c.by.argument},
+                 {"quit", c.quit}};
+  values.flags["number"] = c.by.number;
+  values.lists["about"] = fortran::comments(
+      {fmt::format("{} ({}) says which; any other ends the analysis.", c.by.argument, c.by.meaning),
+       "Each law follows as it is alone, its program units under letters of its own."});
+  const std::string names = argument_names(c.arguments);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    TemplateValues law;
+    law.text = {
+        {"about", comment_lines(about_law(laws[i]))},
+        {"condition", condition(laws[i].law_name, c.by)},
+        {"call", fixed_form(fmt::format("  call {}{}({})", stem(laws[i]), c.entry, names))}};
+    values.lists["laws"].push_back(law);
+    values.lists["sources"].push_back(item(fortran::without_last_break(sources[i])));
+  }
+  return render_template("fortran/frictab_combined.f", values);
+}
+
+// ---- the recipe ----
+
+std::string deck_of(std::string deck, const std::string& name, const LawSelector& by) {
+  for (const auto& [from, to] : by.deck)
+    for (std::size_t at = 0; (at = deck.find(from, at)) != std::string::npos;) {
+      std::string text = to;
+      text.replace(text.find('@'), 1, name);
+      if (by.number && text.size() < from.size()) text.insert(0, from.size() - text.size(), ' ');
+      deck.replace(at, from.size(), text);
+      at += text.size();
+    }
+  return deck;
+}
+
+// What a recipe says of the law and not of the routine.
+const std::vector<std::string> of_law = {"model",           "form",
+                                         "data_origin",     "values_file",
+                                         "options",         "dimension",
+                                         "arguments",       "result",
+                                         "acts_when",       "state_variables_by",
+                                         "state_variables", "properties",
+                                         "constants",       "build",
+                                         "input_deck",      "table"};
+
+json law_recipe(const json& alone, const ExportRequest& law, const Combination& c) {
+  json out = {{"name", law.law_name}, {"entry", stem(law) + c.entry}};
+  for (const std::string& key : of_law)
+    if (alone.contains(key)) out[key] = alone[key];
+  out["export"] = {{"inputs", law.inputs}, {"options", law.options}};
+  out["input_deck"] = deck_of(out.at("input_deck"), law.law_name, c.by);
+  return out;
+}
+
+json combined_recipe(const Combination& c, const std::vector<ExportRequest>& laws,
+                     const std::vector<std::string>& recipes, const SourceBundle& files) {
+  json out = io::parse_json(recipes.front(), "recipe.json");
+  out["schema"] = combined_schema;
+  for (const std::string& key : of_law)
+    out.erase(key);
+  out["files"] = json::array();
+  for (const auto& [path, text] : files)
+    out["files"].push_back(path);
+  out["files"].push_back("recipe.json");
+  out["told_apart_by"] = c.exporter.several_laws + "; any other ends the analysis";
+  out["laws_note"] =
+      "the deck needs the lines of all laws; keywords that are there once per model, "
+      "as *Contact or *CONTROL_CONTACT, once, with the larger numbers";
+  out["laws"] = json::array();
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    out["laws"].push_back(law_recipe(io::parse_json(recipes[i], "recipe.json"), laws[i], c));
+  return out;
+}
+
+// In a recipe, the names that its law's sources have now.
+std::string recipe_with_stem(const std::string& recipe, const SourceBundle& sources,
+                             const std::string& stem) {
+  std::set<std::string> names;
+  for (const auto& [path, text] : sources)
+    if (path.ends_with(".f")) names.merge(own_names(lines_of(text)));
+  return with_words("C" + recipe,
+                    [&](const std::string& word) { return renamed(word, names, stem); })
+      .substr(1);
+}
+
+// Whether the source holds the entry itself.
+bool holds(const std::string& source, const std::string& entry) {
+  return words_of_statements(lines_of(source)).count(entry) > 0;
+}
+
+// A file beside the entry's stands once for all laws: it may know none of them.
+void check_further(const std::string& path, const std::string& source, const ExportRequest& law) {
+  std::set<std::string> names = own_names(lines_of(source));
+  names.erase("ftnan");
+  if (!names.empty())
+    throw InputError({},
+                     fmt::format("{}: {} would keep histories of this law alone, and nothing "
+                                 "says there which law a node meets",
+                                 law.law_name, path),
+                     "laws that take slip, friction work and peak pressure at most");
+}
+
+// The files of a law as parts of the whole.
+SourceBundle one_of_several(const SourceBundle& alone, const ExportRequest& law,
+                            const std::string& entry) {
+  const std::string own = stem(law);
+  SourceBundle out;
+  for (const auto& [path, text] : alone) {
+    const bool source = path.ends_with(".f");
+    if (source && !holds(text, entry)) check_further(path, text, law);
+    out[path] = source ? with_stem(text, entry, own) : text;
+  }
+  out["recipe.json"] = recipe_with_stem(alone.at("recipe.json"), alone, own);
+  return with_prefix(out, law);
+}
+
+} // namespace
+
+std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
+                                      const std::vector<std::string>& names,
+                                      const LawSelector& by) {
+  if (laws.empty() || laws.size() > most_combined)
+    throw InputError({}, fmt::format("{} laws to combine; from 1 to {} go into one file",
+                                     laws.size(), most_combined));
+  check_names(names, by);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    laws[i].law_name = names[i];
+    laws[i].law_number = i + 1;
+  }
+  return laws;
+}
+
+std::string stem(const ExportRequest& request) {
+  if (request.law_number == 0) return "ft";
+  const std::size_t place = request.law_number - 1;
+  return {"fgh"[place / 9], static_cast<char>('1' + place % 9)};
+}
+
+SourceBundle combine(const Combination& c, const std::vector<ExportRequest>& laws,
+                     const std::vector<SourceBundle>& bundles) {
+  SourceBundle out;
+  std::string file;
+  std::vector<std::string> sources, recipes;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    for (const auto& [path, text] : one_of_several(bundles[i], laws[i], c.entry)) {
+      if (path == "recipe.json") {
+        recipes.push_back(text);
+      } else if (path.ends_with(".f") && holds(text, stem(laws[i]) + c.entry)) {
+        file = path;
+        sources.push_back(text);
+      } else {
+        out.emplace(path, text);
+      }
+    }
+  out[file] = combined_source(c, laws, sources);
+  out["recipe.json"] = io::json_text(combined_recipe(c, laws, recipes, out));
+  return out;
+}
+
+} // namespace frictab::codegen

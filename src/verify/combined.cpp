@@ -1,0 +1,109 @@
+// Drift of the laws in one user file.
+#include "verify/combined.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codegen/coefficient.h"
+#include "codegen/compile.h"
+#include "table/build.h"
+#include "table/drift.h"
+#include "verify/answers.h"
+
+namespace frictab::verify {
+
+namespace {
+
+// States over a law's range and what its table says there.
+struct Asked {
+  std::vector<std::string> names;
+  table::States states;
+  std::vector<double> tau;
+
+  std::vector<const double*> columns() const {
+    std::vector<const double*> all;
+    for (const std::vector<double>& column : states)
+      all.push_back(column.data());
+    return all;
+  }
+};
+
+// Where the solver gets mu, tau_R is at most the largest one times the pressure.
+void limit_mu(Asked& asked) {
+  const auto at = std::find(asked.names.begin(), asked.names.end(), "sigma_n_MPa");
+  if (at == asked.names.end()) return;
+  const std::vector<double>& pressure =
+      asked.states[static_cast<std::size_t>(at - asked.names.begin())];
+  for (std::size_t i = 0; i < asked.tau.size(); ++i)
+    asked.tau[i] = std::min(asked.tau[i], codegen::fortran::largest_coefficient * pressure[i]);
+}
+
+Asked ask_table(const codegen::Exporter& exporter, const codegen::ExportRequest& law,
+                std::size_t samples) {
+  Asked asked;
+  asked.names = law.table.inputs();
+  const auto ranges = table::table_ranges(law.table, nullptr, law.table.model);
+  asked.states = table::probe_points(ranges, law.table.axes, samples);
+  const table::HeldStates held = exporter.held ? exporter.held(law) : table::HeldStates{};
+  for (std::size_t d = 0; d < asked.names.size(); ++d)
+    if (const auto value = held.find(asked.names[d]); value != held.end())
+      std::fill(asked.states[d].begin(), asked.states[d].end(), value->second);
+  asked.tau.resize(asked.states.empty() ? 1 : asked.states.front().size());
+  table::TableFunction(law.table).evaluate(asked.tau.size(), asked.columns(), asked.tau);
+  if (exporter.gives_mu && exporter.gives_mu(law)) limit_mu(asked);
+  return asked;
+}
+
+void compare(DriftRecord& record, const Asked& asked, const std::vector<double>& tau) {
+  std::size_t furthest = 0;
+  record.n_points = tau.size();
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    if (tau[i] == not_posed) {
+      ++record.n_points_not_posed;
+      continue;
+    }
+    const double d = difference(tau[i], asked.tau[i]);
+    if (d <= record.max_vs_table_MPa) continue;
+    record.max_vs_table_MPa = d;
+    furthest = i;
+  }
+  // A law that was never asked has shown nothing.
+  if (record.n_points_not_posed == tau.size()) record.max_vs_table_MPa = HUGE_VAL;
+  for (std::size_t d = 0; d < asked.names.size(); ++d)
+    record.worst_state[asked.names[d]] = asked.states[d][furthest];
+}
+
+DriftRecord verify_law(const CombinedSource& source, const codegen::ExportRequest& law,
+                       const Asked& asked, const codegen::BuildVariant& variant, double allowed) {
+  DriftRecord record;
+  record.model = law.law_name + ": " + law.table.model;
+  record.subject = source.exporter->name + "/" + variant.name;
+  if (!codegen::have_program(variant.program())) {
+    record.ran = false;
+    record.why_not = "there is no " + variant.program() + " on this machine";
+    return record;
+  }
+  std::vector<double> tau(asked.tau.size(), not_posed);
+  codegen::CompiledTarget(*source.exporter, law, source.bundle.files, variant)
+      .drive(tau.size(), asked.columns(), tau);
+  compare(record, asked, tau);
+  record.worst_case_MPa = record.max_vs_table_MPa + law.table.record.worst_case_MPa.value_or(0);
+  record.passed = record.worst_case_MPa <= allowed;
+  return record;
+}
+
+} // namespace
+
+std::vector<DriftRecord> verify_combined(const CombinedSource& source,
+                                         std::optional<double> max_drift_MPa, std::size_t samples) {
+  std::vector<DriftRecord> records;
+  for (const codegen::ExportRequest& law : source.bundle.laws) {
+    const Asked asked = ask_table(*source.exporter, law, samples);
+    const double allowed = max_drift_MPa.value_or(law.table.record.tolerance_MPa.value_or(0.5));
+    for (const codegen::BuildVariant& variant : source.exporter->variants(law))
+      records.push_back(verify_law(source, law, asked, variant, allowed));
+  }
+  return records;
+}
+
+} // namespace frictab::verify

@@ -1,0 +1,293 @@
+// Several laws in one program: C names and modules under prefixes, and one user file whose entry
+// tells contacts apart by name.
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codegen/values_file.h"
+#include "core/error.h"
+#include "support/calls/vfriction.h"
+#include "support/generated.h"
+#include "support/sample_tables.h"
+
+namespace frictab {
+
+using codegen::CombinedBundle;
+using codegen::ExportRequest;
+using codegen::Library;
+using codegen::SourceBundle;
+using table::Table;
+using testing::HasSubstr;
+
+namespace {
+
+// ---- prefixes ----
+
+ExportRequest prefixed(const Table& table, const std::string& prefix) {
+  return {table, "mm-t-s", {}, {{"prefix", prefix}, {"values", "file"}}};
+}
+
+// Both laws in one library, asked through their own names.
+void expect_both_in_one_library(const codegen::Exporter& exporter, const std::string& suffix,
+                                const std::vector<std::string>& flags) {
+  // As long as a prefix may be, so that every line is as long as it can get.
+  const std::map<std::string, Table> laws = {{"die_oil", test::four_axis_table()},
+                                             {"a_very_long_name_indeed_", test::one_axis_table()}};
+  SourceBundle all;
+  codegen::BuildVariant build = exporter.variants(prefixed(laws.begin()->second, "die_oil"))[0];
+  std::erase_if(build.command, [&](const std::string& word) { return word.ends_with(suffix); });
+  test::add_flags(build, flags);
+  for (const auto& [prefix, table] : laws) {
+    SourceBundle bundle = exporter.generate(prefixed(table, prefix));
+    bundle.erase("recipe.json");
+    all.merge(bundle);
+    EXPECT_TRUE(bundle.empty()) << "two files of one name: " << bundle.begin()->first;
+    build.command.insert(build.command.begin() + 1, "@{dir}/" + prefix + "_tau_R" + suffix);
+  }
+  const codegen::TemporaryDirectory work;
+  const Library library(codegen::compile_library(all, build, work.path()));
+  for (const auto& [prefix, table] : laws) {
+    library.tell_directory(work.path(), prefix + "_directory");
+    const ExportRequest request = prefixed(table, prefix);
+    const test::States states(table, 500, 3);
+    std::vector<double> tau(states.rows());
+    exporter.drive({library.handle(), work.path(), build}, request, tau.size(), states.columns(),
+                   tau);
+    EXPECT_LE(test::worst_relative(tau, test::expected(table, states)), 1e-13) << prefix;
+  }
+}
+
+TEST(Prefix, LetsTwoLawsInCIntoOneProgramWithTheirFilesOfValues) {
+  expect_both_in_one_library(*codegen::find_exporter("c"), ".c", {"-Wall", "-Wextra", "-Werror"});
+}
+
+TEST(Prefix, LetsTwoModulesOfFortranIntoOneProgramWithTheirFilesOfValues) {
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  expect_both_in_one_library(*codegen::find_exporter("fortran"), ".f90", {"-Wall", "-Werror"});
+}
+
+TEST(Prefix, StandsInEveryNameOfTheBundleAndItsRecipe) {
+  const Table table = test::four_axis_table();
+  for (const char* target : {"c", "fortran"})
+    for (const auto& [path, text] :
+         codegen::find_exporter(target)->generate(prefixed(table, "die_oil"))) {
+      if (path.ends_with(".bin")) continue;
+      // frictab_kernel.h is where comments say the kernel comes from.
+      EXPECT_THAT(text, testing::Not(testing::ContainsRegex("frictab_[^k]|FRICTAB_TAU"))) << path;
+      EXPECT_THAT(text, HasSubstr("die_oil_tau_R")) << path;
+    }
+}
+
+// ---- one user file ----
+
+struct Laws {
+  std::vector<std::string> names;
+  std::vector<Table> tables;
+
+  // With what a target needs to be told of the samples' flow stress.
+  std::vector<ExportRequest> requests(const codegen::Exporter& exporter) const {
+    std::vector<ExportRequest> out;
+    for (const Table& table : tables)
+      out.push_back({table, "mm-t-s", test::sample_inputs(exporter)});
+    return out;
+  }
+  CombinedBundle bundle(const codegen::Exporter& exporter) const {
+    return exporter.combine(requests(exporter), names);
+  }
+};
+
+// Beside a stand-in for the solver's error routine that keeps what it was told.
+const char* const keeper = "      subroutine xplb_abqerr(lop, text, intv, realv, charv)\n"
+                           "      include 'vaba_param.inc'\n"
+                           "      character*(*) text, charv(*)\n"
+                           "      dimension intv(*), realv(*)\n"
+                           "      character*500 said\n"
+                           "      integer calls, kind\n"
+                           "      common /seen/ calls, kind, said\n"
+                           "      calls = calls + 1\n"
+                           "      kind = lop\n"
+                           "      said = text\n"
+                           "      end\n";
+struct Seen {
+  int calls, kind;
+  char said[500];
+};
+
+class CombinedLaws : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  }
+
+  static const codegen::Exporter& vfriction() {
+    return *codegen::find_exporter("abaqus_vfriction");
+  }
+  // One knows friction work and peak pressure, the other speed and temperature.
+  static const Laws& laws() {
+    static const Laws both{{"Punch", "DIE-2"}, {test::history_table(), test::four_axis_table()}};
+    return both;
+  }
+  static const Library& combined() {
+    static const codegen::TemporaryDirectory work;
+    static const Library library = [] {
+      const CombinedBundle bundle = laws().bundle(vfriction());
+      codegen::BuildVariant variant = vfriction().variants(bundle.laws[0])[0];
+      variant.extra["solver.f"] = keeper;
+      test::add_flags(variant, test::strict);
+      return Library(codegen::compile_library(bundle.files, variant, work.path()));
+    }();
+    return library;
+  }
+
+  // A block of 50 points, its states in no order.
+  static calls::VfrictionCall<double> block(std::size_t number) {
+    calls::VfrictionCall<double> c;
+    c.temperatures = true;
+    c.time_increment = 0x1p-20;
+    c.properties = {2.5, 60, 480};
+    c.resize(50);
+    for (std::size_t k = 0; k < 50; ++k) {
+      const auto share = [&](double step) {
+        return std::fmod(step * double(50 * number + k), 1.0);
+      };
+      c.normal[k] = 300 + 2000 * share(0.618);
+      c.slip[3 * k] = (1 + 300 * share(0.755)) * c.time_increment;
+      c.stick[k] = 600 * share(0.57) - 100;
+      c.temperature[k] = c.temperature_main[k] = 20 + 200 * share(0.82);
+    }
+    return c;
+  }
+};
+
+TEST_F(CombinedLaws, AreTheirSeparateRoutinesBitForBitInMixedBlocksWithTheirStateVariables) {
+  std::vector<void*> alone;
+  for (const ExportRequest& request : laws().requests(vfriction()))
+    alone.push_back(Library::address(
+        test::compiled(request.table.model, vfriction(), request, "double", test::strict)->handle(),
+        "vfriction_"));
+  // As decks give them: in capitals, unless in quotes.
+  const std::vector<std::vector<std::string>> names = {{"PUNCH", "Punch"}, {"DIE-2", "DIE-2"}};
+  std::size_t moved = 0;
+  for (std::size_t number = 0; number < 40; ++number) {
+    calls::VfrictionCall<double> wanted = block(number), got = wanted;
+    got.interaction = names[number % 2][number / 2 % 2];
+    for (int increment = 0; increment < 3; ++increment) {
+      wanted.run(alone[number % 2]);
+      got.run(Library::address(combined().handle(), "vfriction_"));
+    }
+    ASSERT_EQ(got.tangential, wanted.tangential) << number;
+    ASSERT_EQ(got.state, wanted.state) << number;
+    for (const double force : wanted.tangential)
+      moved += force != 0;
+  }
+  EXPECT_GT(moved, 1900u) << "of 2,000 points";
+}
+
+TEST_F(CombinedLaws, EndTheAnalysisForANameThatIsNoneOfThem) {
+  Seen& seen = *combined().find<Seen>("seen_");
+  for (const std::string name : {"OTHER", "PUNCH-2", "DIE", ""}) {
+    seen.calls = 0;
+    calls::VfrictionCall<double> c = block(1);
+    c.interaction = name;
+    c.tangential.assign(c.tangential.size(), 777);
+    c.run(Library::address(combined().handle(), "vfriction_"));
+    EXPECT_EQ(seen.calls, 1) << name;
+    EXPECT_EQ(seen.kind, -3) << "the solver's code for: stop at once";
+    EXPECT_EQ(std::string(seen.said, 500).substr(0, 43 + name.size()),
+              "friction table: there is no law for " + name + std::string(7, ' '));
+    EXPECT_EQ(c.tangential.front(), 777) << "no law was asked";
+  }
+}
+
+TEST(CombinedText, NamesEachLawWithItsOwnLinesForTheDeck) {
+  const Laws laws{{"Punch", "DIE"}, {test::constant_table(), test::branching_table()}};
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
+    if (!exporter.combine || !exporter.name.starts_with("abaqus")) continue;
+    const std::string recipe = laws.bundle(exporter).files.at("recipe.json");
+    EXPECT_THAT(recipe, HasSubstr("*Surface Interaction, name=Punch\\n"));
+    EXPECT_THAT(recipe, HasSubstr("*Surface Interaction, name=DIE\\n"));
+    EXPECT_THAT(recipe, testing::Not(HasSubstr("FRICTAB")));
+  }
+}
+
+TEST(CombinedText, IsMadeOfEveryTableAndOfMoreThanNineLaws) {
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
+    if (!exporter.combine) continue;
+    Laws laws;
+    for (const test::NamedTable& sample : test::sample_tables())
+      if (!sample.table.is_direct()) laws.tables.push_back(sample.table);
+    if (exporter.name == "deform_usrbcc") // USRUPD is not told the die
+      std::erase_if(laws.tables, [](const Table& table) { return table.model == "further"; });
+    laws.tables.resize(10, test::constant_table());
+    for (std::size_t i = 0; i < laws.tables.size(); ++i)
+      laws.names.push_back(std::to_string(i + 1));
+    const SourceBundle files = laws.bundle(exporter).files;
+    std::string all;
+    for (const auto& [path, text] : files)
+      all += text;
+    EXPECT_THAT(all, HasSubstr("call g1" + exporter.name.substr(exporter.name.find('_') + 1)));
+  }
+}
+
+TEST(CombinedText, RefusesNamesByWhichNoSolverCalls) {
+  const auto refusal = [](const char* target, const std::vector<std::string>& names) {
+    const codegen::Exporter& exporter = *codegen::find_exporter(target);
+    const Laws laws{names, std::vector<Table>(names.size(), test::constant_table())};
+    try {
+      laws.bundle(exporter);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal("abaqus_vfric", {"die", "DIE"}), HasSubstr("two laws for 'DIE'"));
+  EXPECT_THAT(refusal("abaqus_vfric", {"it's"}), HasSubstr("'it's' is no name of the *SURFACE"));
+  EXPECT_THAT(refusal("abaqus_vfric", {std::string(51, 'x')}), HasSubstr("has 51 characters"));
+  EXPECT_EQ(refusal("abaqus_vfric", {std::string(50, 'x'), "a b-c"}), "accepted");
+  EXPECT_THAT(refusal("marc_ufric", {"DIE"}), HasSubstr("'DIE' is no number of the contact body"));
+  EXPECT_THAT(refusal("marc_ufric", {"2", "02"}), HasSubstr("'02' is no number"));
+  EXPECT_EQ(refusal("abaqus_vfric", std::vector<std::string>(28, "x")).find("error: 28 laws"), 0u);
+}
+
+TEST(CombinedText, RefusesHistoriesThatNothingTellsApartByContact) {
+  const Laws laws{{"2", "3"}, {test::constant_table(), test::further_histories_table()}};
+  try {
+    laws.bundle(*codegen::find_exporter("deform_usrbcc"));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("3: frictab_usrupd.f would keep histories of this law"));
+  }
+}
+
+TEST(SlowCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombines) {
+  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  for (const codegen::Exporter& exporter : codegen::all_exporters()) {
+    if (!exporter.combine) continue;
+    const bool numbers = exporter.name.find("abaqus") == std::string::npos;
+    const std::vector<std::string> names =
+        numbers ? std::vector<std::string>{"3", "71"} : std::vector<std::string>{"PUNCH", "a die"};
+    const Laws laws{names, {test::spline_table(), test::branching_table()}};
+    const CombinedBundle bundle = laws.bundle(exporter);
+    const std::vector<ExportRequest> alone = laws.requests(exporter);
+    for (std::size_t law = 0; law < 2; ++law) {
+      const auto together = exporter.variants(bundle.laws[law]);
+      const auto separate = exporter.variants(alone[law]);
+      for (std::size_t v = 0; v < separate.size(); ++v) {
+        const test::States states(alone[law].table, 2000, 11);
+        std::vector<double> got(states.rows(), -1), wanted = got;
+        codegen::CompiledTarget(exporter, bundle.laws[law], bundle.files, together[v])
+            .drive(got.size(), states.columns(), got);
+        codegen::CompiledTarget(exporter, alone[law], exporter.generate(alone[law]), separate[v])
+            .drive(wanted.size(), states.columns(), wanted);
+        EXPECT_EQ(got, wanted) << exporter.name << "/" << separate[v].name << " " << names[law];
+        EXPECT_GT(*std::max_element(wanted.begin(), wanted.end()), 0);
+      }
+    }
+  }
+}
+
+} // namespace
+
+} // namespace frictab
