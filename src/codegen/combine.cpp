@@ -120,9 +120,17 @@ std::set<std::string> words_of_statements(const std::vector<std::string>& lines)
   return words;
 }
 
-// Of the statements' words those that are ours.
-std::set<std::string> own_names(const std::vector<std::string>& lines) {
-  std::set<std::string> names = words_of_statements(lines);
+// Names that a linker sees, of units and COMMON blocks, in small letters.
+std::set<std::string> linked_names(const SourceBundle& sources) {
+  std::set<std::string> names;
+  for (const auto& [path, text] : sources) {
+    if (!path.ends_with(".f")) continue;
+    for (const std::string& line : lines_of(text)) {
+      const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
+      if (has("subroutine ") || has("function ") || has("common /") || has("block data "))
+        names.merge(words_of_statements({line}));
+    }
+  }
   std::erase_if(names, [](const std::string& word) {
     return word.size() < 3 || !word.starts_with("ft") || word == called_by_solver;
   });
@@ -148,21 +156,26 @@ void check_whole_words(const std::vector<std::string>& lines) {
   }
 }
 
-// One law's source among several: its own names with another stem, in statements and comments, and
-// its entry. Texts in quotes stay.
-std::string with_stem(const std::string& source, const std::string& entry,
-                      const std::string& stem) {
+// Whether the source, or the line of one, has the head of this entry.
+bool holds(const std::string& source, const std::string& entry) {
+  return source.find("      subroutine " + entry) != std::string::npos;
+}
+
+// One law's source among several: its linked names with another stem, in statements and comments,
+// and its entry. Texts in quotes stay.
+std::string with_stem(const std::string& source, const std::set<std::string>& names,
+                      const std::string& entry, const std::string& stem) {
   const std::vector<std::string> lines = lines_of(source);
   check_whole_words(lines);
-  const std::set<std::string> names = own_names(lines), words = words_of_statements(lines);
+  const std::set<std::string> words = words_of_statements(lines);
   for (const std::string& name : names)
     if (words.count(renamed(name, names, stem)))
       throw std::logic_error("two meanings of " + renamed(name, names, stem));
   std::string out;
   for (const std::string& line : lines) {
-    const bool statement = !is_comment(line);
+    const bool statement = !is_comment(line), heads = holds(line, entry);
     const std::string text = with_words(line, [&](const std::string& word) {
-      return statement && word == entry ? stem + entry : renamed(word, names, stem);
+      return heads && word == entry ? stem + entry : renamed(word, names, stem);
     });
     if (statement && text.size() > 72) throw std::logic_error("beyond column 72: " + text);
     out += text + "\n";
@@ -285,44 +298,37 @@ json combined_recipe(const Combination& c, const std::vector<ExportRequest>& law
 }
 
 // In a recipe, the names that its law's sources have now.
-std::string recipe_with_stem(const std::string& recipe, const SourceBundle& sources,
+std::string recipe_with_stem(const std::string& recipe, const std::set<std::string>& names,
                              const std::string& stem) {
-  std::set<std::string> names;
-  for (const auto& [path, text] : sources)
-    if (path.ends_with(".f")) names.merge(own_names(lines_of(text)));
   return with_words("C" + recipe,
                     [&](const std::string& word) { return renamed(word, names, stem); })
       .substr(1);
 }
 
-// Whether the source holds the entry itself.
-bool holds(const std::string& source, const std::string& entry) {
-  return words_of_statements(lines_of(source)).count(entry) > 0;
-}
-
-// A file beside the entry's stands once for all laws: it may know none of them.
-void check_further(const std::string& path, const std::string& source, const ExportRequest& law) {
-  std::set<std::string> names = own_names(lines_of(source));
-  names.erase("ftnan");
-  if (!names.empty())
-    throw InputError({},
-                     fmt::format("{}: {} would keep histories of this law alone, and nothing "
-                                 "says there which law a node meets",
-                                 law.law_name, path),
-                     "laws that take slip, friction work and peak pressure at most");
+// A file beside the entry's stands once for all laws: it may know none of them. All have ftnan.
+void check_further(const std::string& path, const std::string& source,
+                   const std::set<std::string>& names, const ExportRequest& law) {
+  for (const std::string& word : words_of_statements(lines_of(source)))
+    if (names.count(word) && word != "ftnan")
+      throw InputError({},
+                       fmt::format("{}: {} would keep histories of this law alone, and nothing "
+                                   "says there which law a node meets",
+                                   law.law_name, path),
+                       "laws that take slip, friction work and peak pressure at most");
 }
 
 // The files of a law as parts of the whole.
 SourceBundle one_of_several(const SourceBundle& alone, const ExportRequest& law,
                             const std::string& entry) {
   const std::string own = stem(law);
+  const std::set<std::string> names = linked_names(alone);
   SourceBundle out;
   for (const auto& [path, text] : alone) {
     const bool source = path.ends_with(".f");
-    if (source && !holds(text, entry)) check_further(path, text, law);
-    out[path] = source ? with_stem(text, entry, own) : text;
+    if (source && !holds(text, entry)) check_further(path, text, names, law);
+    out[path] = source ? with_stem(text, names, entry, own) : text;
   }
-  out["recipe.json"] = recipe_with_stem(alone.at("recipe.json"), alone, own);
+  out["recipe.json"] = recipe_with_stem(alone.at("recipe.json"), names, own);
   return with_prefix(out, law);
 }
 

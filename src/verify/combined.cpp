@@ -14,6 +14,9 @@ namespace frictab::verify {
 
 namespace {
 
+constexpr const char* normal_stress = "sigma_n_MPa";
+constexpr std::size_t points_below = 4096; // Halton points
+
 // States over a law's range and what its table says there.
 struct Asked {
   std::vector<std::string> names;
@@ -30,7 +33,7 @@ struct Asked {
 
 // Where the solver gets mu, tau_R is at most the largest one times the pressure.
 void limit_mu(Asked& asked) {
-  const auto at = std::find(asked.names.begin(), asked.names.end(), "sigma_n_MPa");
+  const auto at = std::find(asked.names.begin(), asked.names.end(), normal_stress);
   if (at == asked.names.end()) return;
   const std::vector<double>& pressure =
       asked.states[static_cast<std::size_t>(at - asked.names.begin())];
@@ -38,12 +41,27 @@ void limit_mu(Asked& asked) {
     asked.tau[i] = std::min(asked.tau[i], codegen::fortran::largest_coefficient * pressure[i]);
 }
 
+// Over the range, and where forming contacts begin: in the decade below its lowest pressure.
+table::States states_of(const table::Table& table, std::size_t samples) {
+  auto ranges = table::table_ranges(table, nullptr, table.model);
+  table::States states = table::probe_points(ranges, table.axes, samples);
+  for (table::StateRange& range : ranges) {
+    if (range.name != normal_stress || !(range.low > 0)) continue;
+    range.high = range.low;
+    range.low = 0.1 * range.low;
+    const table::States below = table::box_points(ranges, std::min(samples, points_below));
+    for (std::size_t d = 0; d < states.size(); ++d)
+      states[d].insert(states[d].end(), below[d].begin(), below[d].end());
+    break;
+  }
+  return states;
+}
+
 Asked ask_table(const codegen::Exporter& exporter, const codegen::ExportRequest& law,
                 std::size_t samples) {
   Asked asked;
   asked.names = law.table.inputs();
-  const auto ranges = table::table_ranges(law.table, nullptr, law.table.model);
-  asked.states = table::probe_points(ranges, law.table.axes, samples);
+  asked.states = states_of(law.table, samples);
   const table::HeldStates held = exporter.held ? exporter.held(law) : table::HeldStates{};
   for (std::size_t d = 0; d < asked.names.size(); ++d)
     if (const auto value = held.find(asked.names[d]); value != held.end())

@@ -16,9 +16,10 @@ struct CombinedSource {
 };
 
 // One record for each law and variant, its model "PUNCH: coulomb". The drift from the law is that
-// from the table over its whole range and what the table itself is known to drift from its law
-// (0 of a table that does not say it); allowed is `max_drift_MPa`, else the table's tolerance, else
-// 0.5 MPa. Throws InputError where a table has no range for a state.
+// from the table, over its whole range and the decade below its lowest pressure, and what the table
+// itself is known to drift from its law (0 of a table that does not say it); allowed is
+// `max_drift_MPa`, else the table's tolerance, else 0.5 MPa. Throws InputError where a table has no
+// range for a state.
 std::vector<DriftRecord> verify_combined(const CombinedSource& source,
                                          std::optional<double> max_drift_MPa, std::size_t samples);
 
