@@ -79,7 +79,7 @@ std::vector<const codegen::Exporter*> combining(const std::vector<std::string>& 
                                             : "the solver's own tables are one per contact"));
   if (out.empty()) throw InputError({}, join(left_out, "; "), "for example --targets abaqus_vfric");
   for (const std::string& line : left_out)
-    note(common, line);
+    note(common, "left out: " + line);
   return out;
 }
 

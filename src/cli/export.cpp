@@ -56,9 +56,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--units", options->units, "Without a JOB: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
       ->type_name("SYSTEM");
   app.add_option("--combine", options->combine,
-                 "Several laws in one user file, each by the name or number of its contact in the "
-                 "deck: PUNCH=A.h5 DIE=B.h5; needs -o DIR. With a JOB its [export] holds for all, "
-                 "else --targets and --units")
+                 "Several laws in one user file, by the names of their contacts in the deck "
+                 "(PUNCH=A.h5 DIE=B.h5); needs -o DIR. A JOB's [export] holds for all of them")
       ->type_name("NAME=TABLE");
   return [options, &common]() -> int {
     if (!options->combine.empty()) {
