@@ -54,7 +54,7 @@ C     to it that the end of the program is told.
       implicit none
       double precision x(@{n_x})
       interface
-        subroutine ftlast() bind(c, name='frictab_outside_summary')
+        subroutine ftlast() bind(c, name='')
         end subroutine ftlast
         integer(c_int) function ftexit(task) bind(c, name='atexit')
           import :: c_int, c_funptr
@@ -104,7 +104,7 @@ C     Zeros are a lock that nobody holds.
       return
       end
 C
-      subroutine ftlast() bind(c, name='frictab_outside_summary')
+      subroutine ftlast() bind(c, name='')
       implicit none
       double precision none(@{n_x})
       none = 0.0D0
