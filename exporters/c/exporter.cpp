@@ -11,12 +11,14 @@
 #include "codegen/number_text.h"
 #include "codegen/prefix.h"
 #include "codegen/recipe.h"
+#include "codegen/single_precision.h"
 #include "codegen/table_text.h"
 #include "codegen/template.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "parts.h"
+#include "single.h"
 #include "table/axis_search.h"
 #include "table/spline.h"
 
@@ -171,13 +173,8 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   return render_template("c/frictab_tau_R.c", values);
 }
 
-// The direct form is arithmetic in rows, which gcc 12 vectorises fully at -O3 only.
-std::string optimisation(const Table& table) {
-  return table.is_direct() ? "-O3" : "-O2";
-}
-
 std::string recipe(const ExportRequest& request, const std::vector<InputArgument>& inputs,
-                   const SourceBundle& files) {
+                   const SourceBundle& files, const std::optional<RoundingBound>& single) {
   nlohmann::ordered_json out = recipe_head(*find_exporter("c"), request, "frictab_tau_R", files);
   const std::string one = join(parameters(inputs, "double"), ", ");
   const std::string many = "size_t n, " + join(parameters(inputs, "const double*"), ", ");
@@ -208,6 +205,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
   if (!request.table.is_direct())
     out["compile_note"] = "with -march=native the same bits, in half the time where the table is "
                           "cubic; for the machine that runs it only";
+  if (single) out["single_precision"] = single_recipe(request, inputs, *single);
   out["input_deck"] = nullptr;
   out["table"] = recipe_table(request);
   return io::json_text(out);
@@ -221,7 +219,13 @@ SourceBundle generate(const ExportRequest& request) {
   files["frictab_tau_R.c"] =
       request.table.is_direct() ? direct_source(request, inputs) : table_source(request, inputs);
   add_values_file(files, request);
-  files["recipe.json"] = recipe(request, inputs, files);
+  std::optional<RoundingBound> single;
+  if (wants_single(request)) {
+    check_single(request);
+    single = rounding_bound(request);
+    add_single(files, request, inputs, *single);
+  }
+  files["recipe.json"] = recipe(request, inputs, files, single);
   return with_prefix(files, request);
 }
 
@@ -239,7 +243,14 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
                  "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
                  "-lm"};
   c99.eps = 0x1p-53;
-  return {c99};
+  if (!wants_single(request)) return {c99};
+  return {c99, single_build(request.table)};
+}
+
+void drive(const Built& built, const ExportRequest& request, std::size_t rows,
+           std::span<const double* const> columns, std::span<double> tau) {
+  const auto entry = built.variant.name == single_variant ? drive_single_entry : drive_entry;
+  entry(built, request, rows, columns, tau);
 }
 
 const char* const notes =
@@ -258,10 +269,10 @@ const Registered<Exporter> registered{[] {
                   .title = "C99 function",
                   .signature_source = "verified: ours, fixed by frictab's contract",
                   .notes = notes,
-                  .options = {values_option(), prefix_option()},
+                  .options = {values_option(), prefix_option(), precision_option()},
                   .generate = generate,
                   .variants = variants,
-                  .drive = drive_entry,
+                  .drive = drive,
                   .batch = batch_entry,
                   .several_laws = several_laws};
 }};

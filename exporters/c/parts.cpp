@@ -1,6 +1,7 @@
 // Pieces of the C sources that table and direct form share.
 #include "parts.h"
 
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -77,6 +78,10 @@ Lines constants_of(const Table& table, const Variables& variables) {
   return constants;
 }
 
+std::string optimisation(const Table& table) {
+  return table.is_direct() ? "-O3" : "-O2";
+}
+
 std::string without_last_break(std::string text) {
   if (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
@@ -91,15 +96,20 @@ std::size_t index_of(const std::vector<InputArgument>& inputs, const std::string
   return i;
 }
 
-std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind) {
+std::vector<std::string> sides(const Table& table, const Variables& variables, Outside kind,
+                               double rounding) {
   std::vector<std::string> tests;
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     const bool refuses = kind == Outside::error;
     const std::string& x = variables.name(axis.name);
     if (axis.below == kind)
-      tests.push_back(x + " < " + c_number(refuses ? axis.refused_below : axis.low));
+      tests.push_back(
+          x + " < " +
+          c_number(refuses ? axis.refused_below : axis.low - rounding * std::abs(axis.low)));
     if (axis.above == kind)
-      tests.push_back(x + " > " + c_number(refuses ? axis.refused_above : axis.high));
+      tests.push_back(
+          x + " > " +
+          c_number(refuses ? axis.refused_above : axis.high + rounding * std::abs(axis.high)));
   }
   return tests;
 }
@@ -152,11 +162,12 @@ std::string piece_gradient_call(const Table& table, const std::vector<InputArgum
 }
 
 std::vector<std::string> refusing_sides(const Table& table, const Variables& variables) {
-  return sides(table, variables, Outside::error);
+  return sides(table, variables, Outside::error, 0);
 }
 
-std::vector<std::string> extending_sides(const Table& table, const Variables& variables) {
-  return sides(table, variables, Outside::law);
+std::vector<std::string> extending_sides(const Table& table, const Variables& variables,
+                                         double rounding) {
+  return sides(table, variables, Outside::law, rounding);
 }
 
 namespace {

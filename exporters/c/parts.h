@@ -39,6 +39,10 @@ void add_state(codegen::TemplateValues& values, const table::Table& table,
 // Of the formula, with their numbers.
 codegen::Lines constants_of(const table::Table& table, const codegen::Variables& variables);
 
+// Of the compiler: the direct form is arithmetic in rows, which gcc 12 vectorises fully at -O3
+// only.
+std::string optimisation(const table::Table& table);
+
 // Template texts end with a line break of their own.
 std::string without_last_break(std::string text);
 
@@ -47,9 +51,19 @@ std::vector<std::string> piece_states(const table::Table& table,
                                       const std::vector<codegen::InputArgument>& inputs,
                                       const codegen::Variables& variables);
 
+// How a source declares what it does not export: "static" and "static const", or macros for device
+// code, which then has no clones of functions for wider vectors.
+struct Scope {
+  const char* function = "static";
+  const char* data = "static const";
+  bool clones = true;
+  const char* unit_error = "5e-15"; // of tanh by ft_unit, relative
+};
+
 // The law's own formula as a function of the states, ft_piece; with its derivatives,
 // ft_piece_gradient; and a call of either, which may go over several lines.
-std::string piece(const table::Table& table, const std::vector<codegen::InputArgument>& inputs);
+std::string piece(const table::Table& table, const std::vector<codegen::InputArgument>& inputs,
+                  const Scope& scope = {});
 std::string piece_gradient(const table::Table& table,
                            const std::vector<codegen::InputArgument>& inputs);
 std::string piece_call(const table::Table& table, const std::vector<codegen::InputArgument>& inputs,
@@ -59,11 +73,11 @@ std::string piece_gradient_call(const table::Table& table,
                                 const codegen::Variables& variables);
 
 // "sigma_n_MPa < 4.5" for every side that refuses; "T_contact_C > 200.0" for every side where the
-// law goes on.
+// law goes on, beyond the end by more than `rounding` of its value.
 std::vector<std::string> refusing_sides(const table::Table& table,
                                         const codegen::Variables& variables);
 std::vector<std::string> extending_sides(const table::Table& table,
-                                         const codegen::Variables& variables);
+                                         const codegen::Variables& variables, double rounding = 0);
 
 // frictab_outside and frictab_count_outside.
 std::string outside_functions(const table::Table& table,

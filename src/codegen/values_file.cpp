@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "codegen/baked_table.h"
+#include "codegen/single_precision.h"
 #include "codegen/table_checks.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -32,9 +33,9 @@ std::uint32_t crc32_of(const char* bytes, std::size_t size) {
       crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes), size));
 }
 
-bool has_option(const Exporter& exporter) {
+bool has_option(const Exporter& exporter, const std::string& name) {
   for (const ExportOption& option : exporter.options)
-    if (option.name == values_key) return true;
+    if (option.name == name) return true;
   return false;
 }
 
@@ -86,10 +87,12 @@ void check_request_size(const table::Table& table, const std::vector<const Expor
                         const std::map<std::string, std::string>& options) {
   for (const Exporter* target : targets) {
     if (!target->whole()) continue; // a table of its own
-    if (has_option(*target))
-      check_size({.table = table, .options = options});
+    const ExportRequest request{.table = table, .options = options};
+    if (has_option(*target, values_key))
+      check_size(request);
     else
       check_table_size(table);
+    if (has_option(*target, precision_option().name)) check_single_size(request);
   }
 }
 

@@ -14,7 +14,6 @@ using expr::Expr;
 
 namespace {
 
-constexpr double rounding = 1e-6; // of an end's value
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 const std::pair<Outside, const char*> names[] = {
@@ -49,8 +48,8 @@ Outside below_pressures(const Table& table) {
 AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
     : name(axis.name), input(number_of_input), low(axis.nodes.front()), high(axis.nodes.back()),
       below(axis.below), above(axis.above),
-      refused_below(below == Outside::error ? low - rounding * std::abs(low) : -infinite),
-      refused_above(above == Outside::error ? high + rounding * std::abs(high) : infinite) {}
+      refused_below(below == Outside::error ? low - end_rounding * std::abs(low) : -infinite),
+      refused_above(above == Outside::error ? high + end_rounding * std::abs(high) : infinite) {}
 
 AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
                    std::pair<double, double> range)

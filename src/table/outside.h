@@ -22,6 +22,10 @@ Outside usual_below(std::string_view axis);
 // What holds below the contact normal stresses that were tested; the law where they are no axis.
 Outside below_pressures(const Table& table);
 
+// A solver in single precision misses an end by rounding: what lies beyond it by no more than this
+// part of the end's own value is not refused, and is the end for what computes in single precision.
+inline constexpr double end_rounding = 1e-6;
+
 // The range of one axis, or of an input that is held, with what holds on either side of it.
 struct AxisEnds {
   explicit AxisEnds(const TableAxis& axis, std::size_t number_of_input = 0);
@@ -33,8 +37,7 @@ struct AxisEnds {
   double low, high;
   Outside below, above;
   bool held = false; // no axis: the law holds this input at the same ends
-  // Beyond these a query is refused: by more than a millionth of the end's own value, since a
-  // solver in single precision misses an end by rounding. Infinite where the side does not refuse.
+  // Beyond these a query is refused: by more than end_rounding. Infinite where the side does not.
   double refused_below, refused_above;
 
   bool leaves(double x) const { return x < low || x > high; }
