@@ -82,14 +82,6 @@ TemplateValues axis_values(const table::TableAxis& axis, std::size_t index, long
   return values;
 }
 
-// Arguments that this law leaves alone: said to the compiler.
-std::vector<std::string> unused(const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> names;
-  for (const InputArgument& input : inputs)
-    if (!input.used) names.push_back(input.argument);
-  return names;
-}
-
 void add_axes(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
               const Variables& variables) {
   std::size_t used = 0;

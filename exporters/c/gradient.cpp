@@ -134,10 +134,7 @@ std::string gradient_functions(const ExportRequest& request,
   const Slopes slopes = add_states(values, table, inputs, variables);
   add_axis_slopes(values, table, variables, slopes);
   values.flags["in_file"] = values_in_file(request);
-  std::vector<std::string> unused;
-  for (const InputArgument& input : inputs)
-    if (!input.used) unused.push_back(input.argument);
-  values.lists["unused"] = items(unused);
+  values.lists["unused"] = items(unused(inputs));
   add_formula(values, request, inputs, variables, slopes);
   values.lists["refusing"] = items(refusing_sides(table, variables));
   values.flags["has_piece"] = has_piece;

@@ -27,6 +27,13 @@ std::vector<std::string> parameters(const std::vector<InputArgument>& inputs,
   return pieces;
 }
 
+std::vector<std::string> unused(const std::vector<InputArgument>& inputs) {
+  std::vector<std::string> names;
+  for (const InputArgument& input : inputs)
+    if (!input.used) names.push_back(input.argument);
+  return names;
+}
+
 std::string lines(const std::vector<std::string>& pieces) {
   return number_lines(pieces, 90, "");
 }
@@ -232,11 +239,9 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   values.text["result"] = in_units(code.results[0], request.units);
   values.text["outside"] = outside_functions(table, inputs);
   values.text["gradient"] = gradient;
-  std::vector<std::string> unused;
-  for (const InputArgument& input : inputs)
-    if (!input.used) unused.push_back(input.argument);
-  if (!symbols(table.combine).count("value")) unused.push_back(variables.name("value"));
-  values.lists["unused"] = items(unused);
+  values.lists["unused"] = items(unused(inputs));
+  if (!symbols(table.combine).count("value"))
+    values.lists["unused"].push_back(item(variables.name("value")));
   values.lists["refusing"] = items(refusing_sides(table, variables));
   values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_direct.c", values);

@@ -16,6 +16,9 @@ namespace frictab::c_target {
 std::vector<std::string> parameters(const std::vector<codegen::InputArgument>& inputs,
                                     std::string_view type);
 
+// Arguments that this law leaves alone: said to the compiler.
+std::vector<std::string> unused(const std::vector<codegen::InputArgument>& inputs);
+
 // Broken into lines; the template sets them in.
 std::string lines(const std::vector<std::string>& pieces);
 

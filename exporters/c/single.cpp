@@ -79,6 +79,10 @@ std::vector<std::size_t> strides(const Table& table) {
   return out;
 }
 
+std::string times(std::size_t factor) {
+  return factor == 1 ? "" : fmt::format(" * {}", factor);
+}
+
 // Steps of the search in so many cells: half of what is left, until one is.
 std::vector<std::string> search_steps(std::size_t cells, std::size_t axis) {
   std::vector<std::string> out;
@@ -88,7 +92,7 @@ std::vector<std::string> search_steps(std::size_t cells, std::size_t axis) {
   return out;
 }
 
-TemplateValues axis_values(const table::TableAxis& axis, std::size_t index) {
+TemplateValues single_axis(const table::TableAxis& axis, std::size_t index) {
   const std::vector<double> nodes = single_nodes(axis);
   const table::SplineAxis spline = table::spline_axis(axis);
   TemplateValues values;
@@ -124,7 +128,7 @@ void add_linear(TemplateValues& values, const Table& table) {
   std::vector<std::string> weights, at;
   for (std::size_t a = 0; a < stride.size(); ++a) {
     weights.push_back(fmt::format("w{}", a));
-    at.push_back(fmt::format("ft_cell{0}(u{0}, &w{0}) * {1}", a, stride[a]));
+    at.push_back(fmt::format("ft_cell{0}(u{0}, &w{0}){1}", a, times(stride[a])));
   }
   const std::vector<std::size_t> lower = corners(stride);
   for (const std::size_t corner : lower) {
@@ -185,7 +189,7 @@ void add_cubic(TemplateValues& values, const Table& table) {
   const std::vector<std::size_t> stride = strides(table);
   std::vector<std::string> at, counters{"j"}, sums;
   for (std::size_t a = 0; a < stride.size(); ++a) {
-    at.push_back(fmt::format("ft_first{0}[cell{0}] * {1}", a, stride[a]));
+    at.push_back(fmt::format("ft_first{0}[cell{0}]{1}", a, times(stride[a])));
     if (a + 2 < stride.size()) counters.push_back(fmt::format("j{}", a));
     if (a == 0 || a + 1 < stride.size()) sums.push_back(fmt::format("s{}[4]", a));
   }
@@ -202,10 +206,10 @@ std::string coordinate(const table::TableAxis& axis, const std::string& x) {
   return fmt::format("log({0} < {1} ? {1} : {0})", x, c_number(axis.nodes.front()));
 }
 
-void add_table(TemplateValues& values, const Table& table, const Variables& variables) {
+void add_look_up(TemplateValues& values, const Table& table, const Variables& variables) {
   std::vector<std::string> parameters, coordinates;
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
-    values.lists["axes"].push_back(axis_values(table.axes[a], a));
+    values.lists["axes"].push_back(single_axis(table.axes[a], a));
     parameters.push_back(fmt::format("float u{}", a));
     coordinates.push_back(
         in_single_precision(coordinate(table.axes[a], variables.name(table.axes[a].name))));
@@ -236,8 +240,8 @@ void turn_single(TemplateValues& values) {
 }
 
 // The law's own formula, where the table goes on by it or there is no table.
-void add_piece(TemplateValues& values, const Table& table, const std::vector<InputArgument>& inputs,
-               const Variables& variables) {
+void add_single_piece(TemplateValues& values, const Table& table,
+                      const std::vector<InputArgument>& inputs, const Variables& variables) {
   const std::vector<std::string> sides = extending_sides(table, variables, table::end_rounding);
   const bool has_piece = table.is_direct() || !sides.empty();
   const Scope scope{"FT_FUNCTION", "FT_DATA", false, "1e-6"};
@@ -247,15 +251,8 @@ void add_piece(TemplateValues& values, const Table& table, const std::vector<Inp
   values.text["piece_call"] = has_piece ? piece_call(table, inputs, variables) : "";
 }
 
-std::vector<std::string> unused_names(const std::vector<InputArgument>& inputs) {
-  std::vector<std::string> names;
-  for (const InputArgument& input : inputs)
-    if (!input.used) names.push_back(input.argument);
-  return names;
-}
-
-void add_formula(TemplateValues& values, const ExportRequest& request,
-                 const std::vector<InputArgument>& inputs, Variables& variables) {
+void add_single_formula(TemplateValues& values, const ExportRequest& request,
+                        const std::vector<InputArgument>& inputs, Variables& variables) {
   const Table& table = request.table;
   const Statements code = variables.statements({{table.combine, "tau_R"}});
   values.lists["statements"] = items(code.lines);
@@ -266,12 +263,12 @@ void add_formula(TemplateValues& values, const ExportRequest& request,
   values.flags["uses_min"] = calls("ft_min(");
   values.flags["uses_max"] = calls("ft_max(");
   values.flags["uses_where"] = calls("ft_where_le(");
-  values.lists["unused"] = items(unused_names(inputs));
+  values.lists["unused"] = items(unused(inputs));
   if (!expr::symbols(table.combine).count("value"))
     values.lists["unused"].push_back(item(variables.name("value")));
 }
 
-std::string source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
+std::string single_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
   TemplateValues values;
@@ -283,10 +280,10 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
                   {"log_value", table.log_value}};
   values.lists["axes"];
   add_state(values, table, inputs, variables);
-  add_piece(values, table, inputs, variables);
-  add_formula(values, request, inputs, variables);
+  add_single_piece(values, table, inputs, variables);
+  add_single_formula(values, request, inputs, variables);
   turn_single(values);
-  if (!table.is_direct()) add_table(values, table, variables);
+  if (!table.is_direct()) add_look_up(values, table, variables);
   return render_template("c/frictab_tau_R_f32.c", values);
 }
 
@@ -303,8 +300,8 @@ std::vector<std::string> accuracy_lines(const RoundingBound& bound) {
   return wrap_text(text, 92);
 }
 
-std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs,
-                   const RoundingBound& bound) {
+std::string single_header(const ExportRequest& request, const std::vector<InputArgument>& inputs,
+                          const RoundingBound& bound) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
                  {"version", FRICTAB_VERSION},
@@ -327,8 +324,8 @@ void check_single(const ExportRequest& request) {
 
 void add_single(SourceBundle& files, const ExportRequest& request,
                 const std::vector<InputArgument>& inputs, const RoundingBound& bound) {
-  files["frictab_tau_R_f32.h"] = header(request, inputs, bound);
-  files["frictab_tau_R_f32.c"] = source(request, inputs);
+  files["frictab_tau_R_f32.h"] = single_header(request, inputs, bound);
+  files["frictab_tau_R_f32.c"] = single_source(request, inputs);
 }
 
 nlohmann::ordered_json single_recipe(const ExportRequest& request,

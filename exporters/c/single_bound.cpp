@@ -36,14 +36,14 @@ using table::TableAxis;
 
 namespace {
 
-constexpr double unit = expr::single_roundoff;
-constexpr double least = std::numeric_limits<float>::min(); // what may become 0
+constexpr double roundoff = expr::single_roundoff;
+constexpr double smallest_normal = std::numeric_limits<float>::min(); // what may become 0
 
 double gamma_of(std::size_t n) {
-  return static_cast<double>(n) * unit / (1 - static_cast<double>(n) * unit);
+  return static_cast<double>(n) * roundoff / (1 - static_cast<double>(n) * roundoff);
 }
 
-double largest(const std::vector<double>& values) {
+double largest_size(const std::vector<double>& values) {
   double most = 0;
   for (const double v : values)
     most = std::max(most, std::abs(v));
@@ -53,7 +53,7 @@ double largest(const std::vector<double>& values) {
 // Of an argument in canonical units: rounded once; converted, with a rounded factor, by a product
 // or quotient.
 double argument_error(const InputArgument& input) {
-  return input.solver.same() ? unit : 2.1 * unit + expr::single_library_error;
+  return input.solver.same() ? roundoff : 2.1 * roundoff + expr::single_library_error;
 }
 
 // What rounding does along one axis.
@@ -66,10 +66,11 @@ AxisErrors axis_errors(const TableAxis& axis, double argument) {
   const std::vector<double> u = axis.coordinates();
   const double x = std::max(std::abs(axis.nodes.front()), std::abs(axis.nodes.back()));
   AxisErrors out;
-  out.coordinate = argument * x + least;
+  out.coordinate = argument * x + smallest_normal;
   if (axis.log)
     out.coordinate = argument / (1 - argument) +
-                     expr::single_library_error * (largest(u) + 2 * argument) + least;
+                     expr::single_library_error * (largest_size(u) + 2 * argument) +
+                     smallest_normal;
   double nodes = 0, per_cell = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
     nodes = std::max(nodes, std::abs(static_cast<float>(u[i]) - u[i]));
@@ -79,7 +80,7 @@ AxisErrors axis_errors(const TableAxis& axis, double argument) {
     per_cell = std::max(per_cell, std::abs(single_value(1 / cell) * cell - 1));
   }
   out.coordinate += nodes;
-  out.weight = (1 + per_cell) * (1 + unit) * (1 + unit) - 1 + least;
+  out.weight = (1 + per_cell) * (1 + roundoff) * (1 + roundoff) - 1 + smallest_normal;
   return out;
 }
 
@@ -104,7 +105,8 @@ Slopes linear_slopes(const std::vector<double>& values, const std::vector<double
 double linear_error(const Table& table, const std::vector<double>& argument) {
   const std::vector<double> values = table.value_coordinates();
   const std::size_t roundings = 3 * table.axes.size() + 1;
-  double error = gamma_of(roundings) * largest(values) + static_cast<double>(roundings) * least;
+  double error =
+      gamma_of(roundings) * largest_size(values) + static_cast<double>(roundings) * smallest_normal;
   std::size_t stride = values.size();
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     stride /= table.axes[a].nodes.size();
@@ -171,17 +173,17 @@ Polynomials polynomials(const TableAxis& axis, const std::vector<double>& values
 double cubic_error(const Table& table, const std::vector<double>& argument) {
   std::vector<double> values = baked_values(table);
   values.resize(values.size() - 2); // the zeros behind them
-  double error = 0, sums = 1 + unit, terms = 1;
+  double error = 0, sums = 1 + roundoff, terms = 1;
   std::size_t stride = values.size();
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     stride /= table.axes[a].nodes.size();
     const AxisErrors axis = axis_errors(table.axes[a], argument[a]);
     const Polynomials splines = polynomials(table.axes[a], values, stride);
     error += splines.slopes.steepest * axis.coordinate + splines.slopes.difference * axis.weight;
-    sums *= (1 + gamma_of(7) * splines.size + least) * (1 + gamma_of(5));
+    sums *= (1 + gamma_of(7) * splines.size + smallest_normal) * (1 + gamma_of(5));
     terms *= 4;
   }
-  return error + largest(values) * (sums - 1) + 4 * terms * least;
+  return error + largest_size(values) * (sums - 1) + 4 * terms * smallest_normal;
 }
 
 // The looked up value with its error.
@@ -221,7 +223,7 @@ RoundingBound rounding_bound(const ExportRequest& request) {
     if (input.axis) of_axis[*input.axis] = argument_error(input);
   }
   for (const auto& [name, value] : table.constants)
-    symbols[name] = {{value, value}, unit, least};
+    symbols[name] = {{value, value}, roundoff, smallest_normal};
   if (table.is_direct()) {
     if (split_layer(*table.extension).layer) return {{}, "its formula is a network"};
     return bound_of(request, substitute(table.combine, {{"value", *table.extension}}), symbols);

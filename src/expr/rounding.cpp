@@ -8,9 +8,9 @@ namespace frictab::expr {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<float>::max();
-constexpr double least = std::numeric_limits<float>::min();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr double smallest_normal = std::numeric_limits<float>::min();
 constexpr double own_rounding = 1 + 1e-12; // of this analysis, an operation
 
 // Where the computed value lies.
@@ -21,12 +21,12 @@ Bounds computed(const SingleBound& a) {
 // The error of an operation whose operands' errors change its exact result by `carried`.
 SingleBound rounded(const Bounds& exact, double carried, double unit = single_roundoff) {
   const double size = exact.magnitude() + carried;
-  const double error = (carried + unit * size + least) * own_rounding;
-  return {exact, size + error < largest ? error : infinite};
+  const double error = (carried + unit * size + smallest_normal) * own_rounding;
+  return {exact, size + error < largest_float ? error : unbounded};
 }
 
 SingleBound unknown() {
-  return {whole_line, infinite};
+  return {whole_line, unbounded};
 }
 
 SingleBound product(const SingleBound& a, const SingleBound& b) {
@@ -145,7 +145,7 @@ SingleBound leaf(const SingleSymbol& symbol, std::size_t piece, std::size_t piec
   const Bounds part = outward(r.low + width * static_cast<double>(piece) / n,
                               r.low + width * static_cast<double>(piece + 1) / n);
   const double error = symbol.relative * part.magnitude() + symbol.absolute;
-  return {part, part.magnitude() + error < largest ? error : infinite};
+  return {part, part.magnitude() + error < largest_float ? error : unbounded};
 }
 
 constexpr std::size_t most_boxes = 4096, most_pieces = 16;
@@ -173,7 +173,7 @@ SingleBound bound_in_single(const Expr& formula,
   std::size_t boxes = 1;
   for (std::size_t i = 0; i < split.size(); ++i)
     boxes *= pieces;
-  SingleBound all{{infinite, -infinite}, 0};
+  SingleBound all{{unbounded, -unbounded}, 0};
   for (std::size_t box = 0; box < boxes; ++box) {
     std::size_t rest = box;
     for (const std::string& name : split) {

@@ -244,6 +244,42 @@ void add_below(std::string& out, const verify::Verification& verification,
   if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
 }
 
+// "a, b, c and 2 others"
+std::string list_of(const std::vector<std::string>& names) {
+  const std::size_t count = names.size();
+  std::string text = names.front();
+  for (std::size_t i = 1; i < std::min<std::size_t>(count, 3); ++i)
+    text += (i + 1 == count ? " and " : ", ") + names[i];
+  if (count > 3) text += fmt::format(" and {} other{}", count - 3, count == 4 ? "" : "s");
+  return text;
+}
+
+// One line per model: the routines in single precision, the one that rounds most first.
+void add_single(std::string& out, const verify::Verification& verification,
+                const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models) {
+    std::vector<const verify::DriftRecord*> single;
+    for (const verify::DriftRecord& r : verification.records)
+      if (r.model == model && verify::in_single_precision(r)) single.push_back(&r);
+    if (single.empty()) continue;
+    std::stable_sort(single.begin(), single.end(), [](const auto* a, const auto* b) {
+      return a->max_vs_table_MPa > b->max_vs_table_MPa;
+    });
+    double law = 0;
+    std::vector<std::string> subjects;
+    for (const verify::DriftRecord* r : single) {
+      law = std::max(law, r->worst_case_MPa);
+      subjects.push_back(fmt::format("{} {:.2g}", r->subject, r->max_vs_table_MPa));
+    }
+    lines += fmt::format("  {:<14}{:>12.3g}   {}\n", model, law, list_of(subjects));
+  }
+  if (!lines.empty())
+    out += "In single precision, largest found, MPa: off the law; off the same table in double "
+           "precision:\n" +
+           lines;
+}
+
 // What holds the same states at the same cost.
 struct HeldLine {
   std::string model, text;
@@ -252,13 +288,8 @@ struct HeldLine {
 };
 
 std::string text_of(const HeldLine& line) {
-  const std::size_t count = line.targets.size();
-  std::string who = line.targets.front();
-  for (std::size_t i = 1; i < std::min<std::size_t>(count, 3); ++i)
-    who += (i + 1 == count ? " and " : ", ") + line.targets[i];
-  if (count > 3) who += fmt::format(" and {} other{}", count - 3, count == 4 ? "" : "s");
-  return fmt::format("  {:<14}{:>12.3g}   {} {} {}\n", line.model, line.worst_MPa, who,
-                     count == 1 ? "holds" : "hold", line.text);
+  return fmt::format("  {:<14}{:>12.3g}   {} {} {}\n", line.model, line.worst_MPa,
+                     list_of(line.targets), line.targets.size() == 1 ? "holds" : "hold", line.text);
 }
 
 // Routines and tables that hold states: how far they are from the law there, and what that costs.
@@ -298,6 +329,7 @@ void add_drift(std::string& out, const verify::Verification& verification) {
   }
   add_outside(out, verification, models);
   add_below(out, verification, models);
+  add_single(out, verification, models);
   add_costs(out, verification);
 }
 

@@ -51,6 +51,7 @@ struct DriftRecord {
   // they say nothing of the source and count as the table's own. Of the rows, of the range's
   // points.
   std::size_t n_rows_not_posed = 0, n_points_not_posed = 0;
+  double unit_roundoff = 0;             // sources: of their real type (2^-24 in single precision)
   double max_vs_table_MPa = 0;          // sources: largest difference from the table itself
   std::optional<BelowRange> below = {}; // where the law takes sigma_n_MPa, unless it is refused
   bool passed = false;
@@ -62,6 +63,11 @@ struct DriftRecord {
   std::optional<std::map<std::string, double>> held = {};
   double cost_mean_abs_MPa = 0, cost_max_abs_MPa = 0; // over the rows inside the range
 };
+
+// What it is off the table itself is rounding that somebody may want to know.
+inline bool in_single_precision(const DriftRecord& r) {
+  return r.ran && r.unit_roundoff >= 0x1p-24;
+}
 
 // What decides whether it passed, but for answers where there should be none: over the range, on
 // the rows, and below the range where the law is followed there.

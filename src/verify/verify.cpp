@@ -401,8 +401,10 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
   std::vector<DriftRecord> records;
   records.push_back(input.known ? *input.known : compare_table(input, s));
   for (const GeneratedSource& source : sources)
-    for (const codegen::BuildVariant& variant : source.exporter->variants(source.request))
+    for (const codegen::BuildVariant& variant : source.exporter->variants(source.request)) {
       records.push_back(verify_variant(input, s, source, variant));
+      records.back().unit_roundoff = variant.eps;
+    }
   return records;
 }
 

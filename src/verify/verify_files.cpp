@@ -64,6 +64,7 @@ Json record_json(const DriftRecord& record) {
   j["worst_case_MPa"] = record.worst_case_MPa;
   j["worst_case_at"] = record.worst_state;
   j["n_points"] = record.n_points;
+  if (record.unit_roundoff > 0) j["unit_roundoff"] = record.unit_roundoff;
   if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
   if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
   if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
@@ -125,6 +126,7 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.worst_case_MPa = one.at("worst_case_MPa");
         r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();
         r.n_points = one.at("n_points");
+        r.unit_roundoff = one.value("unit_roundoff", 0.0);
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
         r.not_proven = one.value("not_proven", "");
