@@ -108,6 +108,9 @@ void print_ratios(const Times& times) {
     print_pair(times, ("2-D bicubic " + f + " to GSL").c_str(), "cubic/arbitrary/value/33x33/" + f,
                "cubic/arbitrary/value/33x33/gsl", "");
   }
+  for (const char* table : {"linear/4800", "linear/210681", "cubic/4800", "cubic/210681"})
+    print_pair(times, fmt::format("five arbitrary axes {}: float to double", table).c_str(),
+               fmt::format("single/{}/f32", table), fmt::format("single/{}/double", table), "");
   const double nested = time_of(times, "linear/uniform/nested/210681/O2");
   if (nested == 0) return;
   const double speed = nested / quoted_nested;
