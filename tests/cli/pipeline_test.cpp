@@ -321,6 +321,31 @@ TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
             std::string::npos);
 }
 
+TEST_F(SlowMainJob, TheKernelInSinglePrecisionIsVerifiedAndItsRoundingTold) {
+  const std::vector<std::string> set = {"--set", "table.model=levanov", "--set",
+                                        "export.targets=[\"c\"]"};
+  std::vector<std::string> run = {"run", job}, verify = {"verify", job};
+  run.insert(run.end(), set.begin(), set.end());
+  verify.insert(verify.end(), set.begin(), set.end());
+  ASSERT_EQ(run_frictab(run).exit_code, 0);
+  for (auto* command : {&run, &verify})
+    command->insert(command->end(), {"--set", "export.options.precision=single"});
+  const auto none = run_frictab(verify);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, testing::HasSubstr("out/export/c/frictab_tau_R_f32.c: error: is not there, "
+                                           "but [export.options] of the job ask for it"));
+  const auto result = run_frictab(run);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("In single precision, .*\n  levanov .* c/f32 "));
+  EXPECT_THAT(directory.read("out/verify.xml"), testing::HasSubstr("name=\"c/f32\""));
+  const auto record = test::parse_json(directory.read("out/verify.json")).at("records").at(2);
+  EXPECT_EQ(record.at("subject"), "c/f32");
+  EXPECT_EQ(record.at("unit_roundoff"), 0x1p-24);
+  const auto recipe = test::parse_json(directory.read("out/export/c/recipe.json"));
+  EXPECT_LE(record.at("max_vs_table_MPa"),
+            recipe.at("single_precision").at("rounding_bound_MPa").get<double>());
+}
+
 TEST_F(SlowMainJob, FilesOfTheUserInTheOutputDirectoryStay) {
   directory.write("out/models/mine.json", "{}");
   directory.write("out/export/c/driver.c", "int x;");
