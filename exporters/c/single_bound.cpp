@@ -199,7 +199,7 @@ expr::SingleSymbol looked_up(const Table& table, const std::vector<double>& argu
 
 // A formula whose symbols are arguments, constants and what is looked up.
 RoundingBound bound_of(const ExportRequest& request, const Expr& tau,
-                       std::map<std::string, expr::SingleSymbol> symbols) {
+                       const std::map<std::string, expr::SingleSymbol>& symbols) {
   const double over = solver_unit("MPa", request.units).over;
   const expr::SingleBound bound = bound_in_single(over == 1 ? tau : tau * Expr(over), symbols);
   if (!std::isfinite(bound.error))
