@@ -236,7 +236,7 @@ std::vector<BuildVariant> variants(const ExportRequest& request) {
                  "-lm"};
   c99.eps = 0x1p-53;
   if (!wants_single(request)) return {c99};
-  return {c99, single_build(request.table)};
+  return {c99, single_build(request)};
 }
 
 void drive(const Built& built, const ExportRequest& request, std::size_t rows,

@@ -12,6 +12,7 @@
 #include "codegen/baked_table.h"
 #include "codegen/entry_text.h"
 #include "codegen/number_text.h"
+#include "codegen/prefix.h"
 #include "codegen/single_precision.h"
 #include "codegen/table_text.h"
 #include "core/error.h"
@@ -363,18 +364,18 @@ nlohmann::ordered_json single_recipe(const ExportRequest& request,
   return out;
 }
 
-BuildVariant single_build(const Table& table) {
+BuildVariant single_build(const ExportRequest& request) {
   BuildVariant build;
   build.name = single_variant;
   build.command = {"gcc",
-                   optimisation(table),
+                   optimisation(request.table),
                    "-std=c99",
                    "-ffp-contract=off",
                    "-fPIC",
                    "-shared",
                    "-o",
                    "@{out}",
-                   "@{dir}/frictab_tau_R_f32.c",
+                   "@{dir}/" + prefixed(request, "frictab_tau_R_f32.c"),
                    "-lm"};
   build.eps = 0x1p-24;
   return build;

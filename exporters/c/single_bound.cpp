@@ -85,13 +85,13 @@ AxisErrors axis_errors(const TableAxis& axis, double argument) {
 }
 
 // The largest difference of neighbours along an axis, and the steepest cell.
-struct Slopes {
+struct AxisSlopes {
   double difference = 0, steepest = 0;
 };
 
-Slopes linear_slopes(const std::vector<double>& values, const std::vector<double>& u,
-                     std::size_t stride) {
-  Slopes out;
+AxisSlopes linear_slopes(const std::vector<double>& values, const std::vector<double>& u,
+                         std::size_t stride) {
+  AxisSlopes out;
   for (std::size_t at = 0; at + stride < values.size(); ++at) {
     const std::size_t i = at / stride % u.size();
     if (i + 1 == u.size()) continue;
@@ -111,7 +111,7 @@ double linear_error(const Table& table, const std::vector<double>& argument) {
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     stride /= table.axes[a].nodes.size();
     const AxisErrors axis = axis_errors(table.axes[a], argument[a]);
-    const Slopes slopes = linear_slopes(values, table.axes[a].coordinates(), stride);
+    const AxisSlopes slopes = linear_slopes(values, table.axes[a].coordinates(), stride);
     error += slopes.steepest * axis.coordinate + slopes.difference * axis.weight;
   }
   return error;
@@ -119,8 +119,8 @@ double linear_error(const Table& table, const std::vector<double>& argument) {
 
 // Of the polynomials of an axis, over its cells.
 struct Polynomials {
-  double size = 0; // sum of the sizes of all coefficients
-  Slopes slopes;   // of the spline, by the weight and by u
+  double size = 0;   // sum of the sizes of all coefficients
+  AxisSlopes slopes; // of the spline, by the weight and by u
 };
 
 // Sums over the 4 splines of a cell: of their coefficients' sizes, of their largest slopes by the

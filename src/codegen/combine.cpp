@@ -23,7 +23,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 // In a line of its own: '     &  ' and quotes, within 72 columns.
-constexpr std::size_t longest_name = 50;
+constexpr std::size_t longest_law_name = 50;
 
 // DEFORM's USRUPD calls it, once for all laws.
 constexpr const char* called_by_solver = "ftupd";
@@ -40,8 +40,8 @@ std::string fault_of(const std::string& name, const LawSelector& by) {
   const auto printed = [](unsigned char c) { return c >= 32 && c < 127 && c != '\''; };
   if (name.empty() || !all(printed) || name.front() == ' ' || name.back() == ' ')
     return "is no " + by.meaning;
-  if (name.size() > longest_name)
-    return fmt::format("has {} characters; {} are allowed", name.size(), longest_name);
+  if (name.size() > longest_law_name)
+    return fmt::format("has {} characters; {} are allowed", name.size(), longest_law_name);
   return "";
 }
 

@@ -40,7 +40,7 @@ std::string renamed(std::string text, const std::string& prefix) {
   std::string guard = prefix;
   std::transform(guard.begin(), guard.end(), guard.begin(),
                  [](unsigned char c) { return std::toupper(c); });
-  text = replace_all(text, "FRICTAB_TAU_R_H", guard + "_TAU_R_H");
+  text = replace_all(text, "FRICTAB_TAU_R_", guard + "_TAU_R_"); // the headers' guards
   return replace_all(text, "/ftdone/", "/" + prefix + "_ftdone/");
 }
 

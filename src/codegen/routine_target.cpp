@@ -41,7 +41,7 @@ std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportR
   TemplateValues values;
   if (target.driver_values) values = target.driver_values(request, checked_inputs(target, request));
   values.text["contact"] = request.law_number > 0 ? request.law_name : target.selector.alone;
-  values.offered = {"contact"};
+  values.offered.insert("contact");
   const std::string text = render_template(target.driver, values);
   std::vector<BuildVariant> all = target.variants(request);
   for (BuildVariant& one : all)

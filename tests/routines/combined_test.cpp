@@ -80,6 +80,22 @@ TEST(Prefix, StandsInEveryNameOfTheBundleAndItsRecipe) {
     }
 }
 
+TEST(Prefix, HoldsForTheKernelInSinglePrecision) {
+  const codegen::Exporter& exporter = *codegen::find_exporter("c");
+  const Table table = test::four_axis_table();
+  const ExportRequest request{
+      table, "mm-t-s", {}, {{"prefix", "die_oil"}, {"precision", "single"}}};
+  const SourceBundle bundle = exporter.generate(request);
+  for (const auto& [path, text] : bundle)
+    EXPECT_THAT(text, testing::Not(testing::ContainsRegex("frictab_[^k]|FRICTAB_TAU"))) << path;
+  const codegen::BuildVariant single = exporter.variants(request).back();
+  const codegen::CompiledTarget built(exporter, request, bundle, single);
+  const test::States states(table, 500, 3, 0);
+  std::vector<double> tau(states.rows());
+  built.drive(states.rows(), states.columns(), tau);
+  EXPECT_LE(test::worst_relative(tau, test::expected(table, states)), 1e-5);
+}
+
 // ---- one user file ----
 
 struct Laws {
@@ -183,6 +199,30 @@ TEST_F(CombinedLaws, AreTheirSeparateRoutinesBitForBitInMixedBlocksWithTheirStat
       moved += force != 0;
   }
   EXPECT_GT(moved, 1900u) << "of 2,000 points";
+}
+
+TEST_F(CombinedLaws, MayHaveSummariesAndAHardeningCurve) {
+  std::vector<ExportRequest> requests = laws().requests(vfriction());
+  for (ExportRequest& request : requests)
+    request.options["outside_summary"] = "at_exit";
+  requests[1].inputs = {{"sigma_f_MPa", "curve:200 + 400*strain"}, {"strain", "field:1"}};
+  const CombinedBundle bundle = vfriction().combine(requests, laws().names);
+  for (const ExportRequest& law : bundle.laws) {
+    codegen::BuildVariant variant = vfriction().variants(law)[0];
+    test::add_flags(variant, test::strict);
+    const codegen::CompiledTarget built(vfriction(), law, bundle.files, variant);
+    const test::States states(law.table, 200, 3, 0);
+    const std::vector<double> wanted = test::expected(law.table, states);
+    std::vector<double> tau(states.rows(), -1);
+    built.drive(states.rows(), states.columns(), tau);
+    int asked = 0;
+    for (std::size_t row = 0; row < tau.size(); ++row) {
+      if (tau[row] == -1) continue;
+      ++asked;
+      EXPECT_NEAR(tau[row], wanted[row], 1e-9) << law.law_name;
+    }
+    EXPECT_GT(asked, 50) << law.law_name;
+  }
 }
 
 TEST_F(CombinedLaws, EndTheAnalysisForANameThatIsNoneOfThem) {
