@@ -14,9 +14,9 @@ using expr::Expr;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double no_end = std::numeric_limits<double>::infinity();
 
-const std::pair<Outside, const char*> names[] = {
+const std::pair<Outside, const char*> outside_words[] = {
     {Outside::clamp, "clamp"}, {Outside::error, "error"}, {Outside::law, "law"}};
 
 // The axis as the extension sees it: a second symbol beside the true state.
@@ -27,11 +27,11 @@ std::string held_name(const std::string& axis) {
 } // namespace
 
 const char* outside_name(Outside outside) {
-  return names[static_cast<std::size_t>(outside)].second;
+  return outside_words[static_cast<std::size_t>(outside)].second;
 }
 
 std::optional<Outside> find_outside(std::string_view name) {
-  for (const auto& [outside, known] : names)
+  for (const auto& [outside, known] : outside_words)
     if (name == known) return outside;
   return std::nullopt;
 }
@@ -48,14 +48,14 @@ Outside below_pressures(const Table& table) {
 AxisEnds::AxisEnds(const TableAxis& axis, std::size_t number_of_input)
     : name(axis.name), input(number_of_input), low(axis.nodes.front()), high(axis.nodes.back()),
       below(axis.below), above(axis.above),
-      refused_below(below == Outside::error ? low - end_rounding * std::abs(low) : -infinite),
-      refused_above(above == Outside::error ? high + end_rounding * std::abs(high) : infinite) {}
+      refused_below(below == Outside::error ? low - end_rounding * std::abs(low) : -no_end),
+      refused_above(above == Outside::error ? high + end_rounding * std::abs(high) : no_end) {}
 
 AxisEnds::AxisEnds(const std::string& held_input, std::size_t number_of_input,
                    std::pair<double, double> range)
     : name(held_input), input(number_of_input), low(range.first), high(range.second),
-      below(Outside::clamp), above(Outside::clamp), held(true), refused_below(-infinite),
-      refused_above(infinite) {}
+      below(Outside::clamp), above(Outside::clamp), held(true), refused_below(-no_end),
+      refused_above(no_end) {}
 
 namespace {
 
