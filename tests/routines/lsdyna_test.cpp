@@ -310,14 +310,18 @@ TYPED_TEST(SlowLsDyna, TakesTheReferenceTemperatureWhereNoneAreComputed) {
 }
 
 TYPED_TEST(SlowLsDyna, WritesNoHistoryBeyondNHV) {
-  for (const int histories : {0, 1, 2, 3, 6}) {
+  for (const int histories : {0, 1, 2, 3, 5, 6, 8}) {
     auto c = this->call(2);
     c.histories = histories;
     c.history.assign(2 * static_cast<std::size_t>(histories), TypeParam(0));
     this->set(c, 1, 400, 50); // outside the range
     this->run(c, this->four_axes());
     EXPECT_CLOSE(c.force[0][0], this->tau());
-    for (int i = 4; i < histories; ++i)
+    if (histories >= 6) {
+      EXPECT_CLOSE(c.history[4], this->tau());
+      EXPECT_CLOSE(c.history[5], this->tau() / 1000);
+    }
+    for (int i = histories >= 6 ? 6 : 4; i < histories; ++i)
       EXPECT_EQ(c.history[static_cast<std::size_t>(histories + i)], 0);
   }
 }
