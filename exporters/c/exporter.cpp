@@ -99,7 +99,6 @@ void add_axes(TemplateValues& values, const Table& table, const std::vector<Inpu
   values.text["extending"] = join(extending, " ||\n");
   values.text["piece"] = extending.empty() ? "" : piece(table, inputs);
   values.text["piece_call"] = extending.empty() ? "" : piece_call(table, inputs, variables);
-  values.lists["refusing"] = items(refusing_sides(table, variables));
 }
 
 std::string kernel(const Table& table) {
@@ -135,11 +134,8 @@ std::string values_file(const Table& table, const std::string& comment) {
 std::string table_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
-  const Statements code = variables.statements({{table.combine, "tau_R"}});
   const bool file = values_in_file(request);
-  const std::string comment = comment_text(
-      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
-                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
+  const std::string comment = value_comment(table);
   TemplateValues values;
   values.text = {{"model", comment_text(table.model)},
                  {"version", FRICTAB_VERSION},
@@ -149,7 +145,6 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
                  {"n_axes", std::to_string(table.axes.size())},
                  {"state_text", file ? ", no state but the values" : ", no state"},
                  {"values", file ? values_file(table, comment) : values_in_source(table, comment)},
-                 {"result", in_units(code.results[0], request.units)},
                  {"gradient", gradient_functions(request, inputs)},
                  {"outside", outside_functions(table, inputs)}};
   values.flags = {{"has_axes", !table.axes.empty()},
@@ -158,10 +153,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
                   {"log_value", table.log_value}};
   add_state(values, table, inputs, variables);
   add_axes(values, table, inputs, variables);
-  values.lists["unused"] = items(unused(inputs));
-  if (!expr::symbols(table.combine).count("value"))
-    values.lists["unused"].push_back(item(variables.name("value")));
-  values.lists["statements"] = items(code.lines);
+  add_tau_R(values, request, inputs, variables);
   return render_template("c/frictab_tau_R.c", values);
 }
 
@@ -222,21 +214,10 @@ SourceBundle generate(const ExportRequest& request) {
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  BuildVariant c99;
-  c99.name = "c99";
-  c99.command = {"gcc",
-                 optimisation(request.table),
-                 "-std=c99",
-                 "-ffp-contract=off",
-                 "-fPIC",
-                 "-shared",
-                 "-o",
-                 "@{out}",
-                 "@{dir}/" + prefixed(request, "frictab_tau_R.c"),
-                 "-lm"};
-  c99.eps = 0x1p-53;
-  if (!wants_single(request)) return {c99};
-  return {c99, single_build(request)};
+  std::vector<BuildVariant> all = {build_of(request, "c99", "frictab_tau_R.c", 0x1p-53)};
+  if (wants_single(request))
+    all.push_back(build_of(request, single_variant, "frictab_tau_R_f32.c", 0x1p-24));
+  return all;
 }
 
 void drive(const Built& built, const ExportRequest& request, std::size_t rows,

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "codegen/baked_table.h"
 #include "codegen/number_text.h"
+#include "codegen/prefix.h"
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "table/outside.h"
@@ -147,6 +149,53 @@ void add_state(TemplateValues& values, const Table& table, const std::vector<Inp
   values.text["items"] = lines(arrays);
 }
 
+std::string add_tau_R(TemplateValues& values, const ExportRequest& request,
+                      const std::vector<InputArgument>& inputs, Variables& variables) {
+  const Table& table = request.table;
+  const Statements code = variables.statements({{table.combine, "tau_R"}});
+  values.lists["statements"] = items(code.lines);
+  values.text["result"] = in_units(code.results[0], request.units);
+  values.lists["refusing"] = items(refusing_sides(table, variables));
+  values.lists["unused"] = items(unused(inputs));
+  if (!symbols(table.combine).count("value"))
+    values.lists["unused"].push_back(item(variables.name("value")));
+  return join(code.lines, "\n");
+}
+
+std::string value_comment(const Table& table) {
+  return comment_text(
+      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
+                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
+}
+
+BuildVariant build_of(const ExportRequest& request, const std::string& variant,
+                      const std::string& file, double eps) {
+  BuildVariant build;
+  build.name = variant;
+  build.command = {"gcc",
+                   optimisation(request.table),
+                   "-std=c99",
+                   "-ffp-contract=off",
+                   "-fPIC",
+                   "-shared",
+                   "-o",
+                   "@{out}",
+                   "@{dir}/" + prefixed(request, file),
+                   "-lm"};
+  build.eps = eps;
+  return build;
+}
+
+std::string helpers(const std::string& text, const Scope& scope) {
+  const auto calls = [&](const char* helper) { return text.find(helper) != std::string::npos; };
+  TemplateValues values;
+  values.flags = {{"uses_min", calls("ft_min(")},
+                  {"uses_max", calls("ft_max(")},
+                  {"uses_where", calls("ft_where_le(")}};
+  values.text["function"] = scope.function;
+  return without_last_break(render_template("c/frictab_helpers.c", values));
+}
+
 namespace {
 
 std::string call_of(const std::string& function, const std::vector<std::string>& arguments) {
@@ -221,29 +270,18 @@ std::string outside_functions(const Table& table, const std::vector<InputArgumen
 std::string direct_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
-  const Statements code = variables.statements({{table.combine, "tau_R"}});
   TemplateValues values;
   add_state(values, table, inputs, variables);
-  const std::string law = piece(table, inputs), all = law + join(code.lines, "\n");
+  const std::string law = piece(table, inputs);
   const std::string gradient = gradient_functions(request, inputs);
-  const auto calls = [&](const char* helper) {
-    return all.find(helper) != std::string::npos || gradient.find(helper) != std::string::npos;
-  };
-  values.flags = {{"uses_min", calls("ft_min(")},
-                  {"uses_max", calls("ft_max(")},
-                  {"uses_where", calls("ft_where_le(")}};
+  const std::string formula = add_tau_R(values, request, inputs, variables);
+  values.text["helpers"] = helpers(law + formula + gradient);
   values.text["model"] = comment_text(table.model);
   values.text["version"] = FRICTAB_VERSION;
   values.text["piece"] = law;
   values.text["piece_call"] = piece_call(table, inputs, variables);
-  values.text["result"] = in_units(code.results[0], request.units);
   values.text["outside"] = outside_functions(table, inputs);
   values.text["gradient"] = gradient;
-  values.lists["unused"] = items(unused(inputs));
-  if (!symbols(table.combine).count("value"))
-    values.lists["unused"].push_back(item(variables.name("value")));
-  values.lists["refusing"] = items(refusing_sides(table, variables));
-  values.lists["statements"] = items(code.lines);
   return render_template("c/frictab_direct.c", values);
 }
 

@@ -42,12 +42,25 @@ void add_state(codegen::TemplateValues& values, const table::Table& table,
 // Of the formula, with their numbers.
 codegen::Lines constants_of(const table::Table& table, const codegen::Variables& variables);
 
+// The formula itself: its statements, result (in the solver's unit), sides that refuse, and what it
+// leaves alone. Gives the statements as one text.
+std::string add_tau_R(codegen::TemplateValues& values, const codegen::ExportRequest& request,
+                      const std::vector<codegen::InputArgument>& inputs,
+                      codegen::Variables& variables);
+
+// "mu, last axis fastest", of a table's values.
+std::string value_comment(const table::Table& table);
+
 // Of the compiler: the direct form is arithmetic in rows, which gcc 12 vectorises fully at -O3
 // only.
 std::string optimisation(const table::Table& table);
 
 // Template texts end with a line break of their own.
 std::string without_last_break(std::string text);
+
+// gcc, for the file of this name in a bundle; `eps` as in BuildVariant.
+codegen::BuildVariant build_of(const codegen::ExportRequest& request, const std::string& variant,
+                               const std::string& file, double eps);
 
 // The names of the states of the law's own formula, in the order of the arguments.
 std::vector<std::string> piece_states(const table::Table& table,
@@ -62,6 +75,9 @@ struct Scope {
   bool clones = true;
   const char* unit_error = "5e-15"; // of tanh by ft_unit, relative
 };
+
+// ft_min, ft_max, ft_where_le where `text` calls them.
+std::string helpers(const std::string& text, const Scope& scope = {});
 
 // The law's own formula as a function of the states, ft_piece; with its derivatives,
 // ft_piece_gradient; and a call of either, which may go over several lines.

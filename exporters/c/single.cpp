@@ -12,7 +12,6 @@
 #include "codegen/baked_table.h"
 #include "codegen/entry_text.h"
 #include "codegen/number_text.h"
-#include "codegen/prefix.h"
 #include "codegen/single_precision.h"
 #include "codegen/table_text.h"
 #include "core/error.h"
@@ -216,9 +215,7 @@ void add_look_up(TemplateValues& values, const Table& table, const Variables& va
         in_single_precision(coordinate(table.axes[a], variables.name(table.axes[a].name))));
   }
   const std::vector<double> numbers = baked_values(table);
-  values.text["value_comment"] = comment_text(
-      fmt::format("{}{}{}, last axis fastest", is_cubic(table) ? "spline coefficients of " : "",
-                  table.log_value ? "ln " : "", models::quantity_name(table.quantity)));
+  values.text["value_comment"] = value_comment(table);
   values.text["n_values"] = std::to_string(numbers.size());
   values.text["values"] = float_block(numbers);
   values.text["parameters_u"] = join(parameters, ", ");
@@ -231,7 +228,8 @@ void add_look_up(TemplateValues& values, const Table& table, const Variables& va
 
 // As parts.cpp fills them for double precision, in float.
 void turn_single(TemplateValues& values) {
-  for (const char* name : {"parameters", "arrays", "items", "result", "piece", "extending"})
+  for (const char* name :
+       {"parameters", "arrays", "items", "result", "piece", "helpers", "extending"})
     values.text[name] = in_single_precision(values.text[name]);
   for (const char* list : {"used", "constants", "statements", "refusing"})
     for (TemplateValues& one : values.lists[list])
@@ -240,33 +238,23 @@ void turn_single(TemplateValues& values) {
           text->second = in_single_precision(text->second);
 }
 
+const Scope device_scope{"FT_FUNCTION", "FT_DATA", false, "1e-6"};
+
 // The law's own formula, where the table goes on by it or there is no table.
 void add_single_piece(TemplateValues& values, const Table& table,
                       const std::vector<InputArgument>& inputs, const Variables& variables) {
   const std::vector<std::string> sides = extending_sides(table, variables, table::end_rounding);
   const bool has_piece = table.is_direct() || !sides.empty();
-  const Scope scope{"FT_FUNCTION", "FT_DATA", false, "1e-6"};
   values.flags["has_piece"] = has_piece;
   values.text["extending"] = join(sides, " ||\n");
-  values.text["piece"] = has_piece ? piece(table, inputs, scope) : "";
+  values.text["piece"] = has_piece ? piece(table, inputs, device_scope) : "";
   values.text["piece_call"] = has_piece ? piece_call(table, inputs, variables) : "";
 }
 
 void add_single_formula(TemplateValues& values, const ExportRequest& request,
                         const std::vector<InputArgument>& inputs, Variables& variables) {
-  const Table& table = request.table;
-  const Statements code = variables.statements({{table.combine, "tau_R"}});
-  values.lists["statements"] = items(code.lines);
-  values.text["result"] = in_units(code.results[0], request.units);
-  values.lists["refusing"] = items(refusing_sides(table, variables));
-  const std::string all = values.text["piece"] + join(code.lines, "\n");
-  const auto calls = [&](const char* helper) { return all.find(helper) != std::string::npos; };
-  values.flags["uses_min"] = calls("ft_min(");
-  values.flags["uses_max"] = calls("ft_max(");
-  values.flags["uses_where"] = calls("ft_where_le(");
-  values.lists["unused"] = items(unused(inputs));
-  if (!expr::symbols(table.combine).count("value"))
-    values.lists["unused"].push_back(item(variables.name("value")));
+  const std::string formula = add_tau_R(values, request, inputs, variables);
+  values.text["helpers"] = helpers(values.text["piece"] + formula, device_scope);
 }
 
 std::string single_source(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
@@ -362,23 +350,6 @@ nlohmann::ordered_json single_recipe(const ExportRequest& request,
     out["rounding_bound"] = "not known: " + bound.why_not;
   }
   return out;
-}
-
-BuildVariant single_build(const ExportRequest& request) {
-  BuildVariant build;
-  build.name = single_variant;
-  build.command = {"gcc",
-                   optimisation(request.table),
-                   "-std=c99",
-                   "-ffp-contract=off",
-                   "-fPIC",
-                   "-shared",
-                   "-o",
-                   "@{out}",
-                   "@{dir}/" + prefixed(request, "frictab_tau_R_f32.c"),
-                   "-lm"};
-  build.eps = 0x1p-24;
-  return build;
 }
 
 } // namespace frictab::c_target

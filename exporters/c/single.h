@@ -26,6 +26,4 @@ nlohmann::ordered_json single_recipe(const codegen::ExportRequest& request,
                                      const std::vector<codegen::InputArgument>& inputs,
                                      const RoundingBound& bound);
 
-codegen::BuildVariant single_build(const codegen::ExportRequest& request);
-
 } // namespace frictab::c_target

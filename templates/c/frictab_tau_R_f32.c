@@ -18,24 +18,7 @@
 #endif
 #define FT_FUNCTION static FRICTAB_DEVICE
 
-@if uses_min
-/* NaN in either operand gives NaN. */
-FT_FUNCTION inline float ft_min(float a, float b) {
-  return (b < a || b != b) ? b : a;
-}
-@end
-@if uses_max
-FT_FUNCTION inline float ft_max(float a, float b) {
-  return (b > a || b != b) ? b : a;
-}
-@end
-@if uses_where
-FT_FUNCTION inline float ft_where_le(float a, float b, float x, float y) {
-  if (a != a) return a;
-  if (b != b) return b;
-  return a <= b ? x : y;
-}
-@end
+@{helpers}
 
 @for axis in axes
 /* @{axis.comment} */
