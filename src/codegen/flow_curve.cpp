@@ -51,13 +51,41 @@ double usual_value(const table::Table& table, const std::string& name) {
   return known ? known->unknown.value_or(0) : 0;
 }
 
+std::vector<std::string> other_states(const expr::Expr& curve) {
+  const std::set<std::string> all = symbols(curve);
+  std::vector<std::string> others(all.begin(), all.end());
+  std::erase(others, strain_name);
+  return others;
+}
+
+// Column by name: of the law's own states those of `columns`, of others what is usual.
+std::vector<double> column_of(const table::Table& table, const std::string& name, std::size_t rows,
+                              std::span<const double* const> columns) {
+  const std::vector<std::string> own = table.inputs();
+  const auto at = std::find(own.begin(), own.end(), name) - own.begin();
+  if (static_cast<std::size_t>(at) == own.size())
+    return std::vector<double>(rows, usual_value(table, name));
+  const double* const column = columns[static_cast<std::size_t>(at)];
+  return {column, column + rows};
+}
+
+std::vector<double> picked(const std::vector<double>& values,
+                           const std::vector<std::size_t>& rows) {
+  std::vector<double> out;
+  for (const std::size_t row : rows)
+    out.push_back(values[row]);
+  return out;
+}
+
 // The curve along strain, at one state of the rest.
 class AlongStrain {
 public:
-  AlongStrain(const expr::Expr& curve, const std::vector<std::string>& others)
-      : others_(others), program_(curve, with_strain(others), {}), row_(others.size() + 1) {}
+  explicit AlongStrain(const expr::Expr& curve)
+      : others_(other_states(curve)), program_(curve, with_strain(others_), {}),
+        row_(others_.size() + 1) {}
 
-  std::vector<double>& others() { return row_; } // the last is the strain
+  const std::vector<std::string>& others() const { return others_; }
+  void set_other(std::size_t i, double value) { row_[i] = value; }
   double operator()(double value) {
     row_.back() = value;
     return program_(row_, {});
@@ -94,15 +122,8 @@ private:
 
   std::vector<std::string> others_;
   expr::Program program_;
-  std::vector<double> row_;
+  std::vector<double> row_; // the last is the strain
 };
-
-std::vector<std::string> other_states(const expr::Expr& curve) {
-  std::vector<std::string> others;
-  for (const std::string& name : symbols(curve))
-    if (name != strain_name) others.push_back(name);
-  return others;
-}
 
 } // namespace
 
@@ -130,10 +151,9 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
 // The strains over which the curve stays where the law was tested.
 void CurvedRequest::set_range() {
   const auto tested = original_.table.range(stress_name);
-  AlongStrain curve(curve_, other_states(curve_));
-  const std::vector<std::string> others = other_states(curve_);
-  for (std::size_t i = 0; i < others.size(); ++i)
-    curve.others()[i] = usual_value(original_.table, others[i]);
+  AlongStrain curve(curve_);
+  for (std::size_t i = 0; i < curve.others().size(); ++i)
+    curve.set_other(i, usual_value(original_.table, curve.others()[i]));
   double low = most_strain, high = 0, smallest = HUGE_VAL, largest = -HUGE_VAL;
   for (int cell = 0; cell <= AlongStrain::cells; ++cell) {
     const double at = most_strain * cell / AlongStrain::cells, value = curve(at);
@@ -159,18 +179,15 @@ void CurvedRequest::set_range() {
 
 std::vector<double> CurvedRequest::strains(std::size_t rows,
                                            std::span<const double* const> columns) const {
-  const std::vector<std::string> needed = original_.table.inputs(), others = other_states(curve_);
-  const auto column = [&](const std::string& name) -> const double* {
-    const auto at = std::find(needed.begin(), needed.end(), name);
-    return at == needed.end() ? nullptr : columns[static_cast<std::size_t>(at - needed.begin())];
-  };
-  AlongStrain curve(curve_, others);
-  const double* const wanted = column(stress_name);
+  AlongStrain curve(curve_);
+  std::vector<std::vector<double>> others;
+  for (const std::string& name : curve.others())
+    others.push_back(column_of(original_.table, name, rows, columns));
+  const std::vector<double> wanted = column_of(original_.table, stress_name, rows, columns);
   std::vector<double> out(rows);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t i = 0; i < others.size(); ++i)
-      curve.others()[i] =
-          column(others[i]) ? column(others[i])[row] : usual_value(original_.table, others[i]);
+      curve.set_other(i, others[i][row]);
     out[row] = curve.solve(wanted[row]);
   }
   return out;
@@ -183,25 +200,14 @@ void CurvedRequest::drive(std::size_t rows, std::span<const double* const> colum
   std::vector<std::size_t> posed;
   for (std::size_t row = 0; row < rows; ++row)
     if (!std::isnan(strain_of[row])) posed.push_back(row);
-  const std::vector<std::string> needed = original_.table.inputs(), now = table_.inputs();
   std::vector<std::vector<double>> states;
+  for (const std::string& name : table_.inputs())
+    states.push_back(picked(
+        name == strain_name ? strain_of : column_of(original_.table, name, rows, columns), posed));
   std::vector<const double*> pointers;
-  for (const std::string& name : now) {
-    const auto at = std::find(needed.begin(), needed.end(), name);
-    std::vector<double>& one = states.emplace_back();
-    for (const std::size_t row : posed)
-      if (name == strain_name)
-        one.push_back(strain_of[row]);
-      else if (at == needed.end())
-        one.push_back(usual_value(original_.table, name));
-      else
-        one.push_back(columns[static_cast<std::size_t>(at - needed.begin())][row]);
-  }
   for (const std::vector<double>& one : states)
     pointers.push_back(one.data());
-  std::vector<double> answers;
-  for (const std::size_t row : posed)
-    answers.push_back(tau[row]);
+  std::vector<double> answers = picked({tau.begin(), tau.end()}, posed);
   drive(posed.size(), pointers, answers);
   for (std::size_t i = 0; i < posed.size(); ++i)
     tau[posed[i]] = answers[i];
