@@ -19,6 +19,11 @@ const std::string& Exporter::option(const ExportRequest& request, const std::str
   throw std::logic_error(name + " has no option " + wanted);
 }
 
+bool Exporter::offers(std::string_view option) const {
+  return std::any_of(options.begin(), options.end(),
+                     [&](const ExportOption& one) { return one.name == option; });
+}
+
 std::vector<ExportOption> all_export_options() {
   std::vector<ExportOption> all;
   for (const Exporter& exporter : all_exporters())

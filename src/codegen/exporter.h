@@ -119,6 +119,8 @@ struct Exporter {
   // A routine, which is the law's; not so a table of the solver's, made from the law for it.
   bool whole() const { return !own_table; }
 
+  bool offers(std::string_view option) const;
+
   // What the request says for one of `options`, or its default.
   const std::string& option(const ExportRequest& request, const std::string& name) const;
 };

@@ -14,6 +14,9 @@ namespace frictab::codegen::fortran {
 // Comment lines; what does not fit goes on, set in by two blanks.
 Lines comments(const std::vector<std::string>& texts);
 
+// What may stand between apostrophes in a line of Fortran: 30 characters of a name.
+std::string in_apostrophes(std::string_view name);
+
 // The first line of a remark that is set in by `indent`: what follows is in the head of the file.
 std::string clip(const std::string& text, std::size_t indent = 0);
 

@@ -34,9 +34,8 @@ std::string stop(const table::Table& table) {
   Lines refusing = sides(table, table::Outside::error);
   std::size_t side = 0;
   const auto say = [&](const table::AxisEnds& axis, const char* where, double end) {
-    std::string name = comment_text(axis.name).substr(0, 30);
-    std::replace(name.begin(), name.end(), '\'', ' ');
-    refusing[side++].text["name"] = fmt::format("{} {} {:.6g}", name, where, end);
+    refusing[side++].text["name"] =
+        fmt::format("{} {} {:.6g}", in_apostrophes(axis.name), where, end);
   };
   for (const table::AxisEnds& axis : table::axis_ends(table)) {
     if (axis.below == table::Outside::error) say(axis, "below", axis.low);

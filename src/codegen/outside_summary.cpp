@@ -18,13 +18,6 @@ namespace {
 
 constexpr const char* summary_key = "outside_summary";
 
-// What may stand between apostrophes in a line of Fortran.
-std::string in_apostrophes(std::string_view text) {
-  std::string out = comment_text(text).substr(0, 30);
-  std::replace(out.begin(), out.end(), '\'', ' ');
-  return out;
-}
-
 bool is_logarithmic(const table::Table& table, const std::string& name) {
   const table::TableAxis* axis = table::find_axis(table, name);
   return axis && axis->log;
@@ -40,8 +33,8 @@ TemplateValues end_values(const table::Table& table, const table::AxisEnds& axis
               {"low", fortran_number(axis.low)},
               {"high", fortran_number(axis.high)},
               {"length", fortran_number(length > 0 ? length : 1)},
-              {"name", in_apostrophes(axis.name)},
-              {"unit", unit == "1" ? "" : " " + in_apostrophes(unit)},
+              {"name", fortran::in_apostrophes(axis.name)},
+              {"unit", unit == "1" ? "" : " " + fortran::in_apostrophes(unit)},
               {"range", fmt::format("{:.6g} .. {:.6g}", axis.low, axis.high)}};
   return one;
 }
@@ -58,10 +51,8 @@ ExportOption outside_summary_option() {
 
 std::string fortran::outside_summary(const Exporter& exporter, const ExportRequest& request) {
   const std::string said = request.said(summary_key);
-  const bool offered = std::any_of(exporter.options.begin(), exporter.options.end(),
-                                   [](const auto& option) { return option.name == summary_key; });
   const std::vector<table::AxisEnds> ends = table::all_ends(request.table);
-  if (!offered || said.empty() || said == "none" || ends.empty()) return "";
+  if (!exporter.offers(summary_key) || said.empty() || said == "none" || ends.empty()) return "";
   TemplateValues values;
   const std::vector<InputArgument> arguments = entry_arguments(request.table, "mm-t-s");
   for (const table::AxisEnds& axis : ends) {
@@ -72,7 +63,7 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
     values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
   }
   values.flags["windows"] = said == "at_exit_windows";
-  values.text = {{"model", in_apostrophes(request.table.model)},
+  values.text = {{"model", fortran::in_apostrophes(request.table.model)},
                  {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
   return without_last_break(render_template("fortran/frictab_seen.f", values));
 }

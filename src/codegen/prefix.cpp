@@ -56,8 +56,8 @@ ExportOption prefix_option() {
 
 std::string prefix(const ExportRequest& request) {
   if (request.law_number > 0) return fmt::format("{}_{}", usual_prefix, request.law_number);
-  const auto said = request.options.find(prefix_name);
-  return said == request.options.end() ? usual_prefix : said->second;
+  const std::string said = request.said(prefix_name);
+  return said.empty() ? usual_prefix : said;
 }
 
 std::string prefixed(const ExportRequest& request, std::string_view name) {

@@ -33,12 +33,6 @@ std::uint32_t crc32_of(const char* bytes, std::size_t size) {
       crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes), size));
 }
 
-bool has_option(const Exporter& exporter, const std::string& name) {
-  for (const ExportOption& option : exporter.options)
-    if (option.name == name) return true;
-  return false;
-}
-
 void check_values(const table::Table& table) {
   if (table.nodes() <= most_filed_values) return;
   throw InputError({},
@@ -88,11 +82,11 @@ void check_request_size(const table::Table& table, const std::vector<const Expor
   for (const Exporter* target : targets) {
     if (!target->whole()) continue; // a table of its own
     const ExportRequest request{.table = table, .options = options};
-    if (has_option(*target, values_key))
+    if (target->offers(values_key))
       check_size(request);
     else
       check_table_size(table);
-    if (has_option(*target, precision_option().name)) check_single_size(request);
+    if (target->offers(precision_option().name)) check_single_size(request);
   }
 }
 

@@ -35,8 +35,7 @@ using testing::HasSubstr;
 std::vector<const Exporter*> with_values_option() {
   std::vector<const Exporter*> out;
   for (const Exporter& exporter : codegen::all_exporters())
-    for (const codegen::ExportOption& option : exporter.options)
-      if (option.name == codegen::values_option().name) out.push_back(&exporter);
+    if (exporter.offers(codegen::values_option().name)) out.push_back(&exporter);
   return out;
 }
 
@@ -56,10 +55,7 @@ std::vector<test::NamedTable> samples() {
 TEST(ValuesFile, EveryRoutineOfEverySolverReadsItButLua) {
   std::vector<std::string> others;
   for (const Exporter& exporter : codegen::all_exporters())
-    if (exporter.whole() && std::none_of(exporter.options.begin(), exporter.options.end(),
-                                         [](const codegen::ExportOption& o) {
-                                           return o.name == codegen::values_option().name;
-                                         }))
+    if (exporter.whole() && !exporter.offers(codegen::values_option().name))
       others.push_back(exporter.name);
   EXPECT_EQ(others, (std::vector<std::string>{"qform_lua"}));
 }
