@@ -53,8 +53,7 @@ codegen::ExportOptions export_options(const CombineOptions& options, const Commo
     const codegen::ExportOptions said = job::read_job(options.job, common.set).exports;
     if (said.form == codegen::ExportForm::direct)
       throw InputError({options.job, 0, 0},
-                       "--combine writes tables, and the job asks for the "
-                       "direct form",
+                       "--combine writes tables, and the job asks for the direct form",
                        "--set export.form=table");
     return said;
   }
@@ -165,6 +164,13 @@ std::vector<fs::path> combined_recipes(const std::string& directory) {
 
 } // namespace
 
+void commit_and_list(io::OutputFiles& output, const CommonOptions& common) {
+  const std::vector<std::string> files = output.paths();
+  commit(output, common.output, common);
+  for (const std::string& file : files)
+    fmt::print("{}\n", (fs::path(common.output) / file).string());
+}
+
 int export_combined(const CombineOptions& options, const CommonOptions& common) {
   if (common.output.empty())
     throw InputError({}, "nowhere to write the sources to", "give -o DIR with --combine");
@@ -179,13 +185,7 @@ int export_combined(const CombineOptions& options, const CommonOptions& common) 
   io::OutputFiles output(common.output);
   for (const codegen::Exporter* exporter : exporters)
     write(output, *exporter, laws, said, common.output);
-  if (!common.force && output.would_change())
-    throw InputError({common.output, 0, 0}, "has other files of these names already",
-                     "name another directory, or --force to replace them");
-  const std::vector<std::string> files = output.paths();
-  output.commit();
-  for (const std::string& file : files)
-    fmt::print("{}\n", (fs::path(common.output) / file).string());
+  commit_and_list(output, common);
   note(common, "frictab verify --combined " + common.output + " proves them");
   return 0;
 }

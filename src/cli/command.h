@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/registry.h"
+#include "io/atomic_file.h"
 
 namespace CLI {
 class App;
@@ -40,5 +41,9 @@ struct Command {
 
 // A line to stderr, unless -q.
 void note(const CommonOptions& common, const std::string& line);
+
+// Puts the staged files in place. Throws InputError where the directory has other files of these
+// names and --force is not given.
+void commit(io::OutputFiles& files, const std::string& directory, const CommonOptions& common);
 
 } // namespace frictab::cli

@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "io/atomic_file.h"
 
 namespace frictab::cli {
 
@@ -86,6 +87,13 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
 
 void note(const CommonOptions& common, const std::string& line) {
   if (!common.quiet) fmt::print(stderr, "{}\n", line);
+}
+
+void commit(io::OutputFiles& files, const std::string& directory, const CommonOptions& common) {
+  if (!common.force && files.would_change())
+    throw InputError({directory, 0, 0}, "has other files of these names already",
+                     "name another directory, or --force to replace them");
+  files.commit();
 }
 
 int run_command_line(int argc, char** argv) {

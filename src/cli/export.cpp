@@ -34,13 +34,7 @@ int export_alone(const Options& options, const CommonOptions& common) {
   for (const codegen::Exporter* exporter : exporters)
     for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
       output.write(exporter->name + "/" + path, text);
-  if (!common.force && output.would_change())
-    throw InputError({common.output, 0, 0}, "has other files of these names already",
-                     "name another directory, or --force to replace them");
-  const std::vector<std::string> files = output.paths();
-  output.commit();
-  for (const std::string& file : files)
-    fmt::print("{}\n", (std::filesystem::path(common.output) / file).string());
+  commit_and_list(output, common);
   return 0;
 }
 
@@ -67,13 +61,13 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       return export_combined({options->combine, options->job, options->targets, options->units},
                              common);
     }
-    if (options->table.empty() == options->job.empty())
-      throw InputError({},
-                       options->job.empty() ? "nothing to export"
-                                            : "JOB and --table exclude "
-                                              "each other",
-                       "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], or "
-                       "--combine NAME=FILE ... -o DIR --targets abaqus_vfric");
+    const std::string how =
+        "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], or --combine NAME=FILE "
+        "... -o DIR --targets abaqus_vfric";
+    if (options->table.empty() && options->job.empty())
+      throw InputError({}, "nothing to export", how);
+    if (!options->table.empty() && !options->job.empty())
+      throw InputError({}, "JOB and --table exclude each other", how);
     if (!options->table.empty()) return export_alone(*options, common);
     return run_stages(options->job, common, [](run::Pipeline& p) { p.generate(); });
   };

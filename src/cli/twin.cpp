@@ -90,10 +90,7 @@ int run(Options& options, const CommonOptions& common) {
   files.write("twin.json", json);
   files.write("job.toml",
               twin::twin_job(twin, options.format == "csv" ? "csv" : "h5", options.oracle));
-  if (!common.force && files.would_change())
-    throw InputError({options.directory}, "holds other files of the same names",
-                     "choose another directory, or overwrite them with --force");
-  files.commit();
+  commit(files, options.directory, common);
 
   const std::string text = common.json ? json : twin::twin_text(twin, summary, options.directory);
   std::fputs(text.c_str(), stdout);
