@@ -8,6 +8,7 @@
 #include "codegen/fortran_core.h"
 #include "codegen/fortran_stop.h"
 #include "codegen/speed_scale.h"
+#include "core/text.h"
 #include "stop.h"
 
 namespace frictab::abaqus {
@@ -23,11 +24,12 @@ std::string both(const ForceNames& names, const std::string& secondary, const st
 }
 
 BuildVariant variant(const std::string& name, const std::string& real, int dimension, double eps,
-                     const std::string& file) {
+                     const std::vector<std::string>& files) {
   BuildVariant out;
   out.name = name;
   out.command = fortran::library_command({"-I@{dir}"});
-  out.command.push_back("@{dir}/" + file);
+  for (const std::string& file : files)
+    out.command.push_back("@{dir}/" + file);
   out.extra["vaba_param.inc"] =
       fmt::format("C     Stand-in for the solver's include, for tests outside the solver.\n"
                   "      implicit {} (a-h,o-z)\n"
@@ -40,21 +42,24 @@ BuildVariant variant(const std::string& name, const std::string& real, int dimen
 
 } // namespace
 
-std::vector<BuildVariant> explicit_variants(const ExportRequest& request, const std::string& file) {
-  std::vector<BuildVariant> all = {variant("double", "real*8", 2, 0x1p-53, file),
-                                   variant("single", "real", 1, 0x1p-24, file)};
+std::vector<BuildVariant> explicit_variants(const ExportRequest& request,
+                                            const std::vector<std::string>& files) {
+  std::vector<BuildVariant> all = {variant("double", "real*8", 2, 0x1p-53, files),
+                                   variant("single", "real", 1, 0x1p-24, files)};
   if (fortran::ends(request))
     for (BuildVariant& one : all)
       add_stand_ins(one, Solver::explicit_);
   return all;
 }
 
-void add_compile(nlohmann::ordered_json& recipe, const std::string& file) {
-  recipe["compile"] = {fmt::format("abaqus job=<job> user={} double=explicit", file),
-                       fmt::format("abaqus job=<job> user={}", file),
-                       fortran::fixed_form_check(file)};
+void add_compile(nlohmann::ordered_json& recipe, const std::vector<std::string>& files) {
+  const std::string user = files.size() == 1 ? files.front() : "<the sources as one file>.f";
+  recipe["compile"] = {fmt::format("abaqus job=<job> user={} double=explicit", user),
+                       fmt::format("abaqus job=<job> user={}", user),
+                       fortran::fixed_form_check(join(files, " "))};
   recipe["compile_note"] =
-      "the last line only checks the source, beside a vaba_param.inc of your own";
+      fmt::format("the last line only checks the {}, beside a vaba_param.inc of your own",
+                  files.size() == 1 ? "source" : "sources");
 }
 
 std::string explicit_head(const Exporter& exporter, const ExportRequest& request,

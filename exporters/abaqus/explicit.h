@@ -36,12 +36,14 @@ struct ForceRoutine {
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"
   std::string area;                   // "areaSec(jConSecid(k))"
+  std::string nodes, node;            // "nNodSlv", "jConSlvUid(i,k)": the user's numbers
+  std::string step, increment;        // "kStep", "kInc"
   std::string states, columns, state; // "nStateVar", "1", "statev(1,jConSecid(k))"
   std::string state_name, state_by;   // "STATEV", "surface node"
   std::string arguments_note;         // for the recipe
   std::string user;                   // "user=friction"
   std::string deck_tail;              // the keyword lines behind those of the interaction
-  bool general = false;               // contact; else pairs
+  codegen::LawSelector selector;      // what tells several laws apart
 };
 
 // The target of such a routine; its templates are abaqus/<entry>/frictab_<entry>.f and driver.f.
@@ -65,13 +67,13 @@ std::string explicit_head(const codegen::Exporter& exporter, const codegen::Expo
 
 // "double" and "single", with stand-ins for the solver's include and its error routine.
 std::vector<codegen::BuildVariant> explicit_variants(const codegen::ExportRequest& request,
-                                                     const std::string& file);
+                                                     const std::vector<std::string>& files);
 
 // Blocks of contact points as the solver's.
 codegen::Driver explicit_driver(const codegen::SolverGives& gives,
                                 codegen::fortran::Coefficient result);
 
-// compile and compile_note.
-void add_compile(nlohmann::ordered_json& recipe, const std::string& file);
+// compile and compile_note, of sources that go into one user file.
+void add_compile(nlohmann::ordered_json& recipe, const std::vector<std::string>& files);
 
 } // namespace frictab::abaqus

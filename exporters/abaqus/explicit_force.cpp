@@ -15,6 +15,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/solver_units.h"
 #include "codegen/speed_scale.h"
+#include "contact_fields.h"
 #include "core/text.h"
 #include "deck.h"
 #include "stop.h"
@@ -90,6 +91,8 @@ std::vector<std::string> remarks(const ForceRoutine& routine, const ExportReques
 void add_sizes(TemplateValues& values, const std::vector<SolverInput>& inputs) {
   values.text["n_hist"] = std::to_string(3 + history_count(inputs));
   values.text["n_add"] = std::to_string(4 + history_count(inputs) + shown_states);
+  values.text["add_stress"] = std::to_string(4 + history_count(inputs) + 1);
+  values.text["add_mu"] = std::to_string(4 + history_count(inputs) + 2);
 }
 
 // Texts and lists of the further histories.
@@ -123,7 +126,12 @@ std::string body(const ForceRoutine& routine, const ExportRequest& request,
                  {"area", routine.area},
                  {"states", routine.states},
                  {"columns", routine.columns},
-                 {"state", routine.state}};
+                 {"state", routine.state},
+                 {"nodes", routine.nodes},
+                 {"node", routine.node},
+                 {"step", routine.step},
+                 {"increment", routine.increment}};
+  values.flags["shown"] = has_contact_fields(request);
   add_sizes(values, inputs);
   values.flags["unknown"] = fortran::needs_unknown(inputs, routine.gives);
   add_speed_scale(values, request, inputs);
@@ -145,13 +153,17 @@ std::string point(const ForceRoutine& routine, const ExportRequest& request,
   values.text["at_stress"] = std::to_string(state_count(inputs) - 1);
   values.text["least"] = fortran_number(stress.from_canonical(fortran::least_pressure));
   values.text["at_mu"] = std::to_string(state_count(inputs));
-  values.text["add_stress"] = std::to_string(4 + history_count(inputs) + 1);
-  values.text["add_mu"] = std::to_string(4 + history_count(inputs) + 2);
   return fortran::without_last_break(render_template("abaqus/explicit_point.f", values));
 }
 
 std::string file_of(const ForceRoutine& routine) {
   return "frictab_" + routine.entry + ".f";
+}
+
+std::vector<std::string> files_of(const ForceRoutine& routine, const ExportRequest& request) {
+  std::vector<std::string> files = {file_of(routine)};
+  if (has_contact_fields(request)) files.emplace_back(contact_fields_file);
+  return files;
 }
 
 std::string arguments(const ForceRoutine& routine) {
@@ -193,10 +205,10 @@ void add_recipe(json& out, const ForceRoutine& routine, const ExportRequest& req
                       {"meaning", state.meaning}});
   out["state_variables"] = states;
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-  add_compile(out, file_of(routine));
+  add_compile(out, files_of(routine, request));
   out["input_deck"] =
       friction_lines(routine.user, state_count(inputs), inputs, speed_scale(request, inputs)) +
-      routine.deck_tail + field_lines(inputs);
+      routine.deck_tail + field_lines(inputs) + contact_fields_lines(request);
 }
 
 } // namespace
@@ -225,7 +237,9 @@ std::string force_notes(const std::string& state_name, const std::string& state_
       "slip and peak include the motion and pressure of the present increment, work ends before "
       "it; further histories of a traced law (energy, times, means, peaks, friction power) take "
       "two state variables each, their times are the solver's seconds. In a simulation scaled in "
-      "speed or time, speed_scale = property gives the law the process's speeds and times. Beyond "
+      "speed or time, speed_scale = property gives the law the process's speeds and times; "
+      "contact_fields = vufield shows coefficient, stress and increments outside as contour plots, "
+      "by field variables 1 to 3. Beyond "
       "a side with outside = error the routine ends the analysis through XPLB_ABQERR and names "
       "state and value: a NaN force would spread before anybody sees it. Works with the single- "
       "and the double-precision solver; table and arithmetic are double in both.",
@@ -237,9 +251,13 @@ Exporter force_exporter(const ForceRoutine& routine) {
       {.about = routine.about,
        .entry = routine.entry,
        .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
+       .check = check_contact_fields,
        .sources =
            [routine](const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-             return SourceBundle{{file_of(routine), source(routine, request, inputs)}};
+             SourceBundle files = {{file_of(routine), source(routine, request, inputs)}};
+             if (has_contact_fields(request))
+               files[contact_fields_file] = contact_fields_source(request);
+             return files;
            },
        .recipe =
            [routine](json& out, const ExportRequest& request,
@@ -248,7 +266,7 @@ Exporter force_exporter(const ForceRoutine& routine) {
            },
        .variants =
            [routine](const ExportRequest& request) {
-             return explicit_variants(request, file_of(routine));
+             return explicit_variants(request, files_of(routine, request));
            },
        .driver = "abaqus/" + routine.entry + "/driver.f",
        .driver_values = area_of_driver,
@@ -257,7 +275,7 @@ Exporter force_exporter(const ForceRoutine& routine) {
              return explicit_driver(routine.gives, fortran::Coefficient::stress);
            },
        .arguments = [routine](const ExportRequest&) { return arguments(routine); },
-       .selector = interaction("surfInt", routine.general),
+       .selector = routine.selector,
        .quit = [] { return quit(Solver::explicit_); }});
 }
 

@@ -12,11 +12,13 @@ using namespace codegen;
 namespace {
 
 struct Names {
-  const char *include, *message, *directory;
+  const char *include, *message, *directory, *combining;
 };
 const Names& names(Solver solver) {
-  static const Names standard = {"aba_param.inc", "stdb_abqerr", "getoutdir"};
-  static const Names explicit_ = {"vaba_param.inc", "xplb_abqerr", "vgetoutdir"};
+  static const Names standard = {"aba_param.inc", "stdb_abqerr", "getoutdir",
+                                 "abaqus_fric and abaqus_fric_coef"};
+  static const Names explicit_ = {"vaba_param.inc", "xplb_abqerr", "vgetoutdir",
+                                  "abaqus_vfric, abaqus_vfriction and abaqus_vfric_coef"};
   return solver == Solver::standard ? standard : explicit_;
 }
 
@@ -29,14 +31,22 @@ std::string quit(Solver solver) {
   return fortran::without_last_break(render_template("abaqus/frictab_quit.f", values));
 }
 
-LawSelector interaction(const std::string& argument, bool general) {
+LawSelector interaction(Solver solver, const std::string& argument, const std::string& letters) {
   LawSelector by;
   by.argument = argument;
   by.meaning = "name of the *SURFACE INTERACTION";
   by.alone = "FRICTAB";
+  by.deck = {{"FRICTAB", "@"}};
+  by.letters = letters;
+  by.user_file = fmt::format("the combined sources of {} may stand in one user file, one behind "
+                             "the other",
+                             names(solver).combining);
+  return by;
+}
+
+LawSelector of_general_contact(LawSelector by) {
   // Without names the assignment is for all surfaces: that would be the last law's.
-  if (general) by.deck.push_back({" , , FRICTAB", " <surface>, <surface>, @"});
-  by.deck.push_back({"FRICTAB", "@"});
+  by.deck.insert(by.deck.begin(), {" , , FRICTAB", " <surface>, <surface>, @"});
   return by;
 }
 
@@ -45,7 +55,7 @@ std::string directory_routine(Solver solver) {
 }
 
 void add_stand_ins(BuildVariant& variant, Solver solver) {
-  const auto& [include, message, directory] = names(solver);
+  const auto& [include, message, directory, combining] = names(solver);
   variant.command.push_back("@{dir}/solver.f");
   variant.extra["solver.f"] = fmt::format(
       "C     Stand-ins for the solver's routines: the first comes back, where the solver ends the\n"

@@ -25,6 +25,8 @@ using json = nlohmann::ordered_json;
 // In a line of its own: '     &  ' and quotes, within 72 columns.
 constexpr std::size_t longest_law_name = 50;
 
+constexpr std::size_t laws_per_letter = 9;
+
 // DEFORM's USRUPD calls it, once for all laws.
 constexpr const char* called_by_solver = "ftupd";
 
@@ -218,6 +220,12 @@ std::string comment_lines(const std::string& text) {
   return out;
 }
 
+// What ends the analysis where there is no law.
+std::string own_quit(const Combination& c, const std::string& stem) {
+  const std::set<std::string> names = linked_names({{"quit.f", c.quit}});
+  return fortran::without_last_break(with_stem(c.quit, names, c.entry, stem));
+}
+
 std::string combined_source(const Combination& c, const std::vector<ExportRequest>& laws,
                             const std::vector<std::string>& sources) {
   TemplateValues values;
@@ -226,7 +234,8 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
                  {"arguments", fortran::without_last_break(c.arguments)},
                  {"guard", fortran::without_last_break(c.by.guard)},
                  {"argument", c.by.argument},
-                 {"quit", c.quit}};
+                 {"stem", entry_stem(laws.front())},
+                 {"quit", own_quit(c, entry_stem(laws.front()))}};
   values.flags["number"] = c.by.number;
   values.lists["about"] = fortran::comments(
       {fmt::format("{} ({}) says which; any other ends the analysis.", c.by.argument, c.by.meaning),
@@ -291,6 +300,7 @@ json combined_recipe(const Combination& c, const std::vector<ExportRequest>& law
   out["laws_note"] =
       "the deck needs the lines of all laws; keywords that are there once per model, "
       "as *Contact or *CONTROL_CONTACT, once, with the larger numbers";
+  if (!c.by.user_file.empty()) out["user_file"] = c.by.user_file;
   out["laws"] = json::array();
   for (std::size_t i = 0; i < laws.size(); ++i)
     out["laws"].push_back(law_recipe(io::parse_json(recipes[i], "recipe.json"), laws[i], c));
@@ -337,21 +347,25 @@ SourceBundle one_of_several(const SourceBundle& alone, const ExportRequest& law,
 std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
                                       const std::vector<std::string>& names,
                                       const LawSelector& by) {
-  if (laws.empty() || laws.size() > most_combined)
-    throw InputError({}, fmt::format("{} laws to combine; from 1 to {} go into one file",
-                                     laws.size(), most_combined));
+  const std::size_t most = laws_per_letter * by.letters.size();
+  if (laws.empty() || laws.size() > most)
+    throw InputError(
+        {}, fmt::format("{} laws to combine; from 1 to {} go into one file", laws.size(), most));
   check_names(names, by);
   for (std::size_t i = 0; i < laws.size(); ++i) {
     laws[i].law_name = names[i];
-    laws[i].law_number = i + 1;
+    laws[i].law_stem = {by.letters[i / laws_per_letter],
+                        static_cast<char>('1' + i % laws_per_letter)};
   }
   return laws;
 }
 
 std::string stem(const ExportRequest& request) {
-  if (request.law_number == 0) return "ft";
-  const std::size_t place = request.law_number - 1;
-  return {"fgh"[place / 9], static_cast<char>('1' + place % 9)};
+  return request.law_stem.empty() ? "ft" : request.law_stem;
+}
+
+std::string entry_stem(const ExportRequest& request) {
+  return request.law_stem.empty() ? "ft" : request.law_stem.substr(0, 1) + "0";
 }
 
 SourceBundle combine(const Combination& c, const std::vector<ExportRequest>& laws,

@@ -1,8 +1,11 @@
 // Several laws in one user file: different lubricants on punch and die. The file has one entry with
 // the solver's own argument list, which calls the law that belongs to the contact it is asked for.
 // Each law's source is what it is alone, but for the names of its program units: "ft" gives way to
-// two letters of the law's own (fttau -> f1tau, f2tau), and stands in front of its entry as well
+// a stem of the law's own (fttau -> f1tau, f2tau), which stands in front of its entry as well
 // (vfric -> f1vfric). A contact that none of the laws is for ends the analysis.
+//
+// A solver may want several entries in its one user file (VFRIC for contact pairs, VFRICTION for
+// general contact): their stems differ, so that their sources can stand behind each other.
 #pragma once
 
 #include <string>
@@ -23,15 +26,15 @@ struct LawSelector {
   bool number = false;       // else the deck's text, padded with blanks
   std::string alone = {};    // what drivers say where there is one law: "FRICTAB"
   std::string guard = {};    // statements in front: calls that ask for no friction
+  std::string letters = "fgh"; // stems: f1 to f9, g1 ...; f0 of the entry's own units
+  std::string user_file = {};  // what may stand in one user file with it
   // In the lines for the input deck: what stands for the name ("FRICTAB"), and what takes its place
   // where there are several laws, with the name as @.
   std::vector<std::pair<std::string, std::string>> deck = {};
 };
 
-inline constexpr std::size_t most_combined = 27;
-
 // Requests of one target, its options and units the same in all, as the parts of one file: each
-// with its name and number. Throws InputError where there are no or too many of them, where a name
+// with its name and stem. Throws InputError where there are no or too many of them, where a name
 // is no name by which this solver could call, or where two are the same (case does not count).
 std::vector<ExportRequest> named_laws(std::vector<ExportRequest> laws,
                                       const std::vector<std::string>& names, const LawSelector& by);
@@ -48,8 +51,10 @@ template <class Make> auto said_of(const std::string& whose, const Make& make) {
   }
 }
 
-// "ft", or the two letters of one of several laws.
+// What names of program units start with: "ft", or the stem of one of several laws.
 std::string stem(const ExportRequest& request);
+// Those that the entry calls itself: "ft", or "f0" where there are several laws.
+std::string entry_stem(const ExportRequest& request);
 
 // What the combined file is made of.
 struct Combination {

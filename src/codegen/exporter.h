@@ -25,9 +25,9 @@ struct ExportRequest {
   std::map<std::string, std::string> inputs = {};  // job's [export.inputs]; checked by the exporter
   std::map<std::string, std::string> options = {}; // job's [export.options]; Exporter::option
   // One of several laws of a user file (codegen/combine.h): the name by which its entry knows this
-  // one, and its number from 1. 0: the only law.
+  // one, and what names of its program units start with. Empty: the only law.
   std::string law_name = {};
-  std::size_t law_number = 0;
+  std::string law_stem = {};
 
   // What the job says for an option; empty: nothing.
   std::string said(const std::string& option) const {

@@ -144,7 +144,7 @@ CurvedRequest::CurvedRequest(const ExportRequest& request, const SolverGives& gi
   set_range();
   curved_.emplace(ExportRequest{table_, request.units, request.inputs, request.options});
   curved_->law_name = request.law_name;
-  curved_->law_number = request.law_number;
+  curved_->law_stem = request.law_stem;
   curved_->inputs.erase(stress_name);
 }
 

@@ -38,7 +38,7 @@ BuildVariant fortran_variant(const ExportRequest& request, const std::string& na
   out.command = library_command(flags);
   if (quits || ends(request)) { // of two definitions the linker takes the first
     out.command.insert(out.command.end(), {"-Wl,-z,muldefs", "@{dir}/ftquit.f"});
-    for (const std::string& letters : std::set<std::string>{"ft", stem(request)})
+    for (const std::string& letters : std::set<std::string>{entry_stem(request), stem(request)})
       out.extra["ftquit.f"] +=
           "C     Stand-in: comes back, where the bundle's own ends the analysis.\n"
           "      subroutine " +

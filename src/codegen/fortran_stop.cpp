@@ -53,7 +53,7 @@ bool refuses(const table::Table& table) {
 }
 
 bool ends(const ExportRequest& request) {
-  return refuses(request.table) || values_in_file(request) || request.law_number > 0;
+  return refuses(request.table) || values_in_file(request) || !request.law_stem.empty();
 }
 
 } // namespace frictab::codegen::fortran

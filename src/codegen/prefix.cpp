@@ -55,7 +55,7 @@ ExportOption prefix_option() {
 }
 
 std::string prefix(const ExportRequest& request) {
-  if (request.law_number > 0) return fmt::format("{}_{}", usual_prefix, request.law_number);
+  if (!request.law_stem.empty()) return fmt::format("{}_{}", usual_prefix, request.law_stem);
   const std::string said = request.said(prefix_name);
   return said.empty() ? usual_prefix : said;
 }

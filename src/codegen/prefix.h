@@ -12,8 +12,8 @@ namespace frictab::codegen {
 // Of targets whose sources are linked into programs of all kinds.
 ExportOption prefix_option();
 
-// What the request says; "frictab" where it says nothing; "frictab_2" of the second of several laws
-// of a user file.
+// What the request says; "frictab" where it says nothing; "frictab_f2" of one of several laws of a
+// user file.
 std::string prefix(const ExportRequest& request);
 
 // The C name or file that is called `name` ("frictab_tau_R") without the option.

@@ -40,7 +40,7 @@ std::vector<BuildVariant> with_driver(const RoutineTarget& target, const ExportR
   const ExportRequest& request = curved.get();
   TemplateValues values;
   if (target.driver_values) values = target.driver_values(request, checked_inputs(target, request));
-  values.text["contact"] = request.law_number > 0 ? request.law_name : target.selector.alone;
+  values.text["contact"] = request.law_stem.empty() ? target.selector.alone : request.law_name;
   values.offered.insert("contact");
   const std::string text = render_template(target.driver, values);
   std::vector<BuildVariant> all = target.variants(request);

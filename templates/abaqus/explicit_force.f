@@ -43,6 +43,14 @@ C       The first local axis is the direction of the motion.
      &    against, hist, fric, add, lkeep)
         if (lkeep .and. @{states} .ge. 1) call ftkeep(@{states},
      &    @{columns}, @{state}, add)
+@if shown
+        if (lkeep) then
+          do i = 1, @{nodes}
+            call fvkeep(@{node}, @{step}, @{increment},
+     &        add(@{add_stress}), add(@{add_mu}), add(4))
+          end do
+        end if
+@end
         if (nFricDir .ge. 1)
      &    fTangential(1,k) = real(-fric, kind(fTangential))
       end do

@@ -13,23 +13,23 @@ C
         return
       end if
 @end
-      call ftwho(@{argument})
+      call @{stem}who(@{argument})
       return
       end
 C
 C     There is no law for it: the analysis ends.
 @if number
-      subroutine ftwho(number)
+      subroutine @{stem}who(number)
       implicit none
       integer number
       character*20 name
       write (name, '(i0)') number
 @else
-      subroutine ftwho(name)
+      subroutine @{stem}who(name)
       implicit none
       character*(*) name
 @end
-      call ftquit('friction table: there is no law for '//trim(name))
+      call @{stem}quit('friction table: there is no law for '//trim(name))
       return
       end
 C

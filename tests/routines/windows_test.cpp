@@ -65,11 +65,12 @@ TEST_P(SlowWindows, RoutineAndDriverOfEveryTargetAreBuiltFromFilesWithCrlfInADir
   const table::Table axes = test::four_axis_table(), histories = test::further_histories_table();
   for (const auto& [table, values] :
        {std::pair{&axes, "file_windows"}, std::pair{&histories, "source"}}) {
-    const ExportRequest request{
-        *table,
-        "mm-t-s",
-        test::sample_inputs(exporter),
-        {{codegen::values_option().name, values}, {"outside_summary", "at_exit_windows"}}};
+    const ExportRequest request{*table,
+                                "mm-t-s",
+                                test::sample_inputs(exporter),
+                                {{codegen::values_option().name, values},
+                                 {"outside_summary", "at_exit_windows"},
+                                 {"contact_fields", "vufield_windows"}}};
     for (const BuildVariant& variant : exporter.variants(request)) {
       SCOPED_TRACE(std::string(values) + " " + variant.name);
       EXPECT_NO_THROW(codegen::compile_library(with_crlf(exporter.generate(request)),

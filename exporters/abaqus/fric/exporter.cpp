@@ -107,23 +107,24 @@ const char* const notes =
     "return, or 2 where the point was open. PNEWDT is not touched.";
 
 const Registered<Exporter> registered{[] {
-  return routine_exporter({.about = {.name = "abaqus_fric",
-                                     .order = 24,
-                                     .title = "Abaqus/Standard FRIC, stress with derivatives",
-                                     .signature_source = source_of_signature,
-                                     .notes = notes,
-                                     .options = {abaqus::coefficient_option(), values_option(),
-                                                 outside_summary_option()}},
-                           .entry = "fric",
-                           .gives = gives,
-                           .sources = sources,
-                           .recipe = add_recipe,
-                           .variants = variants,
-                           .driver = "abaqus/fric/driver.f",
-                           .drive = driver,
-                           .arguments = arguments,
-                           .selector = abaqus::interaction("ciname"),
-                           .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
+  return routine_exporter(
+      {.about = {.name = "abaqus_fric",
+                 .order = 24,
+                 .title = "Abaqus/Standard FRIC, stress with derivatives",
+                 .signature_source = source_of_signature,
+                 .notes = notes,
+                 .options = {abaqus::coefficient_option(), values_option(),
+                             outside_summary_option()}},
+       .entry = "fric",
+       .gives = gives,
+       .sources = sources,
+       .recipe = add_recipe,
+       .variants = variants,
+       .driver = "abaqus/fric/driver.f",
+       .drive = driver,
+       .arguments = arguments,
+       .selector = abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh"),
+       .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
 }};
 
 } // namespace

@@ -134,7 +134,7 @@ const Registered<Exporter> registered{[] {
            },
        .drive = driver,
        .arguments = arguments,
-       .selector = abaqus::interaction("surfInt"),
+       .selector = abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr"),
        .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});
 }};
 

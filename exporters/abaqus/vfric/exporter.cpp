@@ -2,7 +2,9 @@
 // input deck refers to it; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
+#include "abaqus/contact_fields.h"
 #include "abaqus/explicit.h"
+#include "abaqus/stop.h"
 #include "codegen/outside_summary.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
@@ -35,7 +37,8 @@ abaqus::ForceRoutine routine() {
              .title = "Abaqus/Explicit VFRIC, contact pairs",
              .signature_source = source_of_signature,
              .notes = notes(),
-             .options = {values_option(), speed_scale_option(), outside_summary_option()}};
+             .options = {values_option(), speed_scale_option(), outside_summary_option(),
+                         abaqus::contact_fields_option()}};
   r.entry = "vfric";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaSec of the surface node",
                                  .speed = "|dSlipFric|/dTimCur (0 where dTimCur = 0)",
@@ -50,6 +53,10 @@ abaqus::ForceRoutine routine() {
   r.points = "nContact";
   r.time_increment = "dTimCur";
   r.area = "areaSec(jConSecid(k))";
+  r.nodes = "1";
+  r.node = "jSecUid(jConSecid(k))";
+  r.step = "kStep";
+  r.increment = "kInc";
   r.states = "nStateVar";
   r.columns = "1";
   r.state = "statev(1,jConSecid(k))";
@@ -57,6 +64,7 @@ abaqus::ForceRoutine routine() {
   r.state_by = "surface node";
   r.arguments_note = "VFRIC's own 42 arguments; listed is where each state comes from";
   r.user = "user";
+  r.selector = abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "fgh");
   r.deck_tail = "*Contact Pair, interaction=FRICTAB, cpset=<name>\n <secondary>, <main>\n";
   return r;
 }

@@ -105,7 +105,7 @@ void add_recipe(nlohmann::ordered_json& out, const ExportRequest& request,
                               fortran::largest_coefficient)}};
   out["state_variables"] = nlohmann::ordered_json::array();
   out["properties"] = recipe_properties(inputs, speed_scale(request, inputs));
-  abaqus::add_compile(out, file);
+  abaqus::add_compile(out, {file});
   out["input_deck"] =
       abaqus::friction_lines("user=coefficient", 0, inputs, speed_scale(request, inputs)) +
       "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
@@ -118,7 +118,7 @@ SourceBundle sources(const ExportRequest& request, const std::vector<SolverInput
 }
 
 std::vector<BuildVariant> variants(const ExportRequest& request) {
-  return abaqus::explicit_variants(request, file);
+  return abaqus::explicit_variants(request, {file});
 }
 
 Driver driver(const ExportRequest& request, const std::vector<SolverInput>&) {
@@ -163,7 +163,8 @@ const Registered<Exporter> registered{[] {
        .driver = "abaqus/vfric_coef/driver.f",
        .drive = driver,
        .arguments = arguments,
-       .selector = abaqus::interaction("surfInt", true),
+       .selector = abaqus::of_general_contact(
+           abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "uvw")),
        .quit = [] { return abaqus::quit(abaqus::Solver::explicit_); }});
 }};
 

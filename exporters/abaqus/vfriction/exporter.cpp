@@ -3,7 +3,9 @@
 // (exporters/abaqus).
 #include "codegen/exporter.h"
 
+#include "abaqus/contact_fields.h"
 #include "abaqus/explicit.h"
+#include "abaqus/stop.h"
 #include "codegen/outside_summary.h"
 #include "codegen/speed_scale.h"
 #include "codegen/values_file.h"
@@ -40,7 +42,8 @@ abaqus::ForceRoutine routine() {
              .title = "Abaqus/Explicit VFRICTION, general contact",
              .signature_source = source_of_signature,
              .notes = notes(),
-             .options = {values_option(), speed_scale_option(), outside_summary_option()}};
+             .options = {values_option(), speed_scale_option(), outside_summary_option(),
+                         abaqus::contact_fields_option()}};
   r.entry = "vfriction";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaCont of the contact point",
                                  .speed = "|dSlipFric|/rData(3) (0 where rData(3) = 0)",
@@ -56,6 +59,10 @@ abaqus::ForceRoutine routine() {
   r.points = "nBlock";
   r.time_increment = "rData(3)";
   r.area = "areaCont(k)";
+  r.nodes = "nNodSlv";
+  r.node = "jConSlvUid(i,k)";
+  r.step = "jFlags(1)";
+  r.increment = "jFlags(2)";
   r.states = "nStates";
   r.columns = "nNodState";
   r.state = "state(1,1,k)";
@@ -63,7 +70,8 @@ abaqus::ForceRoutine routine() {
   r.state_by = "contact point";
   r.arguments_note = "VFRICTION's own 39 arguments; listed is where each state comes from";
   r.user = "user=friction";
-  r.general = true;
+  r.selector =
+      abaqus::of_general_contact(abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "pqr"));
   r.deck_tail = "*Contact\n*Contact Inclusions, ALL EXTERIOR\n"
                 "*Contact Property Assignment\n , , FRICTAB\n";
   return r;

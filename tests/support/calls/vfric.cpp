@@ -35,6 +35,7 @@ template <class Real> void VfricCall<Real>::resize(int contact_count, int node_c
   normal.assign(size(contacts), Real(0));
   previous.assign(size(contacts, directions), Real(0));
   area.assign(size(secondary_nodes), Real(1));
+  node_numbers.assign(size(secondary_nodes), 7);
   temperature.assign(size(contacts), Real(0));
   temperature_main.assign(size(definitions), Real(0));
   field.assign(size(contacts, predefined), Real(0));
@@ -42,14 +43,14 @@ template <class Real> void VfricCall<Real>::resize(int contact_count, int node_c
 }
 
 template <class Real> void VfricCall<Real>::run(void* function) {
-  int step = 1, increment = 1, facet = rigid ? 0 : directions == 2 ? 2 : 4;
+  int facet = rigid ? 0 : directions == 2 ? 2 : 4;
   int main_nodes = rigid ? 0 : 4, friction_directions = directions - 1, type = 1;
   int has_temperature = temperatures ? 1 : 0, property_number = static_cast<int>(properties.size());
   Real step_time = 0, total_time = 0, work = 0;
   const auto blank = [](int count, int width) {
     return static_cast<std::size_t>(count) * static_cast<std::size_t>(width);
   };
-  std::vector<int> secondary_ids(blank(secondary_nodes, 1), 7), main_ids(blank(main_nodes, 1), 8);
+  std::vector<int> main_ids(blank(main_nodes, 1), 8);
   std::vector<int> main_of_contact(blank(contacts, facet), 1);
   std::vector<Real> shape(blank(contacts, facet)), secondary(blank(secondary_nodes, directions));
   std::vector<Real> main(blank(main_nodes, directions)), slip_axis(blank(contacts, directions));
@@ -58,7 +59,7 @@ template <class Real> void VfricCall<Real>::run(void* function) {
   reinterpret_cast<Vfric>(function)(
       tangential.data(), state.data(), &step, &increment, &contacts, &facet, &secondary_nodes,
       &main_nodes, &friction_directions, &directions, &states, &property_number, &has_temperature,
-      &predefined, &definitions, secondary_ids.data(), main_ids.data(), node.data(),
+      &predefined, &definitions, node_numbers.data(), main_ids.data(), node.data(),
       main_of_contact.data(), &step_time, &total_time, &time_increment, interaction.data(),
       first.data(), second.data(), &type, slip.data(), stick.data(), previous.data(), normal.data(),
       &work, shape.data(), secondary.data(), main.data(), slip_axis.data(), normal_axis.data(),

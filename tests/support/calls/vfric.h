@@ -18,9 +18,11 @@ template <class Real> struct VfricCall {
   bool rigid = false;      // analytical rigid main surface: no facet, no main node
   bool temperatures = false;
   Real time_increment = 0;
+  int step = 1, increment = 1;
   std::vector<Real> properties;
 
   std::vector<int> node;                           // jConSecid, from 1
+  std::vector<int> node_numbers;                   // jSecUid: secondary_nodes
   std::vector<Real> tangential;                    // out: (nDir-1, contacts)
   std::vector<Real> state;                         // in, out: (states, secondary_nodes)
   std::vector<Real> slip;                          // (nDir, contacts)
@@ -30,7 +32,7 @@ template <class Real> struct VfricCall {
   std::vector<Real> temperature, temperature_main; // contacts, definitions
   std::vector<Real> field, field_main; // (contacts, predefined), (definitions, predefined)
 
-  // node is 1..contacts; areas 1; stick unlimited.
+  // node is 1..contacts, all of number 7; areas 1; stick unlimited.
   void resize(int contact_count, int node_count);
   // Runs the routine at this address.
   void run(void* function);

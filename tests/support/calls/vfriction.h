@@ -19,6 +19,8 @@ template <class Real> struct VfrictionCall {
   bool edges = false; // edge-type secondary surface: nNodState = 4, nNodSlv = 2
   bool temperatures = false;
   Real time_increment = 0; // rData(3)
+  int step = 1, increment = 1;
+  std::vector<int> nodes; // jConSlvUid: (nNodSlv, points)
   std::vector<Real> properties;
   std::string interaction = "FRICTAB"; // surfInt
 
@@ -32,7 +34,7 @@ template <class Real> struct VfrictionCall {
 
   int columns() const { return edges ? 4 : 1; }          // nNodState
   int definitions() const { return rigid ? 1 : points; } // nBlockAnal
-  // Areas are 1, stick unlimited.
+  // Areas are 1, stick unlimited, all nodes number 7.
   void resize(int point_count);
   // Runs the routine at this address.
   void run(void* function);
