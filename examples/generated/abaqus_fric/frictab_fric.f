@@ -57,7 +57,8 @@ C       DROT turns the components of state variables; TEMP(1), TEMP(2)
 C       and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; SFD
 C       is the work of the increment, SED the elastic energy;
 C       0.005*CHRLNGTH is the solver's own slip tolerance. STDB_ABQERR
-C       (only where outside = error) is called as public routines do
+C       (only where outside = error, and of several laws) is called as
+C       public routines do
 C
       subroutine fric(lm,tau,ddtddg,ddtddp,dslip,sed,sfd,
      1 ddtddt,pnewdt,statev,dgam,taulm,press,dpress,ddpddh,slip,

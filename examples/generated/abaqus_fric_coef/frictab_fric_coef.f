@@ -55,8 +55,8 @@ C       slipData(:,4) is the slip at the end of the increment; nTemp = 1
 C       where temperatures exist; state variables hold the start of the
 C       increment in every iteration (the routine is right either way,
 C       as long as KSTEP and KINC number increments and a cutback keeps
-C       the number). STDB_ABQERR (only where outside = error) is called
-C       as public routines do
+C       the number). STDB_ABQERR (only where outside = error, and of
+C       several laws) is called as public routines do
 C
       subroutine fric_coef (
 C Write only -

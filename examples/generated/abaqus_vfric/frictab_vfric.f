@@ -48,7 +48,8 @@ C       the same in older releases. Recalled, check against your
 C       release: nTemp = 1 where temperatures exist, numDefTfv = 1 for
 C       an analytical rigid surface, negative fStickForce, area 1 of
 C       node-based surfaces, STATEV = 0 at the start. XPLB_ABQERR (only
-C       where outside = error) is called as public routines do
+C       where outside = error, and of several laws) is called as public
+C       routines do
 C
 C     Names are those of releases 2022 and later; older ones differ, in
 C     the same order.

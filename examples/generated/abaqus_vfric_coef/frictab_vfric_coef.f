@@ -40,7 +40,7 @@ C       taken to be that of FRIC_COEF up to 2020, which is verified in
 C       public code, with vaba_param.inc. Verified: the keyword line
 C       (6.14 keyword guide). Recalled: fCoefDeriv(nBlock,3), nTemp = 1
 C       where temperatures exist. XPLB_ABQERR (only where outside =
-C       error) is called as public routines do
+C       error, and of several laws) is called as public routines do
 C
       subroutine vfric_coef (
 C Write only -

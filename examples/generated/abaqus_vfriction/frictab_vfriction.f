@@ -49,8 +49,8 @@ C       as in the 2017 and v2023 references, keyword lines in the 6.14
 C       keyword guide. Recalled, check against your release: nTemp = 1
 C       where temperatures exist, negative fStickForce, STATE = 0 at the
 C       start. Not known: what the 4 columns of STATE mean for edges.
-C       XPLB_ABQERR (only where outside = error) is called as public
-C       routines do
+C       XPLB_ABQERR (only where outside = error, and of several laws) is
+C       called as public routines do
 C
 C     Newer releases say Sec and Main where this says Slv and Mst; the
 C     order is the same.

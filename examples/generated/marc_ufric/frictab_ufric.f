@@ -36,7 +36,7 @@ C       stress in stress-based models and a force in nodal ones; TEMP(1)
 C       the temperature; YIEL the flow stress; FRIC mu or m) and the
 C       menu's words: no public text of Volume D shows them; check
 C       against your release. Verified: public user routines call
-C       QUIT(1234) (only where outside = error)
+C       QUIT(1234) (only where outside = error, and of several laws)
 C
       subroutine ufric(mibody,coord,fn,vrel,temp,yiel,fric,time,inc,
      &  nsurf)

@@ -85,7 +85,8 @@ const char* const source_of_signature =
     "increment (used only where there are fewer state variables); DROT turns the components of "
     "state variables; TEMP(1), TEMP(2) and PREDEF(1,i), PREDEF(2,i) are those of the two surfaces; "
     "SFD is the work of the increment, SED the elastic energy; 0.005*CHRLNGTH is the solver's own "
-    "slip tolerance. STDB_ABQERR (only where outside = error) is called as public routines do";
+    "slip tolerance. STDB_ABQERR (only where outside = error, and of several laws) is called as "
+    "public routines do";
 
 const char* const notes =
     "For *FRICTION, USER in Abaqus/Standard: contact pairs and contact elements. The routine gives "

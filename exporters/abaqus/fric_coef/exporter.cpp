@@ -84,12 +84,12 @@ const char* const source_of_signature =
     "verified: the list of 2024 in the v2024 reference and in 3DEXPERIENCE, that of 2020 in a "
     "public routine for releases up to about 2020; between these it is not known which release "
     "changed it. State variables are rData(8) and on, as the 2024 page gets them by a pointer. "
-    "Inferred from that page: one point per call where there are state variables. Recalled, check "
-    "against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is the slip at the "
-    "end of the increment; nTemp = 1 where temperatures exist; state variables hold the start of "
-    "the increment in every iteration (the routine is right either way, as long as KSTEP and KINC "
-    "number increments and a cutback keeps the number). STDB_ABQERR (only where outside = error) "
-    "is called as public routines do";
+    "Inferred from that page: one point per call where there are state variables. Recalled, "
+    "check against your release: DEPVAR on *FRICTION, USER=COEFFICIENT; slipData(:,4) is the "
+    "slip at the end of the increment; nTemp = 1 where temperatures exist; state variables hold "
+    "the start of the increment in every iteration (the routine is right either way, as long as "
+    "KSTEP and KINC number increments and a cutback keeps the number). STDB_ABQERR (only where "
+    "outside = error, and of several laws) is called as public routines do";
 
 const char* const notes =
     "For *FRICTION, USER=COEFFICIENT in Abaqus/Standard: contact pairs and general contact; stick "

@@ -20,7 +20,7 @@ const char* const source_of_signature =
     "the v2024 reference; order and count the same in older releases. Recalled, check against "
     "your release: nTemp = 1 where temperatures exist, numDefTfv = 1 for an analytical rigid "
     "surface, negative fStickForce, area 1 of node-based surfaces, STATEV = 0 at the start. "
-    "XPLB_ABQERR (only where outside = error) is called as public routines do";
+    "XPLB_ABQERR (only where outside = error, and of several laws) is called as public routines do";
 
 std::string notes() {
   return "For contact PAIRS with *FRICTION, USER; general contact needs abaqus_vfriction or "

@@ -130,7 +130,7 @@ const char* const source_of_signature =
     "release before the first run. It is taken to be that of FRIC_COEF up to 2020, which is "
     "verified in public code, with vaba_param.inc. Verified: the keyword line (6.14 keyword "
     "guide). Recalled: fCoefDeriv(nBlock,3), nTemp = 1 where temperatures exist. XPLB_ABQERR "
-    "(only where outside = error) is called as public routines do";
+    "(only where outside = error, and of several laws) is called as public routines do";
 
 const char* const notes =
     "For GENERAL contact with *FRICTION, USER=COEFFICIENT: Abaqus itself decides between stick and "

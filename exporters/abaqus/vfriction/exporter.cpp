@@ -20,9 +20,9 @@ const char* const source_of_signature =
     "verified: argument list, dimensions and sizes of the arrays in three public routines that "
     "ran in production (RWTH WZL), names as in the 2017 and v2023 references, keyword lines in "
     "the 6.14 keyword guide. Recalled, check against your release: nTemp = 1 where temperatures "
-    "exist, negative fStickForce, STATE = 0 at the start. Not known: what the 4 columns of "
-    "STATE mean for edges. XPLB_ABQERR (only where outside = error) is called as public routines "
-    "do";
+    "exist, negative fStickForce, STATE = 0 at the start. Not known: what the 4 columns of STATE "
+    "mean for edges. XPLB_ABQERR (only where outside = error, and of several laws) is called as "
+    "public routines do";
 
 std::string notes() {
   return "For GENERAL contact with *FRICTION, USER=FRICTION; contact pairs need abaqus_vfric. "

@@ -92,7 +92,7 @@ const char* const source_of_signature =
     "components in 2-D, 2 and 3 in 3-D; FN a stress in stress-based models and a force in nodal "
     "ones; TEMP(1) the temperature; YIEL the flow stress; FRIC mu or m) and the menu's words: no "
     "public text of Volume D shows them; check against your release. Verified: public user "
-    "routines call QUIT(1234) (only where outside = error)";
+    "routines call QUIT(1234) (only where outside = error, and of several laws)";
 
 const char* const notes =
     "marc_friction says what FRIC is: \"coulomb\" mu = tau_R/p, \"shear\" m = "
