@@ -18,7 +18,7 @@
 #include "core/text.h"
 #include "models/law.h"
 
-namespace frictab::cli {
+namespace frictab::cli::doctor_command {
 
 using expr::Expr;
 
@@ -211,4 +211,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::doctor_command

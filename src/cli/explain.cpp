@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace frictab::cli {
+namespace frictab::cli::explain_command {
 
 namespace {
 
@@ -108,4 +108,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::explain_command

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "table/table_file.h"
 
-namespace frictab::cli {
+namespace frictab::cli::export_command {
 
 namespace {
 
@@ -79,4 +79,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::export_command

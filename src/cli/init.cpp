@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "job/schema.h"
 
-namespace frictab::cli {
+namespace frictab::cli::init_command {
 
 namespace {
 
@@ -53,4 +53,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::init_command

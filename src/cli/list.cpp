@@ -12,7 +12,7 @@
 #include "effects/effect.h"
 #include "models/law.h"
 
-namespace frictab::cli {
+namespace frictab::cli::list_command {
 
 namespace {
 
@@ -69,4 +69,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::list_command

@@ -9,7 +9,7 @@
 #include "table/plain_text.h"
 #include "table/table_file.h"
 
-namespace frictab::cli {
+namespace frictab::cli::table_convert_command {
 
 namespace {
 
@@ -53,4 +53,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::table_convert_command

@@ -9,7 +9,7 @@
 #include "table/difference.h"
 #include "table/table_file.h"
 
-namespace frictab::cli {
+namespace frictab::cli::table_diff_command {
 
 namespace {
 
@@ -59,4 +59,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::table_diff_command

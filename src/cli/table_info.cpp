@@ -7,7 +7,7 @@
 #include "cli/table_command.h"
 #include "table/info.h"
 
-namespace frictab::cli {
+namespace frictab::cli::table_info_command {
 
 namespace {
 
@@ -33,4 +33,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::table_info_command

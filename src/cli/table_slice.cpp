@@ -10,7 +10,7 @@
 #include "table/slice.h"
 #include "table/table_file.h"
 
-namespace frictab::cli {
+namespace frictab::cli::table_slice_command {
 
 namespace {
 
@@ -64,4 +64,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::table_slice_command

@@ -7,7 +7,7 @@
 #include "cli/job_commands.h"
 #include "trace/trace_text.h"
 
-namespace frictab::cli {
+namespace frictab::cli::trace_command {
 
 namespace {
 
@@ -44,4 +44,4 @@ const Registered<Command> trace{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::trace_command

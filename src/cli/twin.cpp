@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "twin/twin_summary.h"
 
-namespace frictab::cli {
+namespace frictab::cli::twin_command {
 namespace {
 
 struct Options {
@@ -145,4 +145,4 @@ Command make() {
 const Registered<Command> registered{make};
 
 } // namespace
-} // namespace frictab::cli
+} // namespace frictab::cli::twin_command

@@ -14,7 +14,7 @@
 #include "table/table_file.h"
 #include "verify/verify.h"
 
-namespace frictab::cli {
+namespace frictab::cli::verify_command {
 
 namespace {
 
@@ -129,4 +129,4 @@ const Registered<Command> registered{[] {
 
 } // namespace
 
-} // namespace frictab::cli
+} // namespace frictab::cli::verify_command

@@ -10,7 +10,7 @@
 #include "support/sample_tables.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::combine_command_test {
 
 namespace {
 
@@ -114,4 +114,4 @@ TEST_F(CombineCommand, TakesWhatHoldsForAllLawsFromAJob) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::combine_command_test

@@ -9,7 +9,7 @@
 #include "support/json.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::discovery_test {
 namespace {
 
 using test::CommandResult;
@@ -167,4 +167,4 @@ TEST(DoctorCommand, FailsAndSaysHowToMendWhereCompilersAreMissing) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::discovery_test

@@ -13,7 +13,7 @@
 #include "job/job.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::docs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ TEST(SlowDocsExample, CommandsOfTheGuideRun) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::docs_test

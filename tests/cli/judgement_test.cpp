@@ -5,7 +5,7 @@
 #include "support/json.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::judgement_test {
 namespace {
 
 using test::run_frictab;
@@ -122,4 +122,4 @@ TEST(ExplainJob, DocumentsConditionalUseAndTheOracle) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::judgement_test

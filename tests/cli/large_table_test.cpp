@@ -6,7 +6,7 @@
 
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::large_table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST_F(SlowLargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::large_table_test

@@ -10,7 +10,7 @@
 #include "support/json.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::pipeline_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -523,4 +523,4 @@ TEST(MeasuredExample, FillerOfTheCompositesIsFoundAndPredictsTestsThatWereLeftOu
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::pipeline_test

@@ -7,7 +7,7 @@
 #include "support/sample_tables.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::table_command_test {
 
 using expr::Expr;
 using table::Table;
@@ -374,4 +374,4 @@ TEST(TableLayout, IsExplainedWithEveryAttributeThatAReaderAsksFor) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::table_command_test

@@ -7,7 +7,7 @@
 #include "support/json.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::toy_target_test {
 namespace {
 
 using test::CommandResult;
@@ -51,4 +51,4 @@ TEST(SlowToyTarget, IsGeneratedDrivenAndVerifiedByTheMainJob) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::toy_target_test

@@ -8,7 +8,7 @@
 #include "support/run_command.h"
 #include "support/traced_law.h"
 
-namespace frictab {
+namespace frictab::traced_law_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,4 +115,4 @@ TEST_F(TracedLawCommands, RefuseAnInputThatIsNoColumn) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::traced_law_command_test

@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "support/json.h"
 
-namespace frictab {
+namespace frictab::twin_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ TEST_F(TwinCommand, RecordsLawProfileAndScatter) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::twin_command_test

@@ -11,7 +11,7 @@
 #include "support/sample_data.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::formats_fuzz_test {
 namespace {
 
 std::string damaged(std::string text, Random& random) {
@@ -99,4 +99,4 @@ TEST(Recipe, FileNamesMayNotLeadOutOfTheDirectory) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::formats_fuzz_test

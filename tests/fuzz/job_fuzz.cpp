@@ -4,7 +4,7 @@
 #include "core/random.h"
 #include "job/schema.h"
 
-namespace frictab {
+namespace frictab::job_fuzz {
 namespace {
 
 const std::string_view pieces[] = {"[",
@@ -134,4 +134,4 @@ TEST(JobFuzz, GivesAJobOrFaultsForDamagedOverrides) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::job_fuzz

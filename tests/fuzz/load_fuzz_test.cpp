@@ -14,7 +14,7 @@
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 
-namespace frictab {
+namespace frictab::load_fuzz_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,4 +176,4 @@ TEST_F(LoadFuzz, RandomBytesGiveAnInputError) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::load_fuzz_test

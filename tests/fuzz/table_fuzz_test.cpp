@@ -15,7 +15,7 @@
 #include "table/info.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::table_fuzz_test {
 namespace {
 
 enum Outcome : char { read_well = 'w', refused = 'r', unsound = 'u', other_error = 'o' };
@@ -111,4 +111,4 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::table_fuzz_test

@@ -7,7 +7,7 @@
 #include "codegen/template.h"
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::template_fuzz_test {
 
 namespace {
 
@@ -71,4 +71,4 @@ TEST(TemplateFuzz, EveryTextRendersOrIsRefusedWithAPlace) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::template_fuzz_test

@@ -8,7 +8,7 @@
 #include "support/sample_data.h"
 #include "table/bound.h"
 
-namespace frictab {
+namespace frictab::bound_test {
 
 using models::AssembledLaw;
 using models::Model;
@@ -152,4 +152,4 @@ TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::bound_test

@@ -10,7 +10,7 @@
 #include "core/parallel.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::calibration_test {
 
 using calibrate::Calibration;
 using calibrate::calibration_json;
@@ -284,4 +284,4 @@ TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::calibration_test

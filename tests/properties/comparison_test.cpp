@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::comparison_test {
 
 using calibrate::compare;
 using calibrate::Comparisons;
@@ -246,4 +246,4 @@ TEST(Metrics, HaveNoIntervalOfOneExperimentAndAWideOneOfTwo) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::comparison_test

@@ -10,7 +10,7 @@
 #include "support/sample_data.h"
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::conditional_test {
 
 using calibrate::conditioned_predictions;
 using calibrate::gain_prior;
@@ -199,4 +199,4 @@ TEST(Conditional, WithoutSlidingDistanceIsRefusedWithWhatToMap) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::conditional_test

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::convergence_test {
 
 using calibrate::Loss;
 using data::Dataset;
@@ -168,4 +168,4 @@ INSTANTIATE_TEST_SUITE_P(Registry, SlowConvergence, testing::ValuesIn([] {
                          [](const auto& test) { return test.param; });
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::convergence_test

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::coverage_test {
 
 using calibrate::Loss;
 
@@ -75,4 +75,4 @@ INSTANTIATE_TEST_SUITE_P(Sandwich, SlowCoverage,
                          });
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::coverage_test

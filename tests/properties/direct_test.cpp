@@ -13,7 +13,7 @@
 #include "table/direct.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::direct_test {
 
 using expr::Expr;
 using models::AssembledLaw;
@@ -175,4 +175,4 @@ TEST(Layer, IsNotMadeOfFormulasThatAreNone) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::direct_test

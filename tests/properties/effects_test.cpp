@@ -8,7 +8,7 @@
 #include "effects/effect.h"
 #include "expr/program.h"
 
-namespace frictab {
+namespace frictab::effects_test {
 
 using effects::EffectForm;
 using effects::parameters_of;
@@ -210,4 +210,4 @@ TEST(Effects, SpreadIgnoresWhatIsNotFinite) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::effects_test

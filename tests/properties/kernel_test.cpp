@@ -11,7 +11,7 @@
 #include "table/axis_search.h"
 #include "table/spline.h"
 
-namespace frictab {
+namespace frictab::kernel_test {
 
 using table::axis_search;
 using table::AxisSearch;
@@ -290,4 +290,4 @@ TEST(Kernels, OfSevenAndEightAxesReproduceMultilinearFunctions) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::kernel_test

@@ -5,7 +5,7 @@
 #include "support/kinked_law.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::kinked_law_test {
 namespace {
 
 TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
@@ -24,4 +24,4 @@ TEST(KinkedLaw, IsHeldTo10kPaOnAtMost300Nodes) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::kinked_law_test

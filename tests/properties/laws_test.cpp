@@ -9,7 +9,7 @@
 #include "models/law.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::laws_test {
 
 using expr::Expr;
 using expr::Program;
@@ -202,4 +202,4 @@ TEST(Levanov, InitialCoefficientIs125mOverRoot3) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::laws_test

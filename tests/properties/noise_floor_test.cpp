@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::noise_floor_test {
 
 using calibrate::oracle_floor;
 using calibrate::replicate_floor;
@@ -213,4 +213,4 @@ TEST(NoiseFloor, IsTakenFromTheMostTrustworthySourceAndSaidAsWhatItIs) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::noise_floor_test

@@ -8,7 +8,7 @@
 #include "support/sample_data.h"
 #include "table/bound.h"
 
-namespace frictab {
+namespace frictab::tolerance_test {
 
 using models::AssembledLaw;
 using table::TableOptions;
@@ -143,4 +143,4 @@ TEST(Coordinates, OfTheLawNeedFarFewerNodesThanPlainOnes) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::tolerance_test

@@ -11,7 +11,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::agreement_test {
 
 using codegen::Exporter;
 using codegen::find_exporter;
@@ -148,4 +148,4 @@ INSTANTIATE_TEST_SUITE_P(Targets, SlowAgreement, testing::ValuesIn(every_routine
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::agreement_test

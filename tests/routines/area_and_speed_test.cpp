@@ -11,7 +11,7 @@
 #include "support/sample_tables.h"
 #include "table/interpolation.h"
 
-namespace frictab {
+namespace frictab::area_and_speed_test {
 
 using codegen::ExportRequest;
 using codegen::find_exporter;
@@ -169,4 +169,4 @@ TEST(AreaAndSpeedChoices, SayWhichNumbersOfIncrementsThereAre) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::area_and_speed_test

@@ -5,7 +5,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::c_target_test {
 
 namespace {
 
@@ -47,4 +47,4 @@ TEST(SlowCTarget, CompilesAsOneFileAloneAndIsUsableFromCpp) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::c_target_test

@@ -10,7 +10,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::calculix_test {
 
 using expr::Expr;
 using table::Table;
@@ -67,8 +67,6 @@ protected:
   }
 };
 
-#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, bound* std::abs(b))
-
 using SlowCalculix = Calculix;
 
 TEST_F(SlowCalculix, AgreesWithFrictabForEveryTableAndUnit) {
@@ -82,13 +80,13 @@ TEST_F(SlowCalculix, AgreesWithFrictabForEveryTableAndUnit) {
 }
 
 TEST_F(Calculix, TakesTheSpeedOfTheTangentialDisplacementOverTheIncrement) {
-  EXPECT_CLOSE(Spring().run(routine()), mu(1000, 50, 100));
+  EXPECT_CLOSE(Spring().run(routine()), mu(1000, 50, 100), bound);
   Spring faster;
   faster.time = 0.5e-3;
-  EXPECT_CLOSE(faster.run(routine()), mu(1000, 100, 100));
+  EXPECT_CLOSE(faster.run(routine()), mu(1000, 100, 100), bound);
   Spring no_time;
   no_time.time = 0;
-  EXPECT_CLOSE(no_time.run(routine()), mu(1000, 0, 100));
+  EXPECT_CLOSE(no_time.run(routine()), mu(1000, 0, 100), bound);
 }
 
 TEST_F(Calculix, TakesTheTangentialDisplacementAsTheSlidingDistance) {
@@ -96,13 +94,14 @@ TEST_F(Calculix, TakesTheTangentialDisplacementAsTheSlidingDistance) {
   slides.combine = Expr::symbol("sigma_n_MPa") * Expr::symbol("s_mm");
   const codegen::Library& library =
       *test::compiled("slides", target(), {slides, "mm-t-s", {}}, "double", test::strict_declared);
-  EXPECT_CLOSE(Spring().run(library), 2.0);
+  EXPECT_CLOSE(Spring().run(library), 2.0, bound);
 }
 
 TEST_F(Calculix, TakesTheConstantTemperatureWhereTheDeckHasNone) {
   Spring cold;
   cold.temperature = 0;
-  EXPECT_CLOSE(cold.run(routine()), mu(1000, 50, *codegen::typical_value(table(), "T_contact_C")));
+  EXPECT_CLOSE(cold.run(routine()), mu(1000, 50, *codegen::typical_value(table(), "T_contact_C")),
+               bound);
 }
 
 TEST_F(Calculix, IsNotAskedForATemperatureOf0WhichStandsForNone) {
@@ -145,4 +144,4 @@ TEST_F(Calculix, ShipsTheScriptThatPutsItsCallsIntoTheSource) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::calculix_test

@@ -9,10 +9,11 @@
 #include "codegen/values_file.h"
 #include "core/error.h"
 #include "support/calls/vfriction.h"
+#include "support/error_routine.h"
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::combined_test {
 
 using codegen::CombinedBundle;
 using codegen::ExportRequest;
@@ -114,23 +115,6 @@ struct Laws {
   }
 };
 
-// Beside a stand-in for the solver's error routine that keeps what it was told.
-const char* const keeper = "      subroutine xplb_abqerr(lop, text, intv, realv, charv)\n"
-                           "      include 'vaba_param.inc'\n"
-                           "      character*(*) text, charv(*)\n"
-                           "      dimension intv(*), realv(*)\n"
-                           "      character*500 said\n"
-                           "      integer calls, kind\n"
-                           "      common /seen/ calls, kind, said\n"
-                           "      calls = calls + 1\n"
-                           "      kind = lop\n"
-                           "      said = text\n"
-                           "      end\n";
-struct Seen {
-  int calls, kind;
-  char said[500];
-};
-
 class CombinedLaws : public testing::Test {
 protected:
   void SetUp() override {
@@ -150,7 +134,7 @@ protected:
     static const Library library = [] {
       const CombinedBundle bundle = laws().bundle(vfriction());
       codegen::BuildVariant variant = vfriction().variants(bundle.laws[0])[0];
-      variant.extra["solver.f"] = keeper;
+      test::keep_what_is_told(variant);
       test::add_flags(variant, test::strict);
       return Library(codegen::compile_library(bundle.files, variant, work.path()));
     }();
@@ -270,16 +254,16 @@ TEST(SlowCombinedLaws, OfContactPairsAndOfGeneralContactStandInOneUserFile) {
 }
 
 TEST_F(CombinedLaws, EndTheAnalysisForANameThatIsNoneOfThem) {
-  Seen& seen = *combined().find<Seen>("seen_");
+  test::Told& told = test::told(combined());
   for (const std::string name : {"OTHER", "PUNCH-2", "DIE", ""}) {
-    seen.calls = 0;
+    told.calls = 0;
     calls::VfrictionCall<double> c = block(1);
     c.interaction = name;
     c.tangential.assign(c.tangential.size(), 777);
     c.run(Library::address(combined().handle(), "vfriction_"));
-    EXPECT_EQ(seen.calls, 1) << name;
-    EXPECT_EQ(seen.kind, -3) << "the solver's code for: stop at once";
-    EXPECT_EQ(std::string(seen.said, 500).substr(0, 43 + name.size()),
+    EXPECT_EQ(told.calls, 1) << name;
+    EXPECT_EQ(told.kind, -3) << "the solver's code for: stop at once";
+    EXPECT_EQ(told.said().substr(0, 43 + name.size()),
               "friction table: there is no law for " + name + std::string(7, ' '));
     EXPECT_EQ(c.tangential.front(), 777) << "no law was asked";
   }
@@ -376,4 +360,4 @@ TEST(SlowCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombine
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::combined_test

@@ -11,7 +11,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::contact_fields_test {
 
 using calls::VfricCall;
 using calls::VfrictionCall;
@@ -271,4 +271,4 @@ TEST(ContactFieldsText, RefusesALawThatTakesOneOfTheFields) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::contact_fields_test

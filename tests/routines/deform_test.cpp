@@ -17,7 +17,7 @@
 #include "support/json.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::deform_test {
 
 using codegen::ExportRequest;
 using codegen::Library;
@@ -92,8 +92,6 @@ struct SlowDeform : testing::Test {
   UsrbccCall call;
 };
 
-#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, bound* std::abs(b))
-
 TEST_F(SlowDeform, AgreesWithFrictabForEveryTableAndFrictionType) {
   const std::pair<const char*, const char*> choices[] = {
       {"coulomb", "mm-t-s"}, {"shear", "mm-t-s"}, {"constant", "mm-t-s"}, {"constant", "m-kg-s"}};
@@ -117,32 +115,32 @@ TEST_F(SlowDeform, ActsOnlyForTheFrictionOfADeformation) {
 
 TEST_F(SlowDeform, GivesMuShearFactorOrStressAsTheJobSays) {
   use_four_axes("coulomb");
-  EXPECT_CLOSE(run(), tau(1000) / 1000);
+  EXPECT_CLOSE(run(), tau(1000) / 1000, bound);
   use_four_axes("shear");
-  EXPECT_CLOSE(run(), tau(1000) / k);
+  EXPECT_CLOSE(run(), tau(1000) / k, bound);
   use_four_axes("constant");
-  EXPECT_CLOSE(run(), tau(1000));
+  EXPECT_CLOSE(run(), tau(1000), bound);
 }
 
 TEST_F(SlowDeform, TakesTwoAndThreeFreedomsPerNodeAndEveryModelNumber) {
   use_four_axes();
   for (const int freedoms : {2, 3}) {
     call.freedoms = freedoms, call.model = freedoms;
-    EXPECT_CLOSE(run(), tau(1000) / 1000);
+    EXPECT_CLOSE(run(), tau(1000) / 1000, bound);
   }
 }
 
 TEST_F(SlowDeform, TakesStatesFromTheCOMMONBlocksAndNotTheirSigns) {
   use_four_axes();
   contact->sliding_speed = -20, contact->pressure = -800, surface->stretch = 5;
-  EXPECT_CLOSE(run(), tau(800, 20, 100, 5) / 800);
+  EXPECT_CLOSE(run(), tau(800, 20, 100, 5) / 800, bound);
 }
 
 TEST_F(SlowDeform, GivesMuOfTheLeastPressureInsteadOf0Over0AndNoOtherFrictionWithoutPressure) {
   for (const double pressure : {0.0, 1e-300, 1e-3}) {
     use_four_axes("coulomb");
     contact->pressure = pressure;
-    EXPECT_CLOSE(run(), tau(1e-3) / 1e-3) << pressure;
+    EXPECT_CLOSE(run(), tau(1e-3) / 1e-3, bound) << pressure;
   }
   for (const char* friction : {"shear", "constant"}) {
     use_four_axes(friction);
@@ -172,16 +170,16 @@ TEST_F(SlowDeform, GivesNaNForNaNInAnyStateItUses) {
 TEST_F(SlowDeform, TakesInfinitiesAsFarOutsideTheTable) {
   use_four_axes("constant");
   contact->pressure = inf;
-  EXPECT_CLOSE(run(), 0.8 * k);
+  EXPECT_CLOSE(run(), 0.8 * k, bound);
   use_four_axes("coulomb");
   contact->pressure = inf;
   EXPECT_NEAR(run(), 0, 1e-20) << "the shear limit over any pressure";
   use_four_axes();
   contact->sliding_speed = inf;
-  EXPECT_CLOSE(run(), tau(1000, 1e9) / 1000);
+  EXPECT_CLOSE(run(), tau(1000, 1e9) / 1000, bound);
   use_four_axes();
   call.temperature[1] = -inf;
-  EXPECT_CLOSE(run(), tau(1000, 50, -1e9) / 1000);
+  EXPECT_CLOSE(run(), tau(1000, 50, -1e9) / 1000, bound);
 }
 
 TEST_F(SlowDeform, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
@@ -191,7 +189,7 @@ TEST_F(SlowDeform, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
     use_four_axes();
     contact->pressure = p, contact->sliding_speed = v;
     call.temperature[0] = call.temperature[1] = T;
-    EXPECT_CLOSE(run(), tau(p, v, T) / p);
+    EXPECT_CLOSE(run(), tau(p, v, T) / p, bound);
   }
 }
 
@@ -204,9 +202,9 @@ TEST_F(SlowDeform, TakesTheMeanOfBothNodesHistoriesAnd0WithoutThem) {
   call.nodal = {8, 0, 0, 0, nan, nan, nan, nan, 14, 0, 0, 0}; // node 2 is not of this edge
   contact->sliding_speed = 20;
   const double at_11[] = {1000, 20, 11, flow}, at_0[] = {1000, 20, 0, flow};
-  EXPECT_CLOSE(run(), function(at_11) / 1000);
+  EXPECT_CLOSE(run(), function(at_11) / 1000, bound);
   call.user_variables = 0;
-  EXPECT_CLOSE(run(), function(at_0) / 1000);
+  EXPECT_CLOSE(run(), function(at_0) / 1000, bound);
   call.user_variables = 4;
   call.nodal[8] = nan;
   EXPECT_TRUE(std::isnan(run()));
@@ -223,11 +221,12 @@ TEST_F(SlowDeform, TakesStatesFromUserVariablesOfNodesAndConstantsAsTheJobSays) 
   call.nodal = {200e6, 3, 400e6, 5};
   surface->effective_stress = nan; // not asked for
   const double state[] = {1000, 4, 50, 60, 300};
-  EXPECT_CLOSE(run(), table(state) / (300 / std::sqrt(3.0))) << "k of the law's own flow stress";
+  EXPECT_CLOSE(run(), table(state) / (300 / std::sqrt(3.0)), bound)
+      << "k of the law's own flow stress";
   call.user_variables = 1; // field 2 is not there: the middle of the axis
   call.nodal = {200e6, 400e6};
   const double fallback[] = {1000, std::sqrt(20.0), 50, 60, 300};
-  EXPECT_CLOSE(run(), table(fallback) / (300 / std::sqrt(3.0)));
+  EXPECT_CLOSE(run(), table(fallback) / (300 / std::sqrt(3.0)), bound);
 }
 
 TEST_F(SlowDeform, IsNotAskedForAPeakBelowThePresentPressure) {
@@ -239,7 +238,7 @@ TEST_F(SlowDeform, IsNotAskedForAPeakBelowThePresentPressure) {
   codegen::CompiledTarget(deform(), asked, deform().generate(asked), deform().variants(asked)[0])
       .drive(3, columns, result);
   const double state[] = {700, 200, 900};
-  EXPECT_CLOSE(result[0], TableFunction(table)(state));
+  EXPECT_CLOSE(result[0], TableFunction(table)(state), bound);
   EXPECT_EQ(result[1], -1);
   EXPECT_TRUE(std::isnan(result[2]));
 }
@@ -277,9 +276,9 @@ TEST_F(SlowDeform, TakesWorkAndPeakPressureOfTheNodesInTheSolversUnits) {
     contact->pressure = si ? 700e6 : 700;
     call.nodal = {0, si ? 100e3 : 100, si ? 800e6 : 800, 0, si ? 300e3 : 300, si ? 1000e6 : 1000};
     const double state[] = {700, 200, 900}, risen[] = {1200, 200, 1200};
-    EXPECT_CLOSE(run(), function(state) / 700);
+    EXPECT_CLOSE(run(), function(state) / 700, bound);
     contact->pressure = si ? 1200e6 : 1200; // above the peak of the last step
-    EXPECT_CLOSE(run(), function(risen) / 1200);
+    EXPECT_CLOSE(run(), function(risen) / 1200, bound);
     contact->pressure = nan;
     EXPECT_TRUE(std::isnan(run()));
   }
@@ -386,4 +385,4 @@ TEST_F(DeformUpdate, KeepsNaN) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::deform_test

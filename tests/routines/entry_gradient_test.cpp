@@ -11,7 +11,7 @@
 #include "support/sample_tables.h"
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::entry_gradient_test {
 
 using codegen::InputArgument;
 using table::Table;
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(Targets, SlowEntryGradient, testing::ValuesIn(targets),
                          });
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::entry_gradient_test

@@ -9,7 +9,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::entry_test {
 
 namespace {
 
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(Targets, SlowEntryOf, testing::Values("c", "fortran"),
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::entry_test

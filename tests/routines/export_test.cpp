@@ -14,7 +14,7 @@
 #include "table/build.h"
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::export_test {
 
 using codegen::all_exporters;
 using codegen::BuildVariant;
@@ -296,4 +296,4 @@ TEST(Compile, TellsAMissingProgram) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::export_test

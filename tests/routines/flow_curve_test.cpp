@@ -12,7 +12,7 @@
 #include "support/sample_tables.h"
 #include "table/interpolation.h"
 
-namespace frictab {
+namespace frictab::flow_curve_test {
 
 using codegen::Exporter;
 using codegen::ExportRequest;
@@ -125,4 +125,4 @@ TEST(FlowCurve, HasTheRangeOfStrainsOverWhichTheLawWasTested) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::flow_curve_test

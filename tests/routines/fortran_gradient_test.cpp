@@ -15,7 +15,7 @@
 #include "support/sample_tables.h"
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::fortran_gradient_test {
 
 using table::Table;
 using table::TableFunction;
@@ -227,4 +227,4 @@ TEST(SlowFortranGradientUnit, KeepsToItsColumns) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::fortran_gradient_test

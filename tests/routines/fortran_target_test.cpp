@@ -8,7 +8,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::fortran_target_test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST_F(FortranTarget, KeepsItsSourceInOneFileWithoutStateOrOutput) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::fortran_target_test

@@ -6,7 +6,7 @@
 
 #include "routines/fric_case.h"
 
-namespace frictab {
+namespace frictab::fric_history_test {
 
 namespace {
 
@@ -32,12 +32,12 @@ TEST_F(FricHistory, AddsSlipWorkAndPeakOncePerIncrementWhateverTheIterations) {
         run(c, branching());
       }
       const double slip = 5 * increment - critical;
-      EXPECT_CLOSE(c.state[0], slip);
-      EXPECT_CLOSE(c.tau[0], slip_tau(290 + increment, 40, slip));
+      EXPECT_CLOSE(c.state[0], slip, 1e-13);
+      EXPECT_CLOSE(c.tau[0], slip_tau(290 + increment, 40, slip), 1e-13);
       work += c.tau[0] * (increment == 1 ? 5 - critical : 5);
-      EXPECT_CLOSE(c.state[1], work);
+      EXPECT_CLOSE(c.state[1], work, 1e-13);
       EXPECT_EQ(c.state[2], 290 + increment) << "not the peak of an iteration";
-      EXPECT_CLOSE(c.dissipation, c.tau[0] * c.slip[0]);
+      EXPECT_CLOSE(c.dissipation, c.tau[0] * c.slip[0], 1e-13);
     }
   }
 }
@@ -82,7 +82,7 @@ TEST_F(FricHistory, CountsOnInTheNextStepThoughItsIncrementsBeginAgain) {
     move(c, 40);
     run(c, branching());
     run(c, branching());
-    EXPECT_CLOSE(c.state[0], 5 * step - critical);
+    EXPECT_CLOSE(c.state[0], 5 * step - critical, 1e-13);
   }
 }
 
@@ -106,10 +106,10 @@ TEST_F(FricHistory, WorksWithoutStateVariablesFromTheStressOfTheIncrementsStart)
     c.resize();
     move(c, 50, 30);
     run(c, four_axes());
-    EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100));
+    EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100), 1e-13);
     move(c, 1, 210); // back, elastically
     run(c, four_axes());
-    EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100) - tau(1000, 1, 100) * 0x1p-10 / critical);
+    EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100) - tau(1000, 1, 100) * 0x1p-10 / critical, 1e-13);
     EXPECT_THAT(c.state, testing::Each(0));
   }
 }
@@ -135,9 +135,9 @@ TEST_F(FricHistory, FollowsPeakPressureAndFrictionWorkInBothUnitSystems) {
       c.pressure = pressure * stress;
       c.motion[0] = (1 + critical) * length;
       run(c, routine("histories " + units, {table, units, {}}));
-      EXPECT_CLOSE(c.tau[0], wanted(pressure, 800, work) * stress);
+      EXPECT_CLOSE(c.tau[0], wanted(pressure, 800, work) * stress, 1e-13);
       work += wanted(pressure, 800, work) * (c.increment == 1 ? 1 : 1 + critical);
-      EXPECT_CLOSE(c.state[1], work * stress * length);
+      EXPECT_CLOSE(c.state[1], work * stress * length, 1e-13);
       expect_tangents(c, routine("histories " + units, {table, units, {}}), "histories");
       ++c.increment;
     }
@@ -156,7 +156,7 @@ TEST_F(FricHistory, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
   auto c = call(2);
   move(c, 50, 30);
   run(c, frozen);
-  EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100)) << "the first increment has no other";
+  EXPECT_CLOSE(size(c.tau), tau(1000, 50, 100), 1e-13) << "the first increment has no other";
   const double held = tau(1000, 50, 100) / 1000;
   for (int iteration = 0; iteration < 3; ++iteration) {
     c.increment = 2;
@@ -164,16 +164,16 @@ TEST_F(FricHistory, HoldsTheCoefficientOfTheLastIncrementWhereAsked) {
     c.temperature[0] = 180;
     move(c, 300, 30);
     run(c, frozen);
-    EXPECT_CLOSE(size(c.tau), held * c.pressure);
-    EXPECT_CLOSE(size(c.by_pressure), held);
+    EXPECT_CLOSE(size(c.tau), held * c.pressure, 1e-13);
+    EXPECT_CLOSE(size(c.by_pressure), held, 1e-13);
     EXPECT_THAT(c.by_temperature, testing::Each(0));
   }
   expect_tangents(c, frozen, "held");
   c.increment = 3;
   run(c, frozen);
-  EXPECT_CLOSE(size(c.tau), tau(800, 300, 140)) << "what increment 2 ended with";
+  EXPECT_CLOSE(size(c.tau), tau(800, 300, 140), 1e-13) << "what increment 2 ended with";
 }
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::fric_history_test

@@ -6,7 +6,7 @@
 
 #include "routines/fric_case.h"
 
-namespace frictab {
+namespace frictab::fric_tangent_test {
 
 namespace {
 
@@ -144,4 +144,4 @@ TEST_F(FricTangents, LetsNewtonsMethodConvergeOverStickAndSlip) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::fric_tangent_test

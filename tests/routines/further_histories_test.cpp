@@ -16,7 +16,7 @@
 #include "support/generated.h"
 #include "support/json.h"
 
-namespace frictab {
+namespace frictab::further_histories_test {
 
 using codegen::find_exporter;
 using codegen::have_program;
@@ -374,7 +374,7 @@ TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {
   Units units = both_units[0];
   units.table = "mean";
   TypeParam point(units);
-  const double bound = std::max(1e-10, frictab::bound<TypeParam>());
+  const double bound = std::max(1e-10, further_histories_test::bound<TypeParam>());
   EXPECT_NEAR(point.step({500, 2, 0.5, 80}), 500 * 0.058, 29 * bound);
   TypeParam spoilt = point;
   EXPECT_TRUE(std::isnan(spoilt.step({500, 2, 0.5, test::nan})));
@@ -531,4 +531,4 @@ TEST(FurtherHistoriesOfMarc, AreConstantsThatTheSourceNames) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::further_histories_test

@@ -11,7 +11,7 @@
 #include "io/atomic_file.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::generated_text_test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST(SlowGeneratedText, KeepsToItsColumns) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::generated_text_test

@@ -12,7 +12,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::histories_test {
 
 using expr::Expr;
 using table::Table;
@@ -229,4 +229,4 @@ TYPED_TEST(SlowHistories, DriversPoseThemAndLeaveOutWhatCannotBe) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::histories_test

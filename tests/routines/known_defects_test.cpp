@@ -13,7 +13,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::known_defects_test {
 
 using codegen::find_exporter;
 using expr::Expr;
@@ -382,4 +382,4 @@ TEST_F(KnownDefects, ArgumentListsHaveTheVerifiedLengths) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::known_defects_test

@@ -12,7 +12,7 @@
 #include "table/direct.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::low_pressure_test {
 
 using models::AssembledLaw;
 using models::Model;
@@ -155,4 +155,4 @@ TEST(SlowLargestCoefficient, IsWhatEverySolverGetsOfALawThatAsksForMore) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::low_pressure_test

@@ -14,7 +14,7 @@
 #include "verify/beyond.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::native_cost_test {
 
 using codegen::Exporter;
 using codegen::find_exporter;
@@ -187,4 +187,4 @@ TEST(NativeCost, FailsWhereLessIsAllowedThanTheGridWasMadeTo) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::native_cost_test

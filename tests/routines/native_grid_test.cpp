@@ -6,7 +6,7 @@
 #include "codegen/native_grid.h"
 #include "core/random.h"
 
-namespace frictab {
+namespace frictab::native_grid_test {
 
 using codegen::make_native_grid;
 using codegen::NativeGrid;
@@ -131,4 +131,4 @@ TEST(NativeValues, AreLinearBetweenNodesConstantBeyondTheEndsAndNaNForNaN) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::native_grid_test

@@ -13,7 +13,7 @@
 #include "support/json.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::native_table_test {
 
 using codegen::ExportRequest;
 using codegen::find_exporter;
@@ -339,4 +339,4 @@ TEST(NativeTables, SayByHowMuchTheyMissATolerance) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::native_table_test

@@ -10,7 +10,7 @@
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::outside_summary_test {
 
 using codegen::find_exporter;
 
@@ -99,4 +99,4 @@ TEST_F(OutsideSummary, TakesAPressureOfZeroForTheFurthest) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::outside_summary_test

@@ -12,7 +12,7 @@
 #include "io/atomic_file.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::qform_test {
 
 using expr::Expr;
 using table::Table;
@@ -149,4 +149,4 @@ TEST(QFormSource, KeepsTextsFromOutsideInComments) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::qform_test

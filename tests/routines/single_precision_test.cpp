@@ -17,7 +17,7 @@
 #include "table/direct.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::single_precision_test {
 
 using codegen::ExportRequest;
 using models::AssembledLaw;
@@ -287,4 +287,4 @@ TEST(SinglePrecision, TurnsTypesNumbersAndFunctionsAndNothingElse) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::single_precision_test

@@ -10,7 +10,7 @@
 #include "support/json.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::speed_scale_test {
 
 namespace {
 
@@ -173,4 +173,4 @@ TEST(SpeedScaleProperty, IsTheOnlyOneListedWhereNoStateIsAProperty) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::speed_scale_test

@@ -48,7 +48,4 @@ inline table::Table two_slips_table() {
   return table;
 }
 
-// To the order of operations only.
-#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, 1e-13 * std::abs(b))
-
 } // namespace frictab::test

@@ -12,7 +12,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::stuck_node_test {
 
 namespace {
 
@@ -156,4 +156,4 @@ TYPED_TEST(SlowPenaltyNode, SlidingOneKeepsItsMotionLessTheElasticPart) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::stuck_node_test

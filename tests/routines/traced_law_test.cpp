@@ -24,7 +24,7 @@
 #include "table/table_file.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::traced_law_test {
 
 using calibrate::predict;
 using codegen::find_exporter;
@@ -384,4 +384,4 @@ INSTANTIATE_TEST_SUITE_P(Effects, HistoryOnAPath,
                          [](const auto& given) { return given.param; });
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::traced_law_test

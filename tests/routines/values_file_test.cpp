@@ -17,7 +17,7 @@
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::values_file_test {
 
 using codegen::BuildVariant;
 using codegen::Exporter;
@@ -251,4 +251,4 @@ TEST(ValuesFile, MessagesNameTheFileAndWhatIsWrongWithIt) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::values_file_test

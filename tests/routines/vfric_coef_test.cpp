@@ -11,7 +11,7 @@
 #include "support/generated.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::vfric_coef_test {
 
 using table::Table;
 using table::TableFunction;
@@ -95,8 +95,6 @@ struct PrecisionName {
 };
 TYPED_TEST_SUITE(SlowVfricCoef, Precisions, PrecisionName);
 
-#define EXPECT_CLOSE(a, b) EXPECT_NEAR(a, b, TestFixture::bound* std::abs(b))
-
 TYPED_TEST(SlowVfricCoef, GivesTauOverPressureInBlocksOf0And1And136And512) {
   for (const int points : {0, 1, 136, 512}) {
     auto c = this->call(points);
@@ -105,7 +103,8 @@ TYPED_TEST(SlowVfricCoef, GivesTauOverPressureInBlocksOf0And1And136And512) {
     this->run(c, this->four_axes());
     for (std::size_t k = 0; k < c.pressure.size(); ++k) {
       const double p = 600 + 2.0 * double(k);
-      EXPECT_CLOSE(c.coefficient[k], this->tau(p, 10 + double(k % 100), 50) / p);
+      EXPECT_CLOSE(c.coefficient[k], this->tau(p, 10 + double(k % 100), 50) / p,
+                   TestFixture::bound);
     }
   }
 }
@@ -122,7 +121,7 @@ TYPED_TEST(SlowVfricCoef, IsTheLimitWhereThereIsNoPressureToDivideBy) {
   this->run(c, this->four_axes());
   // tau = mu p with mu at the nearest edge, 500 MPa: the limit is mu.
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_CLOSE(c.coefficient[k], this->tau(500, 50, 100) / 500);
+    EXPECT_CLOSE(c.coefficient[k], this->tau(500, 50, 100) / 500, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, OfALawWithoutPressureStaysFiniteAndItsForceGoesToZero) {
@@ -136,7 +135,7 @@ TYPED_TEST(SlowVfricCoef, OfALawWithoutPressureStaysFiniteAndItsForceGoesToZero)
   const double tau = function(state);
   for (const std::size_t k : {0, 1, 2})
     EXPECT_EQ(c.coefficient[k], 10) << "the most that a solver gets";
-  EXPECT_CLOSE(c.coefficient[3] * c.pressure[3], tau);
+  EXPECT_CLOSE(c.coefficient[3] * c.pressure[3], tau, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, NeverExceedsTheShearLimit) {
@@ -145,14 +144,15 @@ TYPED_TEST(SlowVfricCoef, NeverExceedsTheShearLimit) {
   c.properties[2] = TypeParam(1);
   this->run(c, this->four_axes());
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_CLOSE(double(c.coefficient[k]) * double(c.pressure[k]), shear_limit / flow);
+    EXPECT_CLOSE(double(c.coefficient[k]) * double(c.pressure[k]), shear_limit / flow,
+                 TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, TakesTheSlipRateAsASize) {
   auto c = this->call(1);
   c.slip_rate[0] = TypeParam(-50);
   this->run(c, this->four_axes());
-  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 100) / 1000);
+  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 100) / 1000, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, TakesTheReferenceTemperatureWhereTheModelHasNone) {
@@ -160,7 +160,7 @@ TYPED_TEST(SlowVfricCoef, TakesTheReferenceTemperatureWhereTheModelHasNone) {
   c.temperatures = false;
   c.temperature[0] = TypeParam(nan);
   this->run(c, this->four_axes());
-  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 60) / 1000);
+  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 60) / 1000, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, GivesNaNForNaNInAnyArgumentItUses) {
@@ -177,7 +177,7 @@ TYPED_TEST(SlowVfricCoef, GivesNaNForNaNInAnyArgumentItUses) {
     this->run(c, this->four_axes());
     EXPECT_TRUE(std::isnan(c.coefficient[1])) << name;
     if (name != "props") {
-      EXPECT_CLOSE(c.coefficient[2], this->tau(1000, 50, 100) / 1000);
+      EXPECT_CLOSE(c.coefficient[2], this->tau(1000, 50, 100) / 1000, TestFixture::bound);
     }
   }
 }
@@ -189,8 +189,8 @@ TYPED_TEST(SlowVfricCoef, TakesInfinitiesAsFarOutsideTheTable) {
   c.temperature[2] = TypeParam(-inf);
   this->run(c, this->four_axes());
   EXPECT_NEAR(c.coefficient[0], 0, 1e-20); // a finite shear limit over it
-  EXPECT_CLOSE(c.coefficient[1], this->tau(1000, 1e9, 100) / 1000);
-  EXPECT_CLOSE(c.coefficient[2], this->tau(1000, 50, -1e9) / 1000);
+  EXPECT_CLOSE(c.coefficient[1], this->tau(1000, 1e9, 100) / 1000, TestFixture::bound);
+  EXPECT_CLOSE(c.coefficient[2], this->tau(1000, 50, -1e9) / 1000, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
@@ -202,7 +202,8 @@ TYPED_TEST(SlowVfricCoef, UsesTheNearestEdgeOutsideEachSideOfEachAxis) {
   this->run(c, this->four_axes());
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_CLOSE(c.coefficient[k],
-                 this->tau(states[k][0], states[k][1], states[k][2]) / states[k][0]);
+                 this->tau(states[k][0], states[k][1], states[k][2]) / states[k][0],
+                 TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, TakesHistoriesFromFieldsAndConstantsBecauseItHasNone) {
@@ -215,10 +216,10 @@ TYPED_TEST(SlowVfricCoef, TakesHistoriesFromFieldsAndConstantsBecauseItHasNone) 
   c.field = {4, 12};
   this->run(c, this->routine("field", table, {{"s_mm", "field:1"}}));
   const double first[] = {300, 20, 4, flow}, second[] = {300, 20, 12, flow};
-  EXPECT_CLOSE(c.coefficient[0], function(first) / 300);
-  EXPECT_CLOSE(c.coefficient[1], function(second) / 300);
+  EXPECT_CLOSE(c.coefficient[0], function(first) / 300, TestFixture::bound);
+  EXPECT_CLOSE(c.coefficient[1], function(second) / 300, TestFixture::bound);
   this->run(c, this->routine("constant", table, {{"s_mm", "constant:12"}}));
-  EXPECT_CLOSE(c.coefficient[0], function(second) / 300);
+  EXPECT_CLOSE(c.coefficient[0], function(second) / 300, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
@@ -227,7 +228,7 @@ TYPED_TEST(SlowVfricCoef, TakesTypicalValuesForPropertiesTheDeckDoesNotGive) {
   c.properties.clear();
   this->run(c, this->four_axes());
   const double state[] = {1000, std::sqrt(20.0), 50, 100, 480};
-  EXPECT_CLOSE(c.coefficient[0], table(state) / 1000);
+  EXPECT_CLOSE(c.coefficient[0], table(state) / 1000, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, ConvertsUnitsOfMetreKilogramSecond) {
@@ -237,8 +238,8 @@ TYPED_TEST(SlowVfricCoef, ConvertsUnitsOfMetreKilogramSecond) {
   this->set(c, 0, 1000e6, 0.05, 100);
   this->set(c, 1, 0, 0.05, 100);
   this->run(c, function);
-  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 100) / 1000);
-  EXPECT_CLOSE(c.coefficient[1], this->tau(500, 50, 100) / 500);
+  EXPECT_CLOSE(c.coefficient[0], this->tau(1000, 50, 100) / 1000, TestFixture::bound);
+  EXPECT_CLOSE(c.coefficient[1], this->tau(500, 50, 100) / 500, TestFixture::bound);
 }
 
 TYPED_TEST(SlowVfricCoef, RefusesNothingOutOfContact) {
@@ -254,8 +255,8 @@ TYPED_TEST(SlowVfricCoef, RefusesNothingOutOfContact) {
   this->run(c, routine);
   EXPECT_TRUE(std::isnan(c.coefficient[0])) << "where the solver's routine comes back";
   const double at_end[] = {1e-3, 500, 100, flow}, inside[] = {1e-3, 50, 100, flow};
-  EXPECT_CLOSE(c.coefficient[1], function(at_end) / 1e-3);
-  EXPECT_CLOSE(c.coefficient[2], function(inside) / 1e-3);
+  EXPECT_CLOSE(c.coefficient[1], function(at_end) / 1e-3, TestFixture::bound);
+  EXPECT_CLOSE(c.coefficient[2], function(inside) / 1e-3, TestFixture::bound);
   EXPECT_TRUE(std::isnan(c.coefficient[3]));
 }
 
@@ -293,4 +294,4 @@ TYPED_TEST(SlowVfricCoef, MayRunInThreadsAtOnce) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::vfric_coef_test

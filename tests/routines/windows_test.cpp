@@ -13,7 +13,7 @@
 #include "support/run_command.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::windows_test {
 
 using codegen::BuildVariant;
 using codegen::Exporter;
@@ -177,4 +177,4 @@ TEST(SlowWine, FunctionsGiveTheStressesOfFrictabAlsoWithTheirValuesInAFile) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::windows_test

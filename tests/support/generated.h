@@ -3,6 +3,7 @@
 // on.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +11,10 @@
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
+
+// Relative to what is expected.
+#define EXPECT_CLOSE(value, expected, bound)                                                       \
+  EXPECT_NEAR(value, expected, (bound)*std::abs(expected))
 
 namespace frictab::test {
 

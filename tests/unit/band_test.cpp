@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::band_test {
 
 using calibrate::at_quantile;
 using models::Model;
@@ -109,4 +109,4 @@ TEST(Band, OfACampaignCoversItsExperiments) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::band_test

@@ -10,7 +10,7 @@
 #include "support/blocks.h"
 #include "trace/between_search.h"
 
-namespace frictab {
+namespace frictab::between_test {
 
 using trace::BetweenResult;
 using trace::Cause;
@@ -329,4 +329,4 @@ TEST(TestGains, ScatterBetweenIsWhatTheirVarianceLeavesOver) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::between_test

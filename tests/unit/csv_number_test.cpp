@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "io/number.h"
 
-namespace frictab {
+namespace frictab::csv_number_test {
 namespace {
 
 bool reads(const std::string& text, char decimal, double& value) {
@@ -65,4 +65,4 @@ TEST(CsvNumber, HasTheBitsOfStrtodForRandomNumbers) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::csv_number_test

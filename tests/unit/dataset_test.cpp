@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "data/dataset.h"
 
-namespace frictab {
+namespace frictab::dataset_test {
 
 using data::Dataset;
 using data::hold_out;
@@ -65,4 +65,4 @@ TEST(DatasetTest, FingerprintSeesEveryValueAndName) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::dataset_test

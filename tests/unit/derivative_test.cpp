@@ -9,7 +9,7 @@
 #include "support/sample_data.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::derivative_test {
 
 using expr::Expr;
 using expr::Program;
@@ -113,4 +113,4 @@ TEST(Derivative, OfEveryLawIsThatOfTheSweep) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::derivative_test

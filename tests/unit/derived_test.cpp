@@ -5,7 +5,7 @@
 
 #include "data/derived.h"
 
-namespace frictab {
+namespace frictab::derived_test {
 
 using data::Dataset;
 
@@ -76,4 +76,4 @@ TEST(Derived, QuantitiesWithoutAContinuationAreThoseOfAnExperiment) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::derived_test

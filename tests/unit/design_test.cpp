@@ -13,7 +13,7 @@
 #include "trace/trace.h"
 #include "trace/trace_text.h"
 
-namespace frictab {
+namespace frictab::design_test {
 
 using data::Dataset;
 using trace::settings_of;
@@ -201,4 +201,4 @@ TEST(Design, AVelocityStepIsALeadWithItsChangePerEFold) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::design_test

@@ -10,7 +10,7 @@
 #include "expr/taylor_functions.h"
 #include "expr/taylor_model.h"
 
-namespace frictab {
+namespace frictab::enclosure_test {
 
 using expr::Bounds;
 using expr::Expr;
@@ -192,4 +192,4 @@ TEST(Enclosure, ChebyshevFitsStayWithinTheirError) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::enclosure_test

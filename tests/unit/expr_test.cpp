@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "expr/program.h"
 
-namespace frictab {
+namespace frictab::expr_test {
 
 using expr::BoundProgram;
 using expr::Expr;
@@ -140,4 +140,4 @@ TEST(Program, DerivativesOfEveryOperationAgreeWithCentralDifferences) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::expr_test

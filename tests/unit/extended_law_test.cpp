@@ -8,7 +8,7 @@
 #include "effects/extended_law.h"
 #include "expr/program.h"
 
-namespace frictab {
+namespace frictab::extended_law_test {
 
 using effects::ActsOn;
 using effects::extended_law;
@@ -208,4 +208,4 @@ TEST(ExtendedLaw, TurnsAnyColumnNameIntoASymbol) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::extended_law_test

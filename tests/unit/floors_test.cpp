@@ -4,11 +4,15 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace frictab {
+#include "io/atomic_file.h"
+
+namespace frictab::floors_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,6 +91,21 @@ TEST(Floors, EveryFolderIsANamespace) {
   EXPECT_EQ(fmt::format("{}", fmt::join(foreign_namespaces(), "\n")), "");
 }
 
+// So that several of them can be compiled as one.
+TEST(Floors, EveryFileOfTestsIsANamespaceOfItsName) {
+  const fs::path tests = fs::path(FRICTAB_SOURCE_DIR) / "tests";
+  std::set<std::string> names;
+  for (const char* folder : {"unit", "properties", "routines", "cli", "fuzz"})
+    for (const auto& entry : fs::directory_iterator(tests / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const std::string name = entry.path().stem().string();
+      EXPECT_TRUE(names.insert(name).second) << "two files " << name << ".cpp";
+      EXPECT_THAT(io::read_file(entry.path()),
+                  testing::HasSubstr("\nnamespace frictab::" + name + " {\n"));
+    }
+  EXPECT_GT(names.size(), 100u);
+}
+
 TEST(Floors, EveryFolderOfSrcIsOneOfThem) {
   for (const auto& entry : fs::directory_iterator(fs::path(FRICTAB_SOURCE_DIR) / "src"))
     if (entry.is_directory()) {
@@ -96,4 +115,4 @@ TEST(Floors, EveryFolderOfSrcIsOneOfThem) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::floors_test

@@ -6,7 +6,7 @@
 #include "calibrate/folds.h"
 #include "core/error.h"
 
-namespace frictab {
+namespace frictab::folds_test {
 
 using calibrate::experiment_folds;
 using data::Dataset;
@@ -93,4 +93,4 @@ TEST(Folds, EqualRowsInTwoFilesAreToldAndEqualNamesAreNot) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::folds_test

@@ -10,7 +10,7 @@
 #include "expr/program.h"
 #include "support/traced_law.h"
 
-namespace frictab {
+namespace frictab::input_columns_test {
 
 using calibrate::predict;
 using data::Column;
@@ -156,4 +156,4 @@ TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::input_columns_test

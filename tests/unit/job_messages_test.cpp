@@ -3,7 +3,7 @@
 
 #include "job/job.h"
 
-namespace frictab {
+namespace frictab::job_messages_test {
 namespace {
 
 std::string message(const std::string& text, const std::vector<std::string>& set = {}) {
@@ -470,4 +470,4 @@ TEST(JobMessages, SayThatNothingIsThere) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::job_messages_test

@@ -5,7 +5,7 @@
 #include "job/schema.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::job_test {
 
 using job::Job;
 using job::key_rules;
@@ -353,4 +353,4 @@ TEST(JobSchema, ReadsBackEveryDefaultItShows) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::job_test

@@ -5,7 +5,7 @@
 #include "support/blocks.h"
 #include "trace/law_on_blocks.h"
 
-namespace frictab {
+namespace frictab::law_on_blocks_test {
 namespace {
 
 using Eigen::Index;
@@ -63,4 +63,4 @@ TEST_F(FitOfBlocks, NeverTakesABlocksFrictionAwayAltogether) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::law_on_blocks_test

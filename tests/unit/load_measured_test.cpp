@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "data/load.h"
 
-namespace frictab {
+namespace frictab::load_measured_test {
 
 using data::load_dataset;
 
@@ -92,4 +92,4 @@ TEST(LoadMeasured, ReadsPinOnDiscFilesWithDecimalCommaPreambleAndFooter) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::load_measured_test

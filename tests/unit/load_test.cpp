@@ -10,7 +10,7 @@
 #include "data/load.h"
 #include "io/hdf5.h"
 
-namespace frictab {
+namespace frictab::load_test {
 
 using data::Dataset;
 using data::load_dataset;
@@ -296,4 +296,4 @@ TEST_F(Load, ReadsHdf5ColumnsAndTellsTheirFaults) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::load_test

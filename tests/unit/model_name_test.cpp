@@ -3,7 +3,7 @@
 
 #include "models/law.h"
 
-namespace frictab {
+namespace frictab::model_name_test {
 namespace {
 
 TEST(ModelName, SaysBaseQuantileAndEffects) {
@@ -31,4 +31,4 @@ TEST(ModelName, OfNothingThatFrictabWritesHasNoBase) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::model_name_test

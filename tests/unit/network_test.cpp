@@ -14,7 +14,7 @@
 #include "models/assembled_law.h"
 #include "support/sample_data.h"
 
-namespace frictab {
+namespace frictab::network_test {
 
 using calibrate::network_tau;
 using calibrate::NetworkBins;
@@ -272,4 +272,4 @@ TEST(NeuralNetwork, StaysFiniteWhereAStateVariesInsideBinsOnly) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::network_test

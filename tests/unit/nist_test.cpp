@@ -12,7 +12,7 @@
 #include "calibrate/normal_equations.h"
 #include "expr/expr.h"
 
-namespace frictab {
+namespace frictab::nist_test {
 namespace {
 
 struct Certified {
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(Strd, Nist,
                          [](const auto& test) { return test.param; });
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::nist_test

@@ -6,7 +6,7 @@
 #include "data/oracle.h"
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::oracle_test {
 
 using data::Dataset;
 
@@ -84,4 +84,4 @@ TEST_F(Oracle, OfOtherRowsOrOtherDataIsRefused) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::oracle_test

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "models/orowan_optimum.h"
 
-namespace frictab {
+namespace frictab::orowan_test {
 
 using models::orowan_optimum;
 using models::OrowanPoint;
@@ -91,4 +91,4 @@ TEST(SlowOrowanOptimum, DoesNotDependOnTheOrderOfRowsOrOnRatiosThatAgree) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::orowan_test

@@ -18,7 +18,7 @@
 #include "verify/beyond.h"
 #include "verify/verify.h"
 
-namespace frictab {
+namespace frictab::outside_test {
 
 using codegen::Exporter;
 using codegen::ExportRequest;
@@ -356,4 +356,4 @@ TEST(EdgeOfTheContact, IsToldOfAStressThatStaysWhenThePressureGoes) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::outside_test

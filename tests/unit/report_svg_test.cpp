@@ -10,7 +10,7 @@
 #include "report/numbers.h"
 #include "report/svg.h"
 
-namespace frictab {
+namespace frictab::report_svg_test {
 
 using report::figures;
 using report::with_error;
@@ -151,4 +151,4 @@ TEST(Numbers, ValueHasTheDigitsItsErrorAllows) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::report_svg_test

@@ -8,7 +8,7 @@
 #include "report/numbers.h"
 #include "report_sample.h"
 
-namespace frictab {
+namespace frictab::report_test {
 
 using calibrate::ModelFit;
 using report::benchmark_md;
@@ -356,4 +356,4 @@ TEST(Benchmark, HoldsEveryPairAndWhoMayBeTheBest) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::report_test

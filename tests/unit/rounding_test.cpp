@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "expr/rounding.h"
 
-namespace frictab {
+namespace frictab::rounding_test {
 
 using expr::bound_in_single;
 using expr::Expr;
@@ -79,4 +79,4 @@ TEST(RoundingInSingle, BoundsEveryOperation) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::rounding_test

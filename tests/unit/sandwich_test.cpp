@@ -6,7 +6,7 @@
 
 #include "calibrate/sandwich.h"
 
-namespace frictab {
+namespace frictab::sandwich_test {
 
 using calibrate::cluster_sandwich;
 using calibrate::Uncertainty;
@@ -93,4 +93,4 @@ TEST(Sandwich, OneExperimentGivesNoError) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::sandwich_test

@@ -8,7 +8,7 @@
 #include "support/blocks.h"
 #include "trace/screen.h"
 
-namespace frictab {
+namespace frictab::screen_test {
 
 using trace::ScreenResult;
 
@@ -175,4 +175,4 @@ TEST(Screen, ScatterThatTheEffectItselfMakesDoesNotCount) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::screen_test

@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-namespace frictab {
+namespace frictab::smooth_forms_test {
 
 using effects::find_effect;
 using effects::PlacedEffect;
@@ -245,4 +245,4 @@ TEST(SmoothForms, SayWhatTheyAre) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::smooth_forms_test

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "trace/smooth.h"
 
-namespace frictab {
+namespace frictab::smooth_test {
 
 using trace::SmoothFit;
 
@@ -145,4 +145,4 @@ TEST(Smooth, IsTheSameInAnyUnit) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::smooth_test

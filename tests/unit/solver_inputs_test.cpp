@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::solver_inputs_test {
 
 using expr::Expr;
 using table::Table;
@@ -131,4 +131,4 @@ TEST(SolverInputs, RefuseAnotherSourceForWhatTheContactGives) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::solver_inputs_test

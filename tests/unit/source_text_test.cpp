@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "support/sample_tables.h"
 
-namespace frictab {
+namespace frictab::source_text_test {
 
 using codegen::fortran_number;
 using codegen::solver_unit;
@@ -106,4 +106,4 @@ TEST(EntryArguments, TypicalValueIsTheMiddleOfTheRange) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::source_text_test

@@ -11,7 +11,7 @@
 #include "table/spline.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::spline_test {
 
 using expr::Expr;
 using table::Interpolation;
@@ -326,4 +326,4 @@ TEST(CubicSpline, OfAFileIsTheSameBitsKinksIncluded) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::spline_test

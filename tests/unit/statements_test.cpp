@@ -12,7 +12,7 @@
 #include "support/traced_law.h"
 #include "table/direct.h"
 
-namespace frictab {
+namespace frictab::statements_test {
 
 using codegen::Language;
 using codegen::Names;
@@ -200,4 +200,4 @@ TEST(StepNames, OfDerivativesSayWhatOfWhat) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::statements_test

@@ -14,7 +14,7 @@
 #include "table/stream.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::stream_test {
 
 using models::AssembledLaw;
 using table::read_table;
@@ -275,4 +275,4 @@ TEST(TableFile, DamagedChunkIsAFaultThatNamesTheFile) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::stream_test

@@ -4,7 +4,7 @@
 #include "support/sample_data.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::table_network_test {
 
 using models::AssembledLaw;
 
@@ -50,4 +50,4 @@ TEST(Table, NodesLieWhereTheLawBends) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::table_network_test

@@ -17,7 +17,7 @@
 #include "table/drift.h"
 #include "table/table_file.h"
 
-namespace frictab {
+namespace frictab::table_test {
 
 using models::AssembledLaw;
 using table::Interpolation;
@@ -403,4 +403,4 @@ TEST(Table, DoesNotDependOnTheNumberOfThreads) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::table_test

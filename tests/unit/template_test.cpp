@@ -6,7 +6,7 @@
 
 #include "codegen/template.h"
 
-namespace frictab {
+namespace frictab::template_test {
 
 using codegen::render;
 using codegen::TemplateValues;
@@ -175,4 +175,4 @@ TEST(Template, FindsEmbeddedFilesAndThrowsForOthers) {
 
 } // namespace
 
-} // namespace frictab
+} // namespace frictab::template_test

@@ -7,7 +7,7 @@
 #include "trace/trace_file.h"
 #include "trace/trace_text.h"
 
-namespace frictab {
+namespace frictab::trace_file_test {
 
 using effects::find_effect;
 using effects::PlacedEffect;
@@ -148,4 +148,4 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::trace_file_test

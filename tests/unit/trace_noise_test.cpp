@@ -11,7 +11,7 @@
 #include "trace/noise_fit.h"
 #include "trace/order_test.h"
 
-namespace frictab {
+namespace frictab::trace_noise_test {
 
 using trace::fit_noise;
 using trace::NoiseModel;
@@ -319,4 +319,4 @@ TEST(OrderOfTests, SaysWhichOfSeveralScoresFollowsTheOrder) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::trace_noise_test

@@ -15,7 +15,7 @@
 #include "trace/trace_text.h"
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::trace_test {
 
 using data::Column;
 using data::Dataset;
@@ -586,4 +586,4 @@ TEST(SlowTraceRates, NoneOfSixUnrecordedCausesIsBlamedOnAColumn) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::trace_test

@@ -13,7 +13,7 @@
 #include "twin/twin.h"
 #include "twin/twin_effect.h"
 
-namespace frictab {
+namespace frictab::twin_campaign_test {
 
 using twin::make_twin;
 using twin::parse_scatter;
@@ -211,4 +211,4 @@ TEST(TwinBystanders, NoneAndMoreContradictEachOther) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::twin_campaign_test

@@ -10,7 +10,7 @@
 #include "twin/twin_effect.h"
 #include "twin/twin_summary.h"
 
-namespace frictab {
+namespace frictab::twin_law_test {
 
 using models::Conventions;
 using twin::make_twin;
@@ -164,4 +164,4 @@ TEST(TwinLaw, EffectOnALimitNeedsOne) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::twin_law_test

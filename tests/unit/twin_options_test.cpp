@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "twin/twin.h"
 
-namespace frictab {
+namespace frictab::twin_options_test {
 
 using twin::TwinOptions;
 
@@ -123,4 +123,4 @@ TEST(TwinOptions, UnknownSetAndNoiseAreNamed) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::twin_options_test

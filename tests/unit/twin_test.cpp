@@ -11,7 +11,7 @@
 #include "twin/twin_draft.h"
 #include "twin/twin_summary.h"
 
-namespace frictab {
+namespace frictab::twin_test {
 
 using twin::find_column;
 using twin::make_twin;
@@ -261,4 +261,4 @@ TEST(Twin, OtherKindsOfNoiseKeepTheTruth) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::twin_test

@@ -3,7 +3,7 @@
 
 #include "core/units.h"
 
-namespace frictab {
+namespace frictab::units_test {
 namespace {
 
 TEST(Units, ConvertsToCanonicalUnits) {
@@ -42,4 +42,4 @@ TEST(Units, ThereAndBackIsTheSameWithinRounding) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::units_test

@@ -7,7 +7,7 @@
 #include "data/write_dataset.h"
 #include "io/hdf5.h"
 
-namespace frictab {
+namespace frictab::write_dataset_test {
 
 using data::Dataset;
 
@@ -65,4 +65,4 @@ TEST(Derived, HistoriesStartAnewInEveryExperiment) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::write_dataset_test

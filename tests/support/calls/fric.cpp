@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "support/calls/names.h"
+#include "support/calls/arguments.h"
 
 namespace frictab::calls {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "support/calls/names.h"
+#include "support/calls/arguments.h"
 
 namespace frictab::calls {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <string>
 
-#include "support/calls/names.h"
+#include "support/calls/arguments.h"
 
 namespace frictab::calls {
 
@@ -20,9 +20,6 @@ using Vfric = void (*)(void*, void*, int*, int*, int*, int*, int*, int*, int*, i
 } // namespace
 
 template <class Real> void VfricCall<Real>::resize(int contact_count, int node_count) {
-  const auto size = [](int a, int b = 1) {
-    return static_cast<std::size_t>(a) * static_cast<std::size_t>(b);
-  };
   contacts = contact_count;
   secondary_nodes = node_count;
   definitions = rigid ? 1 : contacts;
@@ -47,14 +44,11 @@ template <class Real> void VfricCall<Real>::run(void* function) {
   int main_nodes = rigid ? 0 : 4, friction_directions = directions - 1, type = 1;
   int has_temperature = temperatures ? 1 : 0, property_number = static_cast<int>(properties.size());
   Real step_time = 0, total_time = 0, work = 0;
-  const auto blank = [](int count, int width) {
-    return static_cast<std::size_t>(count) * static_cast<std::size_t>(width);
-  };
-  std::vector<int> main_ids(blank(main_nodes, 1), 8);
-  std::vector<int> main_of_contact(blank(contacts, facet), 1);
-  std::vector<Real> shape(blank(contacts, facet)), secondary(blank(secondary_nodes, directions));
-  std::vector<Real> main(blank(main_nodes, directions)), slip_axis(blank(contacts, directions));
-  std::vector<Real> normal_axis(blank(contacts, directions));
+  std::vector<int> main_ids(size(main_nodes, 1), 8);
+  std::vector<int> main_of_contact(size(contacts, facet), 1);
+  std::vector<Real> shape(size(contacts, facet)), secondary(size(secondary_nodes, directions));
+  std::vector<Real> main(size(main_nodes, directions)), slip_axis(size(contacts, directions));
+  std::vector<Real> normal_axis(size(contacts, directions));
   std::string interaction = name80("FRICTAB"), first = name80("SEC"), second = name80("MAIN");
   reinterpret_cast<Vfric>(function)(
       tangential.data(), state.data(), &step, &increment, &contacts, &facet, &secondary_nodes,

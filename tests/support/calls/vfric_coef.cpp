@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "support/calls/arguments.h"
+
 namespace frictab::calls {
 
 namespace {
@@ -11,10 +13,6 @@ namespace {
 using VfricCoef = void (*)(void*, void*, int*, int*, int*, int*, int*, void*, char*, char*, char*,
                            void*, void*, void*, void*, void*, std::size_t, std::size_t,
                            std::size_t);
-
-std::size_t size(int a, int b = 1) {
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(b);
-}
 
 } // namespace
 

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "support/calls/arguments.h"
+
 namespace frictab::calls {
 
 namespace {
@@ -13,10 +15,6 @@ using Vfriction = void (*)(void*, void*, int*, int*, int*, int*, int*, int*, int
                            void*, void*, void*, void*, void*, void*, void*, void*, void*, void*,
                            void*, void*, void*, void*, void*, void*, std::size_t, std::size_t,
                            std::size_t);
-
-std::size_t size(int a, int b = 1, int c = 1) {
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(b) * static_cast<std::size_t>(c);
-}
 
 } // namespace
 

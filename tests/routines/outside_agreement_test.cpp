@@ -8,13 +8,14 @@
 
 #include "core/random.h"
 #include "support/calls/vfric.h"
+#include "support/error_routine.h"
 #include "support/generated.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/direct.h"
 #include "table/drift.h"
 
-namespace frictab {
+namespace frictab::outside_agreement_test {
 
 using codegen::Library;
 using expr::Expr;
@@ -215,23 +216,6 @@ TEST(SlowOutsideTheRange, CGivesNaNBeyondAnErrorSideAndTheEdgeWithinRounding) {
   }
 }
 
-// VFRIC beside a stand-in for the solver's error routine that keeps what it was told.
-const char* const keeper = "      subroutine xplb_abqerr(lop, text, intv, realv, charv)\n"
-                           "      include 'vaba_param.inc'\n"
-                           "      character*(*) text, charv(*)\n"
-                           "      dimension intv(*), realv(*)\n"
-                           "      character*500 said\n"
-                           "      integer calls, kind\n"
-                           "      common /ftseen/ calls, kind, said\n"
-                           "      calls = calls + 1\n"
-                           "      kind = lop\n"
-                           "      said = text\n"
-                           "      end\n";
-struct Seen {
-  int calls, kind;
-  char said[500];
-};
-
 template <class Real> class Stopping : public testing::Test {
 protected:
   void SetUp() override {
@@ -239,11 +223,11 @@ protected:
     const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
     const codegen::ExportRequest request{table, "mm-t-s", {}};
     codegen::BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
-    variant.extra["solver.f"] = keeper;
+    test::keep_what_is_told(variant);
     test::add_flags(variant, test::run_checks);
     library = std::make_unique<Library>(
         codegen::compile_library(exporter.generate(request), variant, work.path()));
-    seen = library->find<Seen>("ftseen_");
+    told = &test::told(*library);
   }
 
   // At a pressure of 1000 MPa; temperature may leave its range below only by stopping.
@@ -268,16 +252,16 @@ protected:
   const Table table = test::sides_table();
   codegen::TemporaryDirectory work;
   std::unique_ptr<Library> library;
-  Seen* seen = nullptr;
+  test::Told* told = nullptr;
 };
 using Precisions = testing::Types<double, float>;
 TYPED_TEST_SUITE(Stopping, Precisions);
 
 TYPED_TEST(Stopping, EndsTheAnalysisBeyondAnErrorSideAndNamesStateAndValue) {
   const auto c = this->call({50, 600}, {100, 100});
-  EXPECT_EQ(this->seen->calls, 1);
-  EXPECT_EQ(this->seen->kind, -3) << "the solver's code for: stop at once";
-  const std::string said(this->seen->said, 500);
+  EXPECT_EQ(this->told->calls, 1);
+  EXPECT_EQ(this->told->kind, -3) << "the solver's code for: stop at once";
+  const std::string said = this->told->said();
   EXPECT_NE(said.find("6.0000"), std::string::npos) << said;
   EXPECT_NE(said.find("E+02 is outside the range: v_rel_mm_s above 500"), std::string::npos)
       << said;
@@ -287,14 +271,14 @@ TYPED_TEST(Stopping, EndsTheAnalysisBeyondAnErrorSideAndNamesStateAndValue) {
 
 TYPED_TEST(Stopping, NamesTheLowerSideToo) {
   this->call({50}, {10.5});
-  const std::string said(this->seen->said, 500);
+  const std::string said = this->told->said();
   EXPECT_NE(said.find("1.0500"), std::string::npos) << said;
   EXPECT_NE(said.find("T_contact_C below 20"), std::string::npos) << said;
 }
 
 TYPED_TEST(Stopping, NeverStopsInsideNorAtTheEndsNorBeyondSidesThatDoNotRefuse) {
   this->call({5, 500, 1, 50}, {20, 200, 100, 900});
-  EXPECT_EQ(this->seen->calls, 0);
+  EXPECT_EQ(this->told->calls, 0);
 }
 
 TYPED_TEST(Stopping, CountsIncrementsOutsideTheRangePerNode) {
@@ -308,4 +292,4 @@ TYPED_TEST(Stopping, CountsIncrementsOutsideTheRangePerNode) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::outside_agreement_test

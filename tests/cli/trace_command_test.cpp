@@ -7,7 +7,7 @@
 
 #include "support/run_command.h"
 
-namespace frictab {
+namespace frictab::trace_command_test {
 namespace {
 
 using test::run_frictab;
@@ -180,4 +180,4 @@ TEST_F(TraceCommand, NeedsACalibration) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::trace_command_test
