@@ -13,6 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/text.h"
+#include "data/file_list.h"
 #include "data/mapping.h"
 #include "data/quantity.h"
 
@@ -150,6 +151,35 @@ void derive_shear_stress(Part& part) {
   part.data.notes.push_back("tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)");
 }
 
+// The rows whose `keep` is not 0; an experiment without a row goes.
+void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
+  Dataset& data = part.data;
+  std::vector<std::size_t> first{0};
+  std::vector<std::string> names;
+  std::vector<std::size_t> kept;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      if (keep[i]) kept.push_back(i);
+    if (kept.size() == first.back()) continue; // nothing of it is left
+    names.push_back(data.experiments[e]);
+    first.push_back(kept.size());
+  }
+  if (kept.size() == part.row.size()) return;
+  if (kept.empty() && part.faults.empty()) part.faults.add({part.raw.file, 0, 0}, if_none);
+  for (Column& column : data.columns) {
+    std::vector<double> values;
+    for (const std::size_t i : kept)
+      values.push_back(column.values[i]);
+    column.values = std::move(values);
+  }
+  std::vector<std::size_t> row;
+  for (const std::size_t i : kept)
+    row.push_back(part.row[i]);
+  part.row = std::move(row);
+  data.experiments = std::move(names);
+  data.first_row = std::move(first);
+}
+
 // Rows left out at the user's word, before anything is checked.
 void drop_rows(Part& part, const DataOptions& options) {
   std::vector<char> keep(part.row.size(), 1);
@@ -173,32 +203,21 @@ void drop_rows(Part& part, const DataOptions& options) {
       text += std::string(rule.below ? " or" : "") + " above " + shortest(*rule.above);
     part.data.dropped.push_back({text, dropped});
   }
-  Dataset& data = part.data;
-  std::vector<std::size_t> first{0};
-  std::vector<std::string> names;
-  std::vector<std::size_t> kept;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      if (keep[i]) kept.push_back(i);
-    if (kept.size() == first.back()) continue; // nothing of it is left
-    names.push_back(data.experiments[e]);
-    first.push_back(kept.size());
-  }
-  if (kept.size() == part.row.size()) return;
-  if (kept.empty() && part.faults.empty())
-    part.faults.add({part.raw.file, 0, 0}, "data.drop leaves no row");
-  for (Column& column : data.columns) {
-    std::vector<double> values;
-    for (const std::size_t i : kept)
-      values.push_back(column.values[i]);
-    column.values = std::move(values);
-  }
-  std::vector<std::size_t> row;
-  for (const std::size_t i : kept)
-    row.push_back(part.row[i]);
-  part.row = std::move(row);
-  data.experiments = std::move(names);
-  data.first_row = std::move(first);
+  keep_rows(part, keep, "data.drop leaves no row");
+}
+
+// Rows with an empty cell where the job leaves them out.
+void drop_missing(Part& part, const DataOptions& options) {
+  if (options.missing != Missing::drop) return;
+  std::set<std::size_t> raw_rows;
+  for (const MappedFile::CellFault& cell : part.cell_faults)
+    if (cell.missing) raw_rows.insert(cell.row);
+  if (raw_rows.empty()) return;
+  std::vector<char> keep;
+  for (const std::size_t row : part.row)
+    keep.push_back(raw_rows.count(row) == 0);
+  part.data.dropped.push_back({"an empty cell", raw_rows.size()});
+  keep_rows(part, keep, "data.missing = \"drop\" leaves no row");
 }
 
 // Faults of cells in the rows that are kept; what was to be computed from such a cell follows them.
@@ -287,16 +306,18 @@ void integrate_distance(Part& part) {
   part.data.notes.push_back("s_mm integrated from v_rel_mm_s and time_s");
 }
 
-Part load_part(const std::string& file, const DataOptions& options) {
+Part load_part(const FilePlan& plan) {
+  const auto& [file, label, options] = plan;
   Part part;
   const fs::path path = options.base.empty() ? fs::path(file) : fs::path(options.base) / file;
   try {
     part.raw = read_raw(path.string(), file, options, part.faults);
-    MappedFile mapped = map_columns(part.raw, options, part.faults);
-    gather_experiments(part, std::move(mapped), path.stem().string());
+    MappedFile mapped = map_columns(part.raw, options, label, part.faults);
+    gather_experiments(part, std::move(mapped), label);
     check_needed(part, options);
     take_slopes(part, options);
     derive_shear_stress(part);
+    drop_missing(part, options);
     drop_rows(part, options);
     tell_cells(part);
     check_values(part);
@@ -353,15 +374,26 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   all.experiments.insert(all.experiments.end(), more.experiments.begin(), more.experiments.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)
     all.first_row.push_back(offset + more.first_row[e]);
-  for (std::size_t d = 0; d < more.dropped.size(); ++d)
-    all.dropped[d].rows += more.dropped[d].rows;
+  for (const Dataset::Dropped& dropped : more.dropped) {
+    const auto same = std::find_if(all.dropped.begin(), all.dropped.end(),
+                                   [&](const auto& there) { return there.rule == dropped.rule; });
+    if (same == all.dropped.end())
+      all.dropped.push_back(dropped);
+    else
+      same->rows += dropped.rows;
+  }
+  for (std::string& note : more.notes)
+    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end())
+      all.notes.push_back(std::move(note));
 }
 
 } // namespace
 
-Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& options) {
+Dataset load_dataset(const std::vector<std::string>& named, const DataOptions& options) {
+  const std::vector<std::string> files = find_files(named, options.base, options.place);
+  const FilePlans plans = plan_files(files, options);
   std::vector<Part> parts(files.size());
-  parallel_for(files.size(), [&](std::size_t i) { parts[i] = load_part(files[i], options); });
+  parallel_for(files.size(), [&](std::size_t i) { parts[i] = load_part(plans.files[i]); });
   FaultList faults;
   for (const Part& part : parts) {
     try {
@@ -383,6 +415,7 @@ Dataset load_dataset(const std::vector<std::string>& files, const DataOptions& o
     faults.throw_if_any();
     all.sources.push_back(files[i]);
   }
+  all.notes.insert(all.notes.begin(), plans.notes.begin(), plans.notes.end());
   fingerprint(all);
   return all;
 }

@@ -22,11 +22,42 @@ namespace {
 
 const char* const experiment_column = "experiment";
 
+constexpr std::string_view file_and = "file+"; // of DataOptions::experiment
+
 std::string strip_brackets(std::string unit) {
   if (unit.size() >= 2 && std::string("[(").find(unit.front()) != std::string::npos &&
       std::string("])").find(unit.back()) != std::string::npos)
     unit = unit.substr(1, unit.size() - 2);
   return unit;
+}
+
+std::string_view without_blanks(std::string_view text) {
+  while (!text.empty() && text.front() == ' ')
+    text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ')
+    text.remove_suffix(1);
+  return text;
+}
+
+// "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s" as name and unit; the whole name and no
+// unit where what stands there is none that is known here.
+struct HeaderName {
+  std::string name, unit;
+};
+HeaderName read_header_name(const std::string& text) {
+  const auto split = [&](std::size_t at, std::size_t from, std::size_t end) -> HeaderName {
+    const std::string unit(without_blanks(std::string_view(text).substr(from, end - from)));
+    if (at == 0 || at == text.npos || unit.empty() || !convert(unit, unit)) return {text, ""};
+    return {std::string(without_blanks(std::string_view(text).substr(0, at))), unit};
+  };
+  if (text.empty()) return {text, ""};
+  if (text.back() == ']') return split(text.rfind('['), text.rfind('[') + 1, text.size() - 1);
+  if (text.back() == ')') return split(text.rfind('('), text.rfind('(') + 1, text.size() - 1);
+  for (const std::string_view sign : {" / ", ", "})
+    if (const std::size_t at = text.rfind(sign); at != text.npos)
+      if (HeaderName found = split(at, at + sign.size(), text.size()); !found.unit.empty())
+        return found;
+  return {text, ""};
 }
 
 // "nan", "-Inf", "1e999".
@@ -43,8 +74,13 @@ bool is_missing(const std::string& text) {
 
 class Mapper {
 public:
-  Mapper(const io::CsvTable& raw, const DataOptions& options, FaultList& faults)
-      : raw_(raw), options_(options), faults_(faults) {}
+  Mapper(const io::CsvTable& raw, const DataOptions& options, const std::string& label,
+         FaultList& faults)
+      : raw_(raw), options_(options), label_(label), faults_(faults) {
+    for (const CsvColumn& column : raw_.columns)
+      headers_.push_back(read_header_name(column.name));
+    out_.notes = raw.notes;
+  }
 
   MappedFile map() {
     for (const Quantity& quantity : quantities())
@@ -52,6 +88,7 @@ public:
     map_experiment();
     multiply_coefficients();
     map_bystanders();
+    add_same_for_all();
     return std::move(out_);
   }
 
@@ -88,14 +125,18 @@ private:
     return nullptr;
   }
 
+  // By the whole name; where there is none, by the name in front of a unit.
   const CsvColumn* by_name(const std::string& name) {
     const CsvColumn* found = nullptr;
     std::vector<std::size_t> column_numbers;
-    for (std::size_t i = 0; i < raw_.columns.size(); ++i)
-      if (raw_.columns[i].name == name) {
-        if (!found) found = &raw_.columns[i];
-        column_numbers.push_back(i + 1);
-      }
+    for (const bool whole : {true, false}) {
+      for (std::size_t i = 0; i < raw_.columns.size(); ++i)
+        if ((whole ? raw_.columns[i].name : headers_[i].name) == name) {
+          if (!found) found = &raw_.columns[i];
+          column_numbers.push_back(i + 1);
+        }
+      if (found) break;
+    }
     if (column_numbers.size() > 1 && ambiguous_.insert(name).second)
       faults_.add(header(),
                   fmt::format("there are {} columns '{}': {}", column_numbers.size(), name,
@@ -106,11 +147,12 @@ private:
 
   // `what` follows the column's name and, in HDF5, the row.
   void cell_fault(std::size_t row, std::size_t cell_column, const std::string& name,
-                  const std::string& what, const std::string& hint) {
+                  const std::string& what, const std::string& hint, bool missing = false) {
     const std::string where = raw_.header_line > 0 ? "" : fmt::format(" (row {})", raw_.line[row]);
     out_.cell_faults.push_back(
         {row,
-         {row_place(raw_, row, cell_column), fmt::format("{}{}: {}", name, where, what), hint}});
+         {row_place(raw_, row, cell_column), fmt::format("{}{}: {}", name, where, what), hint},
+         missing});
   }
 
   std::string number_hint(const std::string& text) const {
@@ -133,7 +175,7 @@ private:
         not_finite(cell.row, cell.column, canonical, cell.text);
       else if (cell.text.empty())
         cell_fault(cell.row, cell.column, canonical, "the cell is empty",
-                   "leave the row out, or repair it");
+                   "repair it, or data.missing = \"drop\" leaves such rows out", true);
       else
         cell_fault(cell.row, cell.column, canonical, fmt::format("'{}' is not a number", cell.text),
                    number_hint(cell.text));
@@ -174,7 +216,10 @@ private:
 
   void convert_unit(Column& column, const Quantity& quantity, const CsvColumn& raw,
                     const ColumnSource& from) {
-    std::string unit = !from.unit.empty() ? from.unit : strip_brackets(raw.unit);
+    const std::string& header_unit = headers_[std::size_t(&raw - raw_.columns.data())].unit;
+    std::string unit = !from.unit.empty()  ? from.unit
+                       : !raw.unit.empty() ? strip_brackets(raw.unit)
+                                           : header_unit;
     std::string wanted = quantity.unit;
     if (!from.times.empty()) wanted = "1";
     if (from.area_mm2 > 0) wanted = "N";
@@ -192,12 +237,43 @@ private:
     if (unit == wanted && area == 1) return; // the file's own bits
     for (double& value : column.values)
       value = (*conversion)(value) / area;
+    if (from.unit.empty())
+      out_.notes.push_back(fmt::format("{}: {} as the file says, taken as {}", quantity.name, unit,
+                                       area == 1 ? wanted : quantity.unit));
+  }
+
+  // The column that names the experiments; nullptr where the file or its intervals do.
+  const CsvColumn* experiment_source() {
+    std::string name = options_.experiment;
+    if (name == "file" || name == "interval") return nullptr;
+    if (name.starts_with(file_and)) name = name.substr(file_and.size());
+    if (name.empty() || options_.columns.count(experiment_column)) return source(experiment_column);
+    const CsvColumn* column = by_name(name);
+    if (!column)
+      faults_.add(header(), fmt::format("there is no column '{}' (data.experiment)", name),
+                  suggest(name, present()));
+    return column;
   }
 
   void map_experiment() {
-    const CsvColumn* column = source(experiment_column);
+    if (options_.experiment == "interval") {
+      if (raw_.interval.empty())
+        faults_.add(header(), "an HDF5 file has no intervals (data.experiment)",
+                    "one group or file per experiment, or a column that names it");
+      for (const std::size_t interval : raw_.interval)
+        out_.experiment.push_back(fmt::format("{} {}", label_, interval + 1));
+      return;
+    }
+    const CsvColumn* column = experiment_source();
     if (!column) return;
     used_.insert(column);
+    read_experiments(column);
+    if (options_.experiment.starts_with(file_and))
+      for (std::string& name : out_.experiment)
+        name = label_ + " " + name;
+  }
+
+  void read_experiments(const CsvColumn* column) {
     out_.experiment.resize(raw_.rows());
     std::size_t text = 0;
     for (std::size_t i = 0; i < raw_.rows(); ++i) {
@@ -275,6 +351,20 @@ private:
     out_.columns.push_back(std::move(column));
   }
 
+  // What the job says of the whole file: constants that are no quantities, and labels.
+  void add_same_for_all() {
+    const auto add = [&](const std::string& name, double value, std::vector<std::string> levels) {
+      if (find(name))
+        faults_.add(header(), fmt::format("'{}' is a column of the file as well", name),
+                    "give the constant, label or group another name");
+      out_.columns.push_back({name, "", std::vector<double>(raw_.rows(), value), levels});
+    };
+    for (const auto& [name, value] : options_.constants)
+      if (!find_quantity(name)) add(name, value, {});
+    for (const auto& [name, text] : options_.labels)
+      add(name, 0, {text});
+  }
+
   void make_categorical(Column& column, const CsvColumn& raw) {
     std::vector<std::string> numeric(raw_.rows());
     std::vector<std::string_view> cells(raw_.rows());
@@ -296,7 +386,9 @@ private:
 
   const io::CsvTable& raw_;
   const DataOptions& options_;
+  const std::string& label_;
   FaultList& faults_;
+  std::vector<HeaderName> headers_; // of each column
   MappedFile out_;
   std::set<const CsvColumn*> used_;
   std::set<std::string> ambiguous_;
@@ -304,8 +396,9 @@ private:
 
 } // namespace
 
-MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options, FaultList& faults) {
-  return Mapper(raw, options, faults).map();
+MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
+                       const std::string& label, FaultList& faults) {
+  return Mapper(raw, options, label, faults).map();
 }
 
 } // namespace frictab::data

@@ -10,16 +10,19 @@ namespace frictab::data {
 // One file, mapped, not yet cut into experiments.
 struct MappedFile {
   std::vector<Column> columns;
-  std::vector<std::string> experiment; // per row; empty where the file has no such column
+  std::vector<std::string> experiment; // per row; empty where the file is one
   std::vector<std::string> notes;
   struct CellFault { // of one cell: told only where its row is not left out
     std::size_t row;
     Fault fault;
+    bool missing = false; // the cell is empty: DataOptions::missing
   };
   std::vector<CellFault> cell_faults;
 };
 
-// Adds every fault of the file's columns to `faults`; those of cells are in the result.
-MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options, FaultList& faults);
+// Adds every fault of the file's columns to `faults`; those of cells are in the result. `label` is
+// the file's part in the names of its experiments.
+MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
+                       const std::string& label, FaultList& faults);
 
 } // namespace frictab::data

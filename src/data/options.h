@@ -28,6 +28,24 @@ struct DropRule {
   Place place;
 };
 
+// An empty cell of a quantity: a fault, or its row is left out and counted.
+enum class Missing { error, drop };
+
+// What is special about some files; the first rule that matches a file counts. What it leaves out
+// is as for all.
+struct FileRule {
+  std::string match; // a glob; of the whole name where it holds a /
+  std::optional<char> delimiter, decimal;
+  std::optional<std::size_t> skip_rows, skip_footer;
+  std::optional<bool> units_row;
+  std::map<std::string, ColumnSource> columns;
+  std::map<std::string, double> constants;   // canonical, or a column of its own
+  std::map<std::string, std::string> labels; // text columns
+  std::string from_name;                     // a regular expression with named groups
+  std::string experiment;
+  Place place, from_name_place;
+};
+
 struct DataOptions {
   std::vector<std::string> training;
   std::vector<std::string> validation; // empty: `holdout` of the experiments is held out
@@ -39,8 +57,14 @@ struct DataOptions {
   std::size_t skip_footer = 0; // lines after the data
   bool units_row = false;      // a line of units below the header
   std::vector<DropRule> drop;
-  std::map<std::string, ColumnSource> columns;        // by canonical name
-  std::map<std::string, double> constants;            // by canonical name
+  std::map<std::string, ColumnSource> columns; // by canonical name
+  std::map<std::string, double> constants;     // by canonical name; of one file others as well
+  std::map<std::string, std::string> labels;   // of one file: text columns
+  // What an experiment is: "file", "interval" (from one header line to the next), a column, or
+  // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
+  std::string experiment;
+  Missing missing = Missing::error;
+  std::vector<FileRule> files;
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
   std::string base;                                   // directory that relative paths start from
   Place place;                                        // of [data] or of data.training

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/quantity.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 
@@ -50,6 +51,16 @@ io::CsvTable read_hdf5(const std::string& path, const std::string& named, FaultL
   return table;
 }
 
+// What columns may be called: as the job maps them, and by their canonical names.
+std::vector<std::string> wanted_names(const DataOptions& options) {
+  std::vector<std::string> names = {"experiment"};
+  for (const Quantity& quantity : quantities())
+    names.push_back(quantity.name);
+  for (const auto& [canonical, source] : options.columns)
+    names.insert(names.end(), source.names.begin(), source.names.end());
+  return names;
+}
+
 } // namespace
 
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {
@@ -66,11 +77,16 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
                        options.skip_footer,
                        options.units_row,
                        {"experiment"},
-                       0};
+                       0,
+                       {}};
   if (const auto named_so = options.columns.find("experiment"); named_so != options.columns.end()) {
     format.text_columns = named_so->second.names;
     format.text_number = named_so->second.number;
   }
+  const std::size_t plus = options.experiment.find('+');
+  format.text_columns.push_back(
+      options.experiment.substr(plus == options.experiment.npos ? 0 : plus + 1));
+  format.wanted = wanted_names(options);
   return io::parse_csv(io::read_file(path), named, format, faults);
 }
 

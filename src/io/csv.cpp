@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include "core/text.h"
 #include "io/number.h"
@@ -54,6 +57,30 @@ std::string to_utf8(std::string_view text) {
     }
   }
   return out;
+}
+
+// A text in UTF-16 as UTF-8; nullopt where it is none.
+std::optional<std::string> from_utf16(std::string_view text) {
+  const bool little = text.starts_with("\xFF\xFE"), big = text.starts_with("\xFE\xFF");
+  if (!little && !big) return std::nullopt;
+  const auto converter = iconv_open("UTF-8", little ? "UTF-16LE" : "UTF-16BE");
+  std::string in(text.substr(2)), out(2 * text.size(), '\0'); // at most 3 bytes for 2
+  char *from = in.data(), *to = out.data();
+  std::size_t left = in.size(), room = out.size();
+  const bool whole = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
+  iconv_close(converter);
+  if (!whole) return std::nullopt;
+  out.resize(out.size() - room);
+  return out;
+}
+
+bool is_lone_return(std::string_view text, std::size_t at) {
+  return text[at] == '\r' && (at + 1 == text.size() || text[at + 1] != '\n');
+}
+bool has_lone_return(std::string_view text) {
+  for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
+    if (is_lone_return(text, at)) return true;
+  return false;
 }
 
 // Walks over the text cell by cell.
@@ -225,13 +252,15 @@ std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
   return is_text;
 }
 
-// Reads one line's cells into row `row` of the columns; returns how many there are.
+// Reads one line's cells into row `row` of the columns; returns how many there are, without empty
+// ones behind the last column.
 std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
                        const std::vector<char>& is_text, std::size_t row) {
   std::string storage;
-  std::size_t cells = 0;
+  std::size_t cells = 0, filled = 0;
   for (bool last = false; !last; ++cells) {
     const bool known = cells < is_text.size();
+    if (known) filled = cells + 1;
     double value = nan;
     if (known && !is_text[cells] && scanner.number(decimal, value, last)) {
       table.columns[cells].numbers.push_back(value);
@@ -239,14 +268,52 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
     }
     const std::size_t place = scanner.column();
     const std::string_view cell = trim(scanner.cell(last, storage));
-    if (!known) continue;
+    if (!known) {
+      if (!cell.empty()) filled = cells + 1;
+      continue;
+    }
     if (is_text[cells] || !parse_number(cell, decimal, value)) {
       table.columns[cells].texts.push_back({row, to_utf8(cell), place});
       value = nan;
     }
     table.columns[cells].numbers.push_back(value);
   }
-  return cells;
+  return filled;
+}
+
+// Without those behind the last name: a header may end with delimiters that its rows do not have.
+std::size_t named_columns(const CsvTable& table) {
+  std::size_t count = table.columns.size();
+  while (count > 0 && table.columns[count - 1].name.empty())
+    --count;
+  return count == 0 ? table.columns.size() : count;
+}
+
+// Empty cells behind the ones that are there.
+void fill_row(CsvTable& table, std::size_t cells, std::size_t row) {
+  for (std::size_t i = cells; i < table.columns.size(); ++i) {
+    table.columns[i].numbers.push_back(nan);
+    table.columns[i].texts.push_back({row, "", 0});
+  }
+}
+
+bool starts_with_line(std::string_view text, std::size_t at, std::string_view line) {
+  return text.substr(at, line.size()) == line &&
+         (at + line.size() == text.size() || text[at + line.size()] == '\n');
+}
+
+// Moves over blank lines.
+void skip_blank_lines(Scanner& lines, std::string_view text) {
+  while (!lines.at_end() && is_blank(text, lines.position()))
+    lines.take_line();
+}
+
+// Moves over a header line that comes again, with its units.
+void skip_header(Scanner& scanner, std::string_view text, bool units_row) {
+  scanner.take_line();
+  if (!units_row) return;
+  skip_blank_lines(scanner, text);
+  if (!scanner.at_end()) scanner.take_line();
 }
 
 void forget_row(CsvTable& table, std::size_t row) {
@@ -257,10 +324,17 @@ void forget_row(CsvTable& table, std::size_t row) {
   }
 }
 
-void read_rows(CsvTable& table, Scanner& scanner, std::string_view text, const CsvFormat& format,
-               FaultList& faults) {
-  const std::size_t width = table.columns.size();
+void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
+               std::string_view header_text, const CsvFormat& format, FaultList& faults) {
+  const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
+  std::size_t again = 0;
+  std::vector<Fault> ragged; // since the last row: of a header that comes again, or faults
+  const auto tell = [&] {
+    for (Fault& fault : ragged)
+      faults.add(std::move(fault.place), std::move(fault.what), std::move(fault.hint));
+    ragged.clear();
+  };
   while (!scanner.at_end()) {
     if (is_blank(text, scanner.position())) {
       scanner.take_line();
@@ -268,15 +342,29 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text, const C
     }
     const std::size_t line = scanner.line();
     const std::size_t row = table.line.size();
-    const std::size_t cells = read_cells(table, scanner, format.decimal, is_text, row);
-    if (cells == width) {
-      table.line.push_back(line);
+    if (starts_with_line(text, scanner.position(), header_text)) {
+      skip_header(scanner, text, format.units_row);
+      ragged.clear();
+      ++again;
       continue;
     }
-    faults.add({table.file, line, 0}, fmt::format("{} cells, the header has {}", cells, width),
-               "a delimiter too many or too few, or a line that is no data (skip_footer)");
+    const std::size_t cells = read_cells(table, scanner, format.decimal, is_text, row);
+    if (cells >= named && cells <= width) {
+      fill_row(table, cells, row);
+      tell();
+      table.line.push_back(line);
+      table.interval.push_back(again);
+      continue;
+    }
+    Fault fault;
+    fault.place = {table.file, line, 0};
+    fault.what = fmt::format("{} cells, the header has {}", cells, width);
+    fault.hint = "a delimiter too many or too few, or a line that is no data (skip_footer)";
+    ragged.push_back(std::move(fault));
     forget_row(table, row);
   }
+  tell();
+  if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -297,7 +385,8 @@ void read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
                      "the header is another line: data.skip_rows counts the lines before it");
 }
 
-void read_units(CsvTable& table, Scanner& scanner, FaultList& faults) {
+void read_units(CsvTable& table, Scanner& scanner, std::string_view text, FaultList& faults) {
+  skip_blank_lines(scanner, text);
   const std::size_t line = scanner.line();
   const auto units = read_names(scanner);
   if (units.size() != table.columns.size())
@@ -312,16 +401,49 @@ std::string_view line_at(std::string_view text, std::size_t begin) {
                              : std::string_view();
 }
 
+// Whether a cell of a header is this name, or this name with a unit: "F_N [kN]".
+bool is_name(std::string_view cell, std::string_view name) {
+  if (!cell.starts_with(name)) return false;
+  cell = trim(cell.substr(name.size()));
+  return cell.empty() || std::strchr("[(/,", cell.front());
+}
+
+// How many of the names stand in a line, however it is cut.
+std::size_t count_names(std::string_view line, const CsvFormat& format) {
+  std::size_t most = 0;
+  for (const char delimiter : {',', ';', '\t', '|', ' '}) {
+    if (format.delimiter && delimiter != format.delimiter) continue;
+    Scanner scanner(line, delimiter);
+    std::size_t count = 0;
+    for (const std::string& cell : read_names(scanner))
+      count += std::any_of(format.wanted.begin(), format.wanted.end(),
+                           [&](const std::string& name) { return is_name(to_utf8(cell), name); });
+    most = std::max(most, count);
+  }
+  return most;
+}
+
 // Moves over the preamble to the header line. Throws where there is none.
 void find_header(Scanner& lines, std::string_view text, const std::string& file,
-                 std::size_t skip_rows) {
-  for (std::size_t i = 0; i < skip_rows && !lines.at_end(); ++i)
+                 const CsvFormat& format) {
+  for (std::size_t i = 0; i < format.skip_rows && !lines.at_end(); ++i)
     lines.take_line();
-  while (!lines.at_end() && is_blank(text, lines.position()))
-    lines.take_line();
+  skip_blank_lines(lines, text);
   if (lines.at_end())
-    throw InputError({file, 0, 0}, fmt::format("no header after {} skipped lines", skip_rows),
+    throw InputError({file, 0, 0},
+                     fmt::format("no header after {} skipped lines", format.skip_rows),
                      "check data.skip_rows");
+  if (format.wanted.empty() || count_names(line_at(text, lines.position()), format) > 0) return;
+  constexpr int longest_preamble = 200;
+  Scanner ahead = lines, best = lines;
+  std::size_t most = 0;
+  for (int i = 0; i < longest_preamble && !ahead.at_end(); ++i) {
+    const std::size_t count = count_names(line_at(text, ahead.position()), format);
+    if (count > most) best = ahead;
+    most = std::max(most, count);
+    ahead.take_line();
+  }
+  lines = best;
 }
 
 } // namespace
@@ -330,36 +452,41 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
                    FaultList& faults) {
   CsvTable table;
   table.file = file;
+  const std::optional<std::string> wide = from_utf16(text);
+  if (wide) text = *wide;
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   if (without_footer(text, 0).empty()) throw InputError({file, 0, 0}, "the file is empty");
   if (text.find('\0') != std::string_view::npos)
-    throw InputError({file, 0, 0}, "this is no text file",
-                     "give CSV text (UTF-8, not UTF-16) or HDF5");
-  std::string unix_lines; // of a file whose lines end with CR alone
-  if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos) {
+    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+  std::string unix_lines; // of a file in which lines end with CR alone
+  if (has_lone_return(text)) {
     unix_lines = text;
-    std::replace(unix_lines.begin(), unix_lines.end(), '\r', '\n');
+    for (std::size_t i = 0; i < unix_lines.size(); ++i)
+      if (is_lone_return(unix_lines, i)) unix_lines[i] = '\n';
     text = unix_lines;
   }
   text = without_footer(text, format.skip_footer);
   Scanner lines(text, '\n');
-  find_header(lines, text, file, format.skip_rows);
+  find_header(lines, text, file, format);
   table.header_line = lines.line();
   const std::size_t header = lines.position();
   const std::string_view header_text = lines.take_line();
-  if (format.units_row) lines.take_line();
+  if (format.units_row) {
+    skip_blank_lines(lines, text);
+    lines.take_line();
+  }
   const std::string_view below = line_at(text, lines.position());
   Scanner scanner(text, format.delimiter ? format.delimiter
                                          : find_delimiter(header_text, below, format.decimal));
   while (scanner.position() < header)
     scanner.take_line();
   read_header(table, scanner, format);
-  if (format.units_row && !scanner.at_end()) read_units(table, scanner, faults);
+  if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
   const std::size_t estimate = text.size() / (below.size() + 1) + 16;
   for (CsvColumn& column : table.columns)
     column.numbers.reserve(std::min(estimate, text.size()));
   table.line.reserve(std::min(estimate, text.size()));
-  read_rows(table, scanner, text, format, faults);
+  read_rows(table, scanner, text, header_text, format, faults);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
   return table;

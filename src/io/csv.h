@@ -18,6 +18,9 @@ struct CsvFormat {
   // Columns whose cells stay text even where they are numbers ("007"): by name, or number from 1.
   std::vector<std::string> text_columns;
   std::size_t text_number = 0;
+  // Names by which the header line is known: where the first line holds none of them, it is the one
+  // of the next 200 that holds most.
+  std::vector<std::string> wanted;
 };
 
 // One column of a file. A cell that is no number is NaN in `numbers` and listed in `texts`.
@@ -37,14 +40,17 @@ struct CsvTable {
   std::string file; // as messages call it
   std::size_t header_line = 0;
   std::vector<CsvColumn> columns;
-  std::vector<std::size_t> line; // physical line of each row
+  std::vector<std::size_t> line;     // physical line of each row
+  std::vector<std::size_t> interval; // of each row: how many header lines came again before it
+  std::vector<std::string> notes;    // what was passed over: "the header line comes again 3 times"
   std::size_t rows() const { return line.size(); }
 };
 
-// Handles UTF-8 BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells with delimiters
-// and line breaks inside, blank lines, empty column names. Ragged rows and an unclosed quote are
-// added to `faults`; rows that are ragged are left out of the result (the caller throws). Throws
-// InputError where there is no header or no row.
+// Handles UTF-8 and UTF-16 with a BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells
+// with delimiters and line breaks inside, blank lines, empty column names, delimiters behind the
+// last cell. Where the header line comes again a new interval starts; lines in front of it that are
+// no rows belong to it. Other ragged rows and an unclosed quote are added to `faults`; they are
+// left out of the result (the caller throws). Throws InputError where there is no header or no row.
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "core/pattern.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
+#include "job/key_builder.h"
 #include "job/reader.h"
 #include "models/law.h"
 
@@ -50,8 +52,9 @@ void check_unit(JobReader& reader, const std::string& name, const data::ColumnSo
         suggest(source.unit, units_like(target)));
 }
 
-void check_column(JobReader& reader, const std::string& name, data::ColumnSource& source) {
-  const std::string path = "data.columns." + name;
+void check_column(JobReader& reader, const std::string& section, const std::string& name,
+                  data::ColumnSource& source) {
+  const std::string path = section + "." + name;
   const Place& place = source.place;
   const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0);
   if (source.names.empty() && source.number == 0) source.names = {name};
@@ -71,15 +74,53 @@ void check_column(JobReader& reader, const std::string& name, data::ColumnSource
     check_unit(reader, name, source, path);
 }
 
+// `section` is "data", or "data.files[1]".
+template <class Rules>
+void check_mapping(JobReader& reader, const std::string& section, Rules& rules) {
+  for (auto& [name, source] : rules.columns)
+    check_column(reader, section + ".columns", name, source);
+  for (const auto& [name, value] : rules.constants)
+    if (rules.columns.count(name))
+      reader.fault(reader.place_of(section + ".constants." + name),
+                   fmt::format("{0} stands in [{1}.columns] and in [{1}.constants]", name, section),
+                   "keep one of the two");
+}
+
+void check_rules(JobReader& reader) {
+  std::vector<data::FileRule>& rules = reader.job.data.files;
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const std::string path = fmt::format("data.files[{}]", i + 1);
+    check_mapping(reader, path, rules[i]);
+    if (rules[i].match.empty())
+      reader.fault(rules[i].place, path + " has no match", "match = \"*.csv\" says which files");
+    for (const auto& [name, text] : rules[i].labels)
+      if (data::find_quantity(name))
+        reader.fault(reader.place_of(path + ".labels." + name), name + " is a quantity, no label",
+                     "give it in `constants`");
+    for (const auto& [name, value] : rules[i].constants) // any name may stand there: is it a typo?
+      if (const std::string near = nearest_name(name, schema::quantity_names());
+          !near.empty() && near != name)
+        reader.fault(
+            reader.place_of(path + ".constants." + name),
+            fmt::format("'{}' in [{}.constants] is no quantity", name, path),
+            fmt::format("did you mean '{}'? A column of your own needs a name less like it", near));
+    rules[i].from_name_place = reader.place_of(path + ".from_name");
+    if (rules[i].from_name.empty()) continue;
+    try {
+      if (Pattern(rules[i].from_name, rules[i].from_name_place).names().empty())
+        reader.fault(rules[i].from_name_place, path + ".from_name has no named group",
+                     "what becomes a column is written (?<name>...)");
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        reader.faults.push_back(fault);
+    }
+  }
+}
+
 void check_columns(JobReader& reader) {
   data::DataOptions& data = reader.job.data;
-  for (auto& [name, source] : data.columns)
-    check_column(reader, name, source);
-  for (const auto& [name, value] : data.constants)
-    if (data.columns.count(name))
-      reader.fault(reader.place_of("data.constants." + name),
-                   fmt::format("{} stands in [data.columns] and in [data.constants]", name),
-                   "keep one of the two");
+  check_mapping(reader, "data", data);
+  check_rules(reader);
   for (const data::DropRule& rule : data.drop) {
     const std::string path = "data.drop." + rule.column;
     const bool said = reader.places.count(path + ".below") || reader.places.count(path + ".above");

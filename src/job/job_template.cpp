@@ -83,6 +83,13 @@ std::string job_template() {
                     "KEY` says more.\n";
   for (const SectionRule& section : section_rules()) {
     if (section.path.find('*') != std::string::npos) continue;
+    if (section.list) {
+      out += "\n";
+      add_prose(out, section.meaning);
+      add_named_keys(out, section.path);
+      add_commented(out, fmt::format("[[{}]]\n{}", section.path, section.example));
+      continue;
+    }
     if (section.children && !has_keys(section.path)) {
       add_named_section(out, section);
       continue;

@@ -167,6 +167,7 @@ std::vector<std::string> target_names();
 std::vector<std::string> targets_or_all();
 
 data::DropRule& drop_rule(Job& job, const std::string& name); // added where absent
+data::FileRule& file_rule(Job& job, const std::string& name); // "2.columns...": the second; as well
 std::vector<KeyRule> data_keys();
 std::vector<KeyRule> stage_keys();
 

@@ -1,4 +1,6 @@
 // The keys of [data]: where rows come from and how a rig's file is read.
+#include <array>
+
 #include "data/quantity.h"
 #include "job/key_builder.h"
 
@@ -6,21 +8,32 @@ namespace frictab::job::schema {
 
 namespace {
 
-data::ColumnSource& column(Job& job, const std::string& name) {
+Problem constant_problem(const std::string& name, const KeyValue& value) {
+  const data::Quantity* quantity = data::find_quantity(name.substr(name.rfind('.') + 1));
+  const double number = std::get<double>(value);
+  if (!quantity || number >= quantity->lowest) return {};
+  return {"must be a number >= " + shortest(quantity->lowest) + ", not " + shortest(number),
+          quantity->meaning};
+}
+
+// "1.sigma_n_MPa" of the first [[data.files]]; "sigma_n_MPa" of all files.
+std::string name_of_column(const std::string& name) {
+  return name.substr(name.rfind('.') + 1);
+}
+
+// A column's source, of all files or of those of a rule.
+data::ColumnSource& of_all(Job& job, const std::string& name) {
   return job.data.columns[name];
 }
-
-Problem constant_problem(const std::string& name, const KeyValue& value) {
-  const data::Quantity& quantity = *data::find_quantity(name);
-  const double number = std::get<double>(value);
-  if (number >= quantity.lowest) return {};
-  return {"must be a number >= " + shortest(quantity.lowest) + ", not " + shortest(number),
-          quantity.meaning};
+data::ColumnSource& of_some(Job& job, const std::string& name) {
+  return file_rule(job, name).columns[name_of_column(name)];
 }
 
-KeyRule column_key() {
+using SourceOf = data::ColumnSource& (*)(Job&, const std::string&);
+
+template <SourceOf source> KeyRule column_key(const std::string& section) {
   KeyRule rule;
-  rule.path = "data.columns.*.column";
+  rule.path = section + ".*.column";
   rule.type = KeyType::column;
   rule.meaning = "the file's own name of the column, a list of names (the first one that is there "
                  "counts), or the column's number from 1";
@@ -29,11 +42,42 @@ KeyRule column_key() {
   rule.bounds = at_least(1);
   rule.store = [](Job& job, const std::string& name, KeyValue value) {
     if (const auto* number = std::get_if<std::uint64_t>(&value))
-      column(job, name).number = *number;
+      source(job, name).number = *number;
     else
-      column(job, name).names = std::get<std::vector<std::string>>(std::move(value));
+      source(job, name).names = std::get<std::vector<std::string>>(std::move(value));
   };
   return rule;
+}
+
+template <SourceOf source> std::vector<KeyRule> column_keys(const std::string& section) {
+  return {
+      column_key<source>(section),
+      named<std::string>(
+          section + ".*.unit",
+          [](Job & job, const std::string& name) -> auto& { return source(job, name).unit; },
+          "the file's unit; values are converted",
+          "what a units row says, or the header behind the name: \"F_N [kN]\"; else the canonical "
+          "unit",
+          "\"Pa\""),
+      named<std::string>(
+          section + ".*.times",
+          [](Job & job, const std::string& name) -> auto& { return source(job, name).times; },
+          "the column is a coefficient: it is multiplied with this canonical column",
+          "not multiplied", "\"sigma_n_MPa\"") |
+          Allowed{"quantity", quantity_names},
+      named<double>(
+          section + ".*.area_mm2",
+          [](Job & job, const std::string& name) -> auto& { return source(job, name).area_mm2; },
+          "the column is a force in N: over this nominal area it gives a stress", "not divided",
+          "78.5") |
+          above(0),
+      named<std::size_t>(
+          section + ".*.slope_rows",
+          [](Job & job, const std::string& name) -> auto& { return source(job, name).slope_rows; },
+          "the column is a path: |d column/d time| by a straight line through this many rows",
+          "not differentiated", "5") |
+          at_least(2),
+  };
 }
 
 std::vector<std::string> delimiters() {
@@ -42,16 +86,21 @@ std::vector<std::string> delimiters() {
 std::vector<std::string> decimals() {
   return {".", ","};
 }
+std::vector<std::string> missing_words() { // as data::Missing
+  return {"error", "drop"};
+}
 
 std::vector<KeyRule> file_keys() {
   return {
       key<std::vector<std::string>>(
           "data.training", [](Job & job) -> auto& { return job.data.training; },
-          "CSV or HDF5 file, or a list of files that are joined; relative to the job file",
+          "CSV or HDF5 file, a folder, names with * (\"tests/*.csv\"), or a list of these; they "
+          "are "
+          "joined; relative to the job file",
           "an error: the one key a job needs", "\"training.csv\""),
       key<std::vector<std::string>>(
           "data.validation", [](Job & job) -> auto& { return job.data.validation; },
-          "file or files to validate on, never used to calibrate",
+          "file or files to validate on, as data.training, never used to calibrate",
           "the share data.holdout of the experiments is held out", "\"validation.csv\""),
       key<std::vector<std::string>>(
           "data.oracle", [](Job & job) -> auto& { return job.data.oracle; },
@@ -82,6 +131,15 @@ std::vector<KeyRule> file_keys() {
       key<bool>(
           "data.units_row", [](Job & job) -> auto& { return job.data.units_row; },
           "the line below the header holds units"),
+      key<data::Missing>(
+          "data.missing", [](Job & job) -> auto& { return job.data.missing; },
+          "an empty cell of a quantity: an error, or its row is left out and counted") |
+          Allowed{"", missing_words},
+      key<std::string>(
+          "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
+          "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "
+          "next), a column of the file, or both: \"file+COLUMN\"",
+          "the column experiment where there is one, else the file", "\"file\""),
       key<std::optional<std::vector<std::string>>>(
           "data.bystanders", [](Job & job) -> auto& { return job.data.bystanders; },
           "columns to keep that no law uses", "all other columns are kept", "[\"room_C\"]"),
@@ -98,29 +156,6 @@ std::vector<KeyRule> mapping_keys() {
           "data.drop.*.above",
           [](Job & job, const std::string& name) -> auto& { return drop_rule(job, name).above; },
           "rows with a larger value are left out, and counted in the report", "none", "3000"),
-      column_key(),
-      named<std::string>(
-          "data.columns.*.unit",
-          [](Job & job, const std::string& name) -> auto& { return column(job, name).unit; },
-          "the file's unit; values are converted", "the canonical unit", "\"Pa\""),
-      named<std::string>(
-          "data.columns.*.times",
-          [](Job & job, const std::string& name) -> auto& { return column(job, name).times; },
-          "the column is a coefficient: it is multiplied with this canonical column",
-          "not multiplied", "\"sigma_n_MPa\"") |
-          Allowed{"quantity", quantity_names},
-      named<double>(
-          "data.columns.*.area_mm2",
-          [](Job & job, const std::string& name) -> auto& { return column(job, name).area_mm2; },
-          "the column is a force in N: over this nominal area it gives a stress", "not divided",
-          "78.5") |
-          above(0),
-      named<std::size_t>(
-          "data.columns.*.slope_rows",
-          [](Job & job, const std::string& name) -> auto& { return column(job, name).slope_rows; },
-          "the column is a path: |d column/d time| by a straight line through this many rows",
-          "not differentiated", "5") |
-          at_least(2),
       named<double>(
           "data.constants.*",
           [](Job & job, const std::string& name) -> auto& { return job.data.constants[name]; },
@@ -130,7 +165,87 @@ std::vector<KeyRule> mapping_keys() {
   };
 }
 
+std::vector<KeyRule> rule_keys() {
+  const std::string as_all = "as for all files";
+  return {
+      named<std::string>(
+          "data.files.*.match",
+          [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).match; },
+          "which files, with * for any letters: by the file's name, or by the whole name where "
+          "this one holds a /; the first rule that matches a file counts",
+          "an error", "\"pin_*.csv\""),
+      named<std::optional<char>>(
+          "data.files.*.delimiter", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).delimiter;
+          },
+          "what separates the columns", as_all, "\";\"") |
+          Allowed{"", delimiters},
+      named<std::optional<char>>(
+          "data.files.*.decimal",
+          [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).decimal; },
+          "the decimal sign of numbers", as_all, "\",\"") |
+          Allowed{"", decimals},
+      named<std::optional<std::size_t>>(
+          "data.files.*.skip_rows", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).skip_rows;
+          },
+          "lines before the header line", as_all, "2") |
+          at_least(0),
+      named<std::optional<std::size_t>>(
+          "data.files.*.skip_footer", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).skip_footer;
+          },
+          "lines after the data", as_all, "1") |
+          at_least(0),
+      named<std::optional<bool>>(
+          "data.files.*.units_row", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).units_row;
+          },
+          "the line below the header holds units", as_all, "true"),
+      named<std::string>(
+          "data.files.*.from_name", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).from_name;
+          },
+          "a regular expression that is found in the file's name with its folder; its named groups "
+          "become columns: quantities in their canonical units, numbers, or texts; the group "
+          "experiment names the test",
+          "nothing is taken from the name", "'(?<material>\\w+)_(?<radius_mm>\\d+)mm'"),
+      named<std::string>(
+          "data.files.*.experiment", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).experiment;
+          },
+          "what an experiment is, as data.experiment", as_all, "\"file\""),
+      named<double>(
+          "data.files.*.constants.*", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).constants[name_of_column(name)];
+          },
+          "the same value for every row: a quantity in its canonical unit, or a column of another "
+          "name",
+          "from the file's column", "12.0") |
+          constant_problem,
+      named<std::string>(
+          "data.files.*.labels.*", [](Job & job, const std::string& name) -> auto& {
+            return file_rule(job, name).labels[name_of_column(name)];
+          },
+          "a column of text, the same in every row", "no such column", "\"316SS\""),
+  };
+}
+
 } // namespace
+
+data::FileRule& file_rule(Job& job, const std::string& name) {
+  const std::size_t number = std::stoul(name);
+  if (job.data.files.size() < number) job.data.files.resize(number);
+  return job.data.files[number - 1];
+}
+
+template <> data::Missing Kind<data::Missing>::from(KeyValue& v) {
+  return std::get<std::string>(v) == "drop" ? data::Missing::drop : data::Missing::error;
+}
+
+template <> std::string Kind<data::Missing>::show(data::Missing v) {
+  return toml_quoted(missing_words()[static_cast<std::size_t>(v)]);
+}
 
 char Kind<char>::from(KeyValue& v) {
   const std::string& text = std::get<std::string>(v);
@@ -179,8 +294,11 @@ std::vector<std::string> constant_names() { // what was measured, and time, cann
 
 std::vector<KeyRule> data_keys() {
   std::vector<KeyRule> rules = file_keys();
-  for (KeyRule& rule : mapping_keys())
-    rules.push_back(std::move(rule));
+  for (std::vector<KeyRule>& more :
+       std::array{mapping_keys(), column_keys<of_all>("data.columns"), rule_keys(),
+                  column_keys<of_some>("data.files.*.columns")})
+    for (KeyRule& rule : more)
+      rules.push_back(std::move(rule));
   return rules;
 }
 

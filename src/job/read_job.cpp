@@ -92,6 +92,25 @@ bool is_by_name(const SectionRule* section, const std::string& rule_path, const 
   return std::find(names.begin(), names.end(), key) != names.end();
 }
 
+void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
+          const std::string& path, const std::string& name);
+
+// [[data.files]]: each of its tables.
+void walk_list(JobReader& reader, const TomlNode& list, const std::string& rule_path,
+               const std::string& path) {
+  const auto is_table = [](const TomlNode& item) { return item.type == TomlNode::Type::table; };
+  if (list.type != TomlNode::Type::array ||
+      !std::all_of(list.items.begin(), list.items.end(), is_table)) {
+    reader.fault(list.place,
+                 fmt::format("{} must be a list of tables, not {}", path, describe(list)),
+                 fmt::format("write [[{}]]", path));
+    return;
+  }
+  for (std::size_t i = 0; i < list.items.size(); ++i)
+    walk(reader, list.items[i], rule_path + ".*", fmt::format("{}[{}]", path, i + 1),
+         std::to_string(i + 1));
+}
+
 // `rule_path` has '*' where `path` has a name; `name` is those names, with dots between them.
 void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
           const std::string& path, const std::string& name) {
@@ -108,12 +127,14 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
     const std::string rule_below = below(rule_path, by_name ? "*" : entry.key);
     const std::string path_below = below(path, entry.key);
     const std::string name_below = by_name ? below(name, entry.key) : name;
-    if (find_section(rule_below)) {
-      if (entry.type == TomlNode::Type::table) {
+    if (const SectionRule* section = find_section(rule_below)) {
+      if (section->list) {
+        walk_list(reader, entry, rule_below, path_below);
+      } else if (entry.type == TomlNode::Type::table) {
         walk(reader, entry, rule_below, path_below, name_below);
-      } else if (rule_below == "data.columns.*") { // tau_R_MPa = "Friction"
-        *find_section(rule_below)->place(reader.job, name_below) = entry.place;
-        read_value(reader, *find_key("data.columns.*.column"), path_below, name_below, entry);
+      } else if (rule_below.ends_with(".columns.*")) { // tau_R_MPa = "Friction"
+        *section->place(reader.job, name_below) = entry.place;
+        read_value(reader, *find_key(rule_below + ".column"), path_below, name_below, entry);
       } else {
         if (path_below == "data") reader.data_is_no_table = true;
         reader.fault(entry.place,

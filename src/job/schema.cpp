@@ -18,6 +18,15 @@ Place* data_place(Job& job, const std::string&) {
 Place* column_place(Job& job, const std::string& name) {
   return &job.data.columns[name].place;
 }
+Place* file_place(Job& job, const std::string& name) {
+  return &schema::file_rule(job, name).place;
+}
+Place* file_column_place(Job& job, const std::string& name) {
+  return &schema::file_rule(job, name).columns[name.substr(name.rfind('.') + 1)].place;
+}
+std::vector<std::string> no_names() {
+  return {};
+}
 Place* drop_place(Job& job, const std::string& name) {
   return &schema::drop_rule(job, name).place;
 }
@@ -84,6 +93,21 @@ const std::vector<SectionRule>& section_rules() {
        "", nullptr, column_place},
       {"data.constants", "quantities that are the same for every row", "sigma_f_MPa = 480.0",
        schema::constant_names, nullptr},
+      {"data.files",
+       "what is special about some files: [[data.files]] stands once per rule, with any of the "
+       "keys "
+       "below; the first rule that matches a file counts",
+       "match = \"pin_*.csv\"\nlabels = { material = \"316SS\" }\n"
+       "from_name = '_(?<radius_mm>\\d+)mm'",
+       nullptr, nullptr, "rule", false, true},
+      {"data.files.*", "one rule", "", nullptr, file_place},
+      {"data.files.*.columns", "as data.columns, and instead of it", "", schema::column_names,
+       nullptr},
+      {"data.files.*.columns.*", "as data.columns", "", nullptr, file_column_place},
+      {"data.files.*.constants", "values that are the same for every row of these files", "",
+       schema::constant_names, nullptr, "quantity", true},
+      {"data.files.*.labels", "texts that are the same for every row of these files", "", no_names,
+       nullptr, "label", true},
       {"models", "which friction laws", "", nullptr, models_place},
       {"calibration", "how their parameters are found", "", nullptr, nullptr},
       {"table", "the table that replaces the law", "", nullptr, table_place},

@@ -73,6 +73,7 @@ struct SectionRule {
   Place* (*place)(Job&, const std::string& name) = nullptr; // where the job remembers the place
   std::string child = "quantity";                           // what a name of the user's stands for
   bool others = false; // names that are not among `children` are taken too, and checked later
+  bool list = false;   // [[path]]: its tables have the numbers from 1 as names
 };
 
 // "unit" of "data.columns.*.unit".

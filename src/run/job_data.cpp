@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "data/derived.h"
+#include "data/file_list.h"
 #include "data/load.h"
 #include "data/oracle.h"
 #include "data/quantity.h"
@@ -76,9 +77,23 @@ JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed
   return data;
 }
 
+// What globs and rules of both lists say together.
+void check_files(const data::DataOptions& options) {
+  const auto training = data::find_files(options.training, options.base, options.place);
+  std::vector<std::string> all = data::find_files(options.validation, options.base, options.place);
+  for (const std::string& file : training)
+    if (std::find(all.begin(), all.end(), file) != all.end())
+      throw InputError(options.place,
+                       fmt::format("'{}' is in data.training and in data.validation", file),
+                       "a test that validates is none of those to calibrate on");
+  all.insert(all.end(), training.begin(), training.end());
+  data::check_rules(all, options);
+}
+
 } // namespace
 
 JobData load_job_data(const job::Job& job) {
+  check_files(job.data);
   JobData data = job.data.validation.empty() ? with_held_out_tests(job.data, job.calibration.seed)
                                              : with_validation_files(job.data);
   add_oracle(job.data, data);

@@ -507,8 +507,8 @@ TEST(MeasuredExample, FillerOfTheCompositesIsFoundAndPredictsTestsThatWereLeftOu
     GTEST_SKIP() << "the measured files are not here; set FRICTAB_MEASURED to their directory";
   const TemporaryDirectory directory;
   fs::copy(fs::path(FRICTAB_SOURCE_DIR) / "examples" / "08_composite_filler", directory.path());
-  const auto result = run_command({directory.path("run"), fs::canonical(measured).string()}, "",
-                                  {"FRICTAB=" FRICTAB_BINARY});
+  fs::create_directory_symlink(fs::canonical(measured), directory.path("data"));
+  const auto result = run_command({FRICTAB_BINARY, "run", directory.path("job.toml")});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   const auto trace = test::parse_json(directory.read("out/trace.json"));
   EXPECT_EQ(trace.at("verdict"), "effect_added");

@@ -1,4 +1,5 @@
 // Contour plots: what VUFIELD gives for the nodes that the friction routines have met.
+#include <deque>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -32,16 +33,18 @@ protected:
 
   static const char* precision() { return sizeof(Real) == 4 ? "single" : "double"; }
 
-  // A library of its own for each test: what it has seen is its state.
-  ContactFields() : table_(test::four_axis_table()) {}
-  Library library(const std::string& target,
-                  const std::vector<std::string>& flags = test::strict) const {
+  // A library of its own for each test: what it has seen is its state. It stays to the end, as in a
+  // solver: what is unloaded could not give its memory back.
+  const Library& library(const std::string& target,
+                         const std::vector<std::string>& flags = test::strict) const {
+    static auto& kept = *new std::deque<Library>;
     const codegen::Exporter& exporter = *codegen::find_exporter(target);
     const ExportRequest request{table_, "mm-t-s", {}, shown};
     for (codegen::BuildVariant variant : exporter.variants(request)) {
       if (variant.name != precision()) continue;
       test::add_flags(variant, flags);
-      return Library(codegen::compile_library(exporter.generate(request), variant, work_.path()));
+      return kept.emplace_back(
+          codegen::compile_library(exporter.generate(request), variant, work_.path()));
     }
     throw std::logic_error(target);
   }
@@ -73,7 +76,7 @@ protected:
     return f;
   }
 
-  const table::Table table_;
+  const table::Table table_ = test::four_axis_table();
   const codegen::TemporaryDirectory work_;
 };
 
@@ -87,7 +90,7 @@ public:
 TYPED_TEST_SUITE(ContactFields, Precisions, PrecisionName);
 
 TYPED_TEST(ContactFields, AreTheCoefficientAndStressThatTheStateVariablesHold) {
-  const Library library = this->library("abaqus_vfriction");
+  const Library& library = this->library("abaqus_vfriction");
   VfrictionCall<TypeParam> c = TestFixture::block(3);
   TestFixture::set(c, 0, 4711, 1000);
   TestFixture::set(c, 1, 2147483647, 2000);
@@ -105,7 +108,7 @@ TYPED_TEST(ContactFields, AreTheCoefficientAndStressThatTheStateVariablesHold) {
 }
 
 TYPED_TEST(ContactFields, AreZeroTwoIncrementsAfterContactButForTheCountOutside) {
-  const Library library = this->library("abaqus_vfriction");
+  const Library& library = this->library("abaqus_vfriction");
   VfrictionCall<TypeParam> c = TestFixture::block(1);
   TestFixture::set(c, 0, 9, 100);
   for (c.increment = 1; c.increment <= 5; ++c.increment)
@@ -123,7 +126,7 @@ TYPED_TEST(ContactFields, AreZeroTwoIncrementsAfterContactButForTheCountOutside)
 }
 
 TYPED_TEST(ContactFields, AreThoseOfTheLargestStressOfSeveralContactsOfANode) {
-  const Library library = this->library("abaqus_vfriction");
+  const Library& library = this->library("abaqus_vfriction");
   void* const routine = Library::address(library.handle(), "vfriction_");
   VfrictionCall<TypeParam> c = TestFixture::block(3);
   TestFixture::set(c, 0, 9, 600);
@@ -142,7 +145,7 @@ TYPED_TEST(ContactFields, AreThoseOfTheLargestStressOfSeveralContactsOfANode) {
 }
 
 TYPED_TEST(ContactFields, StandAtBothNodesOfAnEdge) {
-  const Library library = this->library("abaqus_vfriction");
+  const Library& library = this->library("abaqus_vfriction");
   VfrictionCall<TypeParam> c = TestFixture::block(0);
   c.edges = true;
   c.resize(1);
@@ -155,7 +158,7 @@ TYPED_TEST(ContactFields, StandAtBothNodesOfAnEdge) {
 }
 
 TYPED_TEST(ContactFields, MayBeAskedForOneByOneAndForShells) {
-  const Library library = this->library("abaqus_vfriction");
+  const Library& library = this->library("abaqus_vfriction");
   VfrictionCall<TypeParam> c = TestFixture::block(1);
   TestFixture::set(c, 0, 3, 1000);
   c.run(Library::address(library.handle(), "vfriction_"));
@@ -174,7 +177,7 @@ TYPED_TEST(ContactFields, MayBeAskedForOneByOneAndForShells) {
 }
 
 TYPED_TEST(ContactFields, OfContactPairsGoByTheNumberOfTheSecondaryNode) {
-  const Library library = this->library("abaqus_vfric");
+  const Library& library = this->library("abaqus_vfric");
   VfricCall<TypeParam> c;
   c.states = 8;
   c.temperatures = true;
@@ -197,7 +200,7 @@ TYPED_TEST(ContactFields, OfContactPairsGoByTheNumberOfTheSecondaryNode) {
 
 TYPED_TEST(ContactFields, KnowAHundredThousandNodesThatFourThreadsMeet) {
   // As users compile: the compiler's check for recursion takes a second thread for one.
-  const Library library = this->library("abaqus_vfriction", {});
+  const Library& library = this->library("abaqus_vfriction", {});
   void* const routine = Library::address(library.handle(), "vfriction_");
   constexpr int per_thread = 25000, points = 100;
   const auto pressure = [](int node) { return 600 + node % 1999; };

@@ -43,10 +43,11 @@ TEST(JobMessages, NameTheNearestKnownKey) {
                  "psi = { colum = \"a\" }"),
             "job.toml:4:9: error: unknown key 'colum' in [data.columns.psi]\n"
             "  hint: did you mean 'column'?");
-  EXPECT_EQ(with("zzzzzzzz = 1"),
-            "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
-            "  hint: known: drop, columns, constants, training, validation, oracle, holdout, "
-            "delimiter, decimal, skip_rows, skip_footer, units_row, bystanders");
+  EXPECT_EQ(
+      with("zzzzzzzz = 1"),
+      "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
+      "  hint: known: drop, columns, constants, files, training, validation, oracle, holdout, "
+      "delimiter, decimal, skip_rows, skip_footer, units_row, missing, experiment, bystanders");
 }
 
 TEST(JobMessages, SayWhatTypeIsWanted) {
@@ -96,11 +97,11 @@ TEST(JobMessages, SayWhatTypeIsWanted) {
                  "model = \"best\""),
             "job.toml:3:1: error: table must be a table, not a list of 1\n"
             "  hint: write [table]");
-  EXPECT_EQ(
-      message("[data]\n"
-              "training = { }"),
-      "job.toml:2:12: error: data.training must be a text or a list of texts, not a table\n"
-      "  hint: CSV or HDF5 file, or a list of files that are joined; relative to the job file");
+  EXPECT_EQ(message("[data]\n"
+                    "training = { }"),
+            "job.toml:2:12: error: data.training must be a text or a list of texts, not a table\n"
+            "  hint: CSV or HDF5 file, a folder, names with * (\"tests/*.csv\"), or a list of "
+            "these; they are joined; relative to the job file");
 }
 
 TEST(JobMessages, SayTheBounds) {

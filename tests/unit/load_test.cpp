@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "data/load.h"
 #include "io/hdf5.h"
+#include "unit/load_case.h"
 
 namespace frictab::load_test {
 
@@ -17,44 +18,10 @@ using data::load_dataset;
 
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class Load : public testing::Test {
-protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::path(testing::TempDir()) / (std::string("frictab_load_") + test->name());
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-    options.base = directory_.string();
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  std::string file(const std::string& name, const std::string& text) {
-    fs::create_directories((directory_ / name).parent_path());
-    std::ofstream(directory_ / name, std::ios::binary) << text;
-    return name;
-  }
-  Dataset read(const std::string& text) { return load_dataset({file("a.csv", text)}, options); }
-  std::string fault(const std::string& text) { return fault_of({file("a.csv", text)}); }
-  std::string fault_of(const std::vector<std::string>& files) {
-    try {
-      load_dataset(files, options);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no fault";
-  }
-  std::vector<double> column(const Dataset& data, const std::string& name) {
-    const auto values = data.values(name);
-    return {values.begin(), values.end()};
-  }
-
-  data::DataOptions options;
-  fs::path directory_;
-};
-
+using Load = test::LoadCase;
+namespace fs = std::filesystem;
 using Values = std::vector<double>;
 
 TEST_F(Load, ReadsCanonicalColumnsAndNamesTheExperimentByTheFile) {
@@ -205,7 +172,7 @@ TEST_F(Load, TellsFilesWithoutATable) {
   EXPECT_THAT(fault(std::string("a\0b,\n1,2", 8)), HasSubstr("this is no text file"));
   EXPECT_THAT(fault_of({"none.csv"}), HasSubstr("there is no such file"));
   fs::create_directory(directory_ / "folder");
-  EXPECT_THAT(fault_of({"folder"}), HasSubstr("is a directory"));
+  EXPECT_THAT(fault_of({"folder"}), HasSubstr("'folder' holds no file"));
 }
 
 TEST_F(Load, TellsMissingColumnsAndTheNearestName) {
@@ -262,8 +229,9 @@ TEST_F(Load, JoinsFilesAndTellsColumnsThatOneLacks) {
   const std::string three = file("three.csv", "tau_R_MPa,sigma_n_MPa\n6,5\n8,7\n");
   EXPECT_THAT(fault_of({one, three}),
               HasSubstr("three.csv: error: there is no column lot, which one.csv has"));
-  EXPECT_THAT(fault_of({file("x/one.csv", "sigma_n_MPa,tau_R_MPa,lot\n1,2,b\n3,4,c\n"), one}),
-              HasSubstr("experiment 'one' is in another file as well"));
+  const std::string named = "experiment,sigma_n_MPa,tau_R_MPa\n7,1,2\n7,3,4\n";
+  EXPECT_THAT(fault_of({file("x/one.csv", named), file("x/two.csv", named)}),
+              HasSubstr("experiment '7' is in another file as well"));
 }
 
 TEST_F(Load, TellsTheFaultsOfEveryFile) {

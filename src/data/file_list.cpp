@@ -1,0 +1,274 @@
+// Globs and folders by the C library, names by regular expressions.
+#include "data/file_list.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <glob.h>
+
+#include "core/pattern.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/number.h"
+
+namespace frictab::data {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view glob_signs = "*?[";
+
+fs::path inside(const std::string& base, const std::string& name) {
+  return base.empty() ? fs::path(name) : fs::path(base) / name;
+}
+
+// A folder's own name is no pattern, whatever its letters.
+std::string without_signs(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (glob_signs.find(c) != glob_signs.npos || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::vector<std::string> matching(const std::string& pattern, const std::string& base) {
+  const std::string whole = fs::path(pattern).is_absolute() || base.empty()
+                                ? pattern
+                                : without_signs(base) + "/" + pattern;
+  glob_t found{};
+  std::vector<std::string> names;
+  if (glob(whole.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
+    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+      if (const fs::path path = found.gl_pathv[i]; fs::is_regular_file(path))
+        names.push_back(base.empty() || fs::path(pattern).is_absolute()
+                            ? path.string()
+                            : path.lexically_relative(base).string());
+  globfree(&found);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> files_in(const std::string& folder, const std::string& base) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(inside(base, folder))) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && name.front() != '.')
+      names.push_back((fs::path(folder) / name).lexically_normal().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// ---- rules ----
+
+bool fits(const FileRule& rule, const std::string& file) {
+  const bool with_folder = rule.match.find('/') != std::string::npos;
+  const std::string name = with_folder ? file : fs::path(file).filename().string();
+  return fnmatch(rule.match.c_str(), name.c_str(), FNM_PATHNAME) == 0;
+}
+
+// Its number among the rules; their count where there is none.
+std::size_t rule_of(const std::string& file, const DataOptions& options) {
+  std::size_t i = 0;
+  while (i < options.files.size() && !fits(options.files[i], file))
+    ++i;
+  return i;
+}
+
+void apply(const FileRule& rule, DataOptions& options) {
+  if (rule.delimiter) options.delimiter = *rule.delimiter;
+  if (rule.decimal) options.decimal = *rule.decimal;
+  if (rule.skip_rows) options.skip_rows = *rule.skip_rows;
+  if (rule.skip_footer) options.skip_footer = *rule.skip_footer;
+  if (rule.units_row) options.units_row = *rule.units_row;
+  for (const auto& [name, source] : rule.columns) {
+    options.columns[name] = source;
+    options.constants.erase(name);
+  }
+  for (const auto& [name, value] : rule.constants) {
+    options.constants[name] = value;
+    options.columns.erase(name);
+  }
+  options.labels.insert(rule.labels.begin(), rule.labels.end());
+  if (!rule.experiment.empty()) options.experiment = rule.experiment;
+}
+
+// ---- what names say ----
+
+// A point or a comma is the decimal sign of a name.
+bool is_number(const std::string& text, double& value) {
+  for (const char decimal : {'.', ','})
+    if (io::scan_number(text.data(), text.data() + text.size(), decimal, value) ==
+        text.data() + text.size())
+      return !text.empty();
+  return false;
+}
+
+using NamedGroups = std::map<std::string, std::string>;
+
+NamedGroups groups_of(const FileRule& rule, const std::string& file) {
+  const auto found = Pattern(rule.from_name, rule.from_name_place).search(file);
+  if (!found)
+    throw InputError(rule.from_name_place,
+                     fmt::format("'{}' does not fit '{}'", rule.from_name, file),
+                     "a pattern that fits the names of all files of this rule, or a rule of its "
+                     "own for those that it does not");
+  for (const auto& [name, text] : *found)
+    if (text.empty())
+      throw InputError(rule.from_name_place,
+                       fmt::format("'{}' finds nothing for {} in '{}'", rule.from_name, name, file),
+                       "a group that is always there");
+  return *found;
+}
+
+// The groups of one rule's files as columns of these files.
+class FromNames {
+public:
+  FromNames(const FileRule& rule, std::vector<FilePlan*> files) : rule_(rule), files_(files) {
+    for (const FilePlan* plan : files_)
+      groups_.push_back(groups_of(rule, plan->file));
+    const Pattern pattern(rule.from_name, rule.from_name_place);
+    for (const std::string& name : pattern.names())
+      name == "experiment" ? take_label() : take(name);
+  }
+
+  const std::vector<std::string>& notes() const { return notes_; } // "radius_mm (2: 10, 12)"
+
+private:
+  void take_label() {
+    for (std::size_t i = 0; i < files_.size(); ++i)
+      files_[i]->label = groups_[i].at("experiment");
+  }
+
+  void take(const std::string& name) {
+    bool numbers = true;
+    double value = 0;
+    for (const NamedGroups& groups : groups_)
+      numbers = numbers && is_number(groups.at(name), value);
+    if (const Quantity* quantity = find_quantity(name)) check(*quantity);
+    std::set<std::string> levels;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const std::string& text = groups_[i].at(name);
+      DataOptions& options = files_[i]->options;
+      if (numbers && is_number(text, value))
+        options.constants[name] = value;
+      else
+        options.labels[name] = text;
+      levels.insert(text);
+    }
+    constexpr std::size_t shown = 6;
+    std::vector<std::string> list(levels.begin(), levels.end());
+    if (list.size() > shown) {
+      list.resize(shown);
+      list.emplace_back("...");
+    }
+    notes_.push_back(fmt::format("{} ({}: {})", name, levels.size(), join(list, ", ")));
+  }
+
+  void check(const Quantity& quantity) const {
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const std::string& text = groups_[i].at(quantity.name);
+      double value = 0;
+      if (!is_number(text, value) || value < quantity.lowest)
+        throw InputError(
+            rule_.from_name_place,
+            fmt::format("{} is '{}' in the name of {}", quantity.name, text, files_[i]->file),
+            fmt::format("a {} is a number, at least {}, in {}", quantity.meaning,
+                        shortest(quantity.lowest), quantity.unit));
+    }
+  }
+
+  const FileRule& rule_;
+  std::vector<FilePlan*> files_;
+  std::vector<NamedGroups> groups_;
+  std::vector<std::string> notes_;
+};
+
+std::string note_of(const FileRule& rule, std::size_t files,
+                    const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (const auto& [name, source] : rule.columns)
+    parts.push_back(name + " from a column of its own");
+  for (const auto& [name, value] : rule.constants)
+    parts.push_back(name + " = " + shortest(value));
+  for (const auto& [name, text] : rule.labels)
+    parts.push_back(name + " = " + text);
+  if (!names.empty()) parts.push_back("from the names " + join(names, ", "));
+  if (!rule.experiment.empty()) parts.push_back("an experiment is " + rule.experiment);
+  if (rule.delimiter || rule.decimal || rule.skip_rows || rule.skip_footer || rule.units_row)
+    parts.emplace_back("a dialect of its own");
+  return fmt::format("{} ({} {}): {}", rule.match, files, files == 1 ? "file" : "files",
+                     parts.empty() ? "nothing special" : join(parts, "; "));
+}
+
+std::string stem_of(const std::string& file, bool with_folder) {
+  const fs::path path(file);
+  return (with_folder ? path.parent_path() / path.stem() : path.stem()).generic_string();
+}
+
+} // namespace
+
+std::vector<std::string> find_files(const std::vector<std::string>& named, const std::string& base,
+                                    const Place& place) {
+  std::vector<std::string> out;
+  for (const std::string& name : named) {
+    const fs::path path = inside(base, name);
+    std::vector<std::string> found = {name};
+    if (fs::is_directory(path))
+      found = files_in(name, base);
+    else if (name.find_first_of(glob_signs) != name.npos && !fs::exists(path))
+      found = matching(name, base);
+    if (found.empty())
+      throw InputError(place, fmt::format("'{}' holds no file", name),
+                       "names are relative to the job file; * stands for any letters but /");
+    for (std::string& file : found)
+      if (std::find(out.begin(), out.end(), file) == out.end()) out.push_back(std::move(file));
+  }
+  return out;
+}
+
+FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options) {
+  FilePlans plans;
+  std::map<std::string, std::size_t> stems;
+  for (const std::string& file : files)
+    ++stems[stem_of(file, false)];
+  std::vector<std::size_t> rules;
+  for (const std::string& file : files) {
+    plans.files.push_back({file, stem_of(file, stems[stem_of(file, false)] > 1), options});
+    rules.push_back(rule_of(file, options));
+    if (rules.back() < options.files.size())
+      apply(options.files[rules.back()], plans.files.back().options);
+  }
+  for (std::size_t r = 0; r < options.files.size(); ++r) {
+    std::vector<FilePlan*> own;
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (rules[i] == r) own.push_back(&plans.files[i]);
+    if (own.empty()) continue;
+    std::vector<std::string> names;
+    if (!options.files[r].from_name.empty()) names = FromNames(options.files[r], own).notes();
+    plans.notes.push_back(note_of(options.files[r], own.size(), names));
+  }
+  return plans;
+}
+
+void check_rules(const std::vector<std::string>& files, const DataOptions& options) {
+  FaultList faults;
+  for (std::size_t r = 0; r < options.files.size(); ++r) {
+    const auto is_its = [&](const std::string& file) { return rule_of(file, options) == r; };
+    if (std::any_of(files.begin(), files.end(), is_its)) continue;
+    const auto would = [&](const std::string& file) { return fits(options.files[r], file); };
+    const bool late = std::any_of(files.begin(), files.end(), would);
+    faults.add(options.files[r].place,
+               fmt::format("no file is read by match = '{}'", options.files[r].match),
+               late ? "an earlier rule matches all of them: the first one counts"
+                    : "the files: " + join(files, ", "));
+  }
+  faults.throw_if_any();
+}
+
+} // namespace frictab::data
