@@ -7,6 +7,7 @@
 
 #include "cli/combined.h"
 #include "cli/job_commands.h"
+#include "cli/law_alone.h"
 #include "codegen/exporter.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -22,6 +23,8 @@ struct Options {
   std::vector<std::string> targets{"c", "abaqus_vfric"};
   std::string units = "mm-t-s";
   std::vector<std::string> combine;
+  std::string law;
+  std::vector<std::string> parameters, ranges;
 };
 
 int export_alone(const Options& options, const CommonOptions& common) {
@@ -53,6 +56,15 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "Several laws in one user file, by the names of their contacts in the deck "
                  "(PUNCH=A.h5 DIE=B.h5); needs -o DIR. A JOB's [export] holds for all of them")
       ->type_name("NAME=TABLE");
+  app.add_option("--law", options->law,
+                 "A friction law with known constants, without data; needs -o DIR")
+      ->type_name("NAME");
+  app.add_option("--param", options->parameters, "With --law: one of its parameters")
+      ->type_name("NAME=NUMBER");
+  app.add_option("--range", options->ranges,
+                 "With --law: over which states; usual are those of Table 1. With a range of "
+                 "sigma_f_MPa the shear limit holds")
+      ->type_name("STATE=LOW..HIGH");
   return [options, &common]() -> int {
     if (!options->combine.empty()) {
       if (!options->table.empty())
@@ -61,9 +73,18 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       return export_combined({options->combine, options->job, options->targets, options->units},
                              common);
     }
+    if (!options->law.empty()) {
+      if (!options->job.empty() || !options->table.empty())
+        throw InputError({}, "--law stands alone", "without JOB and --table");
+      return export_law(
+          {options->law, options->parameters, options->ranges, options->targets, options->units},
+          common);
+    }
+    if (!options->parameters.empty() || !options->ranges.empty())
+      throw InputError({}, "--param and --range belong to --law", "--law coulomb --param mu=0.08");
     const std::string how =
-        "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], or --combine NAME=FILE "
-        "... -o DIR --targets abaqus_vfric";
+        "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
+        "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
     if (options->table.empty() && options->job.empty())
       throw InputError({}, "nothing to export", how);
     if (!options->table.empty() && !options->job.empty())

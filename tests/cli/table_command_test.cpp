@@ -358,8 +358,8 @@ TEST_F(ForeignTable, StandAloneExportSaysWhatItNeeds) {
     return result.err;
   };
   EXPECT_EQ(fault({}), "error: nothing to export\n  hint: give a JOB file, --table FILE -o DIR "
-                       "[--targets c,abaqus_vfric], or --combine NAME=FILE ... -o DIR --targets "
-                       "abaqus_vfric\n");
+                       "[--targets c,abaqus_vfric], --law NAME --param P=V ... -o DIR, or "
+                       "--combine NAME=FILE ... -o DIR --targets abaqus_vfric\n");
   EXPECT_EQ(fault({"--table", "small.h5"}),
             "error: nowhere to write the sources to\n  hint: give -o DIR with --table FILE\n");
   EXPECT_EQ(fault({"--table", "small.h5", "-o", "x", "--targets", "abaqus_vfrik"}),

@@ -1,0 +1,174 @@
+// Constants become a model, a model a table, a table routines.
+#include "cli/law_alone.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "calibrate/calibration_file.h"
+#include "cli/combined.h"
+#include "codegen/exporter.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "data/quantity.h"
+#include "io/number.h"
+#include "run/summary.h"
+#include "table/build.h"
+#include "table/table_file.h"
+#include "verify/verify.h"
+
+namespace frictab::cli {
+
+namespace {
+
+constexpr const char* flow_stress = "sigma_f_MPa";
+
+bool read_number(std::string_view text, double& value) {
+  return io::scan_number(text.data(), text.data() + text.size(), '.', value) ==
+         text.data() + text.size();
+}
+
+// "mu=0.08" as name and what stands behind.
+std::map<std::string, std::string> assignments(const std::vector<std::string>& words,
+                                               const char* option, const char* example) {
+  std::map<std::string, std::string> out;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == 0 || equals == word.npos || equals + 1 == word.size())
+      throw InputError({}, fmt::format("{} does not take '{}'", option, word),
+                       fmt::format("for example {} {}", option, example));
+    if (!out.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
+      throw InputError({}, fmt::format("{} says {} twice", option, word.substr(0, equals)),
+                       "name it once");
+  }
+  return out;
+}
+
+// ---- the law ----
+
+const models::Law& law_of(const std::string& name) {
+  const models::Law* law = models::find_law(name);
+  if (!law)
+    throw InputError({}, "unknown friction law '" + name + "'", suggest(name, models::law_names()));
+  if (law->calibrated == models::Calibrated::train)
+    throw InputError({}, name + " has no constants: it is trained on data", "frictab run JOB");
+  return *law;
+}
+
+std::string about(const models::Parameter& p) {
+  return fmt::format("{}{}, {} to {}", p.meaning, p.unit == "1" ? "" : " in " + p.unit,
+                     shortest(p.lower), shortest(p.upper));
+}
+
+std::vector<double> parameters_of(const models::Law& law, const std::vector<std::string>& words) {
+  const auto given = assignments(words, "--param", "mu=0.08");
+  const std::vector<std::string> names = models::parameter_names(law);
+  FaultList faults;
+  for (const auto& [name, value] : given)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      faults.add({}, fmt::format("{} has no parameter '{}'", law.name, name),
+                 names.empty() ? "it has none" : suggest(name, names));
+  std::vector<double> out;
+  for (const models::Parameter& p : law.parameters) {
+    double value = p.start;
+    const auto found = given.find(p.name);
+    if (found == given.end() && law.calibrated != models::Calibrated::fixed)
+      faults.add({}, fmt::format("{} needs --param {}=NUMBER", law.name, p.name), about(p));
+    else if (found != given.end() &&
+             (!read_number(found->second, value) || value < p.lower || value > p.upper))
+      faults.add({}, fmt::format("{} = {} is none of its values", p.name, found->second), about(p));
+    out.push_back(value);
+  }
+  faults.throw_if_any();
+  return out;
+}
+
+// ---- its ranges ----
+
+table::StateRange asked_range(const data::Quantity& quantity, const std::string& text) {
+  const std::size_t dots = text.find("..");
+  double low = 0, high = 0;
+  if (dots == text.npos || !read_number(std::string_view(text).substr(0, dots), low) ||
+      !read_number(std::string_view(text).substr(dots + 2), high) || !(low < high) ||
+      low < quantity.lowest || (quantity.log_axis && !(low > 0)))
+    throw InputError({}, fmt::format("'{}' is no range of {}", text, quantity.name),
+                     fmt::format("--range {}=LOW..HIGH in {}, with LOW < HIGH{}", quantity.name,
+                                 quantity.unit, quantity.log_axis ? " and above 0" : ""));
+  return {quantity.name, low, high, "command line"};
+}
+
+// The paper's ranges, where the command says no others; a flow stress has none.
+std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
+                                         const std::map<std::string, std::string>& given) {
+  FaultList faults;
+  for (const auto& [name, text] : given)
+    if (std::find(law.inputs.begin(), law.inputs.end(), name) == law.inputs.end())
+      faults.add({}, fmt::format("{} does not take {}", law.model.law->name, name),
+                 "it takes " + join(law.inputs, ", "));
+  std::vector<table::StateRange> out;
+  for (const std::string& name : law.inputs) {
+    const data::Quantity& quantity = *data::find_quantity(name);
+    if (const auto found = given.find(name); found != given.end())
+      out.push_back(asked_range(quantity, found->second));
+    else if (quantity.paper_range)
+      out.push_back({name, quantity.paper_range->first, quantity.paper_range->second, "Table 1"});
+    else
+      faults.add({}, fmt::format("{} takes {}: over which range?", law.model.law->name, name),
+                 fmt::format("--range {}=LOW..HIGH in {}", name, quantity.unit));
+  }
+  faults.throw_if_any();
+  return out;
+}
+
+// Without a flow stress there is no shear limit, as with data that have none.
+models::Model model_of(const LawOptions& options,
+                       const std::map<std::string, std::string>& ranges) {
+  const models::Law& law = law_of(options.law);
+  models::Model model;
+  model.law = models::registered_law(law);
+  model.conventions.shear_limit = ranges.count(flow_stress) > 0;
+  model.parameters = parameters_of(law, options.parameters);
+  return model;
+}
+
+std::string model_file(const models::Model& model) {
+  calibrate::ModelFit fit;
+  fit.model = model;
+  fit.std_error.assign(model.parameters.size(), std::numeric_limits<double>::quiet_NaN());
+  return calibrate::model_json(fit, {});
+}
+
+} // namespace
+
+int export_law(const LawOptions& options, const CommonOptions& common) {
+  if (common.output.empty())
+    throw InputError({}, "nowhere to write the sources to", "give -o DIR with --law NAME");
+  const auto given = assignments(options.ranges, "--range", "sigma_f_MPa=300..900");
+  const models::AssembledLaw law(model_of(options, given));
+  const auto exporters = codegen::exporters_named(options.targets);
+  const table::TableOptions usual;
+  table::Table table = table::build_table(law, ranges_of(law, given), usual);
+  table.record.tool_version = FRICTAB_VERSION;
+  table.record.data_origin = "none: constants given by hand";
+  verify::Verification verification{usual.tolerance_MPa, {}};
+  verification.records =
+      verify::verify({law, table, "the new table", nullptr, usual.tolerance_MPa}, {});
+  const verify::DriftRecord& drift = verification.records.front();
+  table.record.worst_case_MPa = drift.worst_case_MPa;
+  table.record.proven_drift_MPa = drift.proven_MPa;
+  for (const auto& [name, value] : drift.worst_state)
+    table.record.inputs[name].worst_case_at = value;
+  io::OutputFiles output(common.output);
+  table::write_table(table, output.stage(options.law + ".h5"), usual.hdf5);
+  output.write(options.law + ".json", model_file(law.model));
+  for (const codegen::Exporter* exporter : exporters)
+    for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
+      output.write(exporter->name + "/" + path, text);
+  commit_and_list(output, common);
+  fmt::print("{}", run::drift_text(verification));
+  return verification.passed() ? 0 : 1;
+}
+
+} // namespace frictab::cli
