@@ -28,6 +28,7 @@ struct Options {
   std::string combined;
   std::string junit;
   std::optional<double> max_drift_MPa;
+  bool require_proof = false;
 };
 
 // Data for the rows alone: canonical column names, or the mapping of a job file.
@@ -54,7 +55,7 @@ int verify_alone(const Options& options, const CommonOptions& common) {
   std::optional<data::Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
   const double allowed = options.max_drift_MPa.value_or(table.record.tolerance_MPa.value_or(0.5));
-  verify::Verification verification{allowed, {}};
+  verify::Verification verification{allowed, {}, options.require_proof};
   verification.records =
       verify::verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
   write_junit(options, verification);
@@ -78,6 +79,7 @@ int verify_job(const Options& options, const CommonOptions& common) {
   job::Job job = job::read_job(options.job, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
+  if (options.require_proof) job.verify.require_proof = true;
   run::Pipeline pipeline(std::move(job));
   pipeline.verify();
   pipeline.commit();
@@ -106,6 +108,8 @@ const Registered<Command> registered{[] {
     app.add_option("--max-drift-MPa", options->max_drift_MPa, "Largest drift allowed")
         ->type_name("X")
         ->check(CLI::PositiveNumber);
+    app.add_flag("--require-proof", options->require_proof,
+                 "A table passes only where a bound within the tolerance is proven");
     app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
     return [options, &common]() -> int {
       if (!options->combined.empty()) {

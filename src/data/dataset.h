@@ -30,6 +30,7 @@ public:
   };
   std::vector<Dropped> dropped;   // rows left out at the user's word
   std::vector<std::string> notes; // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
+  std::vector<std::string> implausible; // what some rows cannot have been (data/plausibility.h)
   // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
   // so that nothing can be fitted to it, and not part of the fingerprint.
   std::vector<double> oracle_MPa;

@@ -64,6 +64,7 @@ struct DataOptions {
   // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
   std::string experiment;
   Missing missing = Missing::error;
+  std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
   std::string base;                                   // directory that relative paths start from

@@ -9,32 +9,23 @@
 #include <fmt/format.h>
 
 #include "core/parallel.h"
+#include "io/csv.h"
 #include "io/hdf5.h"
 
 namespace frictab::data {
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n;\t ") == std::string::npos && !text.empty()) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
 std::vector<std::string> quoted_levels(const Column& column) {
   std::vector<std::string> levels;
   for (const std::string& level : column.levels)
-    levels.push_back(quoted(level));
+    levels.push_back(io::csv_cell(level));
   return levels;
 }
 
 void append_rows(const Dataset& data, const std::vector<std::vector<std::string>>& levels,
                  std::size_t experiment, std::string& out) {
-  const std::string name = quoted(data.experiments[experiment]);
+  const std::string name = io::csv_cell(data.experiments[experiment]);
   const std::size_t end = data.first_row[experiment + 1];
   out.reserve((end - data.first_row[experiment]) * (name.size() + 10 * data.columns.size() + 2));
   for (std::size_t row = data.first_row[experiment]; row < end; ++row) {
@@ -57,7 +48,7 @@ std::string csv_text(const Dataset& data) {
   std::string text = "experiment";
   std::vector<std::vector<std::string>> levels;
   for (const Column& column : data.columns) {
-    text += ',' + quoted(column.name);
+    text += ',' + io::csv_cell(column.name);
     levels.push_back(quoted_levels(column));
   }
   text += '\n';

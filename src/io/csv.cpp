@@ -492,4 +492,14 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   return table;
 }
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n;\t ") == std::string::npos && !text.empty()) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
 } // namespace frictab::io

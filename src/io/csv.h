@@ -54,4 +54,7 @@ struct CsvTable {
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 
+// A text as the cell of a file with commas: quoted where it must be.
+std::string csv_cell(const std::string& text);
+
 } // namespace frictab::io

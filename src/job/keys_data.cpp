@@ -1,6 +1,7 @@
 // The keys of [data]: where rows come from and how a rig's file is read.
 #include <array>
 
+#include "data/plausibility.h"
 #include "data/quantity.h"
 #include "job/key_builder.h"
 
@@ -86,6 +87,12 @@ std::vector<std::string> delimiters() {
 std::vector<std::string> decimals() {
   return {".", ","};
 }
+std::vector<std::string> plausibility_names() {
+  std::vector<std::string> names;
+  for (const data::PlausibilityCheck& check : data::plausibility_checks())
+    names.push_back(check.name);
+  return names;
+}
 std::vector<std::string> missing_words() { // as data::Missing
   return {"error", "drop"};
 }
@@ -135,6 +142,11 @@ std::vector<KeyRule> file_keys() {
           "data.missing", [](Job & job) -> auto& { return job.data.missing; },
           "an empty cell of a quantity: an error, or its row is left out and counted") |
           Allowed{"", missing_words},
+      key<std::vector<std::string>>(
+          "data.allow_implausible", [](Job & job) -> auto& { return job.data.allow_implausible; },
+          "plausibility checks that most rows may fail; without it that is an error", "none",
+          "[\"friction_coefficient\"]") |
+          Allowed{"plausibility check", plausibility_names},
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "

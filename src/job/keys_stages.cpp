@@ -343,6 +343,11 @@ std::vector<KeyRule> proof_keys() {
           "verify.samples", [](Job & job) -> auto& { return job.verify.samples; },
           "points over the whole range at which table and law are compared") |
           at_least(1, 1e9),
+      key<bool>(
+          "verify.require_proof", [](Job & job) -> auto& { return job.verify.require_proof; },
+          "a table passes only where a bound within the tolerance is proven, not by what the "
+          "search "
+          "found alone"),
       key<std::vector<std::string>>(
           "trace.models", [](Job & job) -> auto& { return job.trace.models; },
           "laws whose residuals are searched: best, a name, a list, or all") |

@@ -106,8 +106,8 @@ struct ValueReader {
     }
     if (node.type != Type::array) return refuse(node);
     // An empty list says something only where nothing to keep, ignore or write is a wish.
-    if (node.items.empty() && path != "data.bystanders" && path != "trace.ignore" &&
-        path != "export.targets") {
+    if (node.items.empty() && path != "data.bystanders" && path != "data.allow_implausible" &&
+        path != "trace.ignore" && path != "export.targets") {
       reader.fault(node.place, path + " is an empty list",
                    "leave the key out for: " +
                        (rule.absent.empty() ? default_text(rule) : rule.absent));

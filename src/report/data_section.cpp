@@ -71,6 +71,7 @@ void add_data(codegen::TemplateValues& page, const ReportInput& input) {
   add("Rows", thousands(t.rows()), thousands(v.rows()));
   add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
   add("Derived", lines(t.notes), lines(v.notes));
+  add("Implausible", lines(t.implausible), lines(v.implausible));
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
 
   std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];

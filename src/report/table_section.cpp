@@ -121,6 +121,11 @@ std::string subject_text(const DriftRecord& r) {
   return text;
 }
 
+const char* result_of(const DriftRecord& r) {
+  if (!r.passed) return "failed";
+  return r.over_by_proof ? "passed as found; over the tolerance by proof" : "passed";
+}
+
 // `table`: the record of the table that the source was made from; most sources are furthest where
 // it is.
 TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
@@ -140,7 +145,7 @@ TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
               {"rms", on_rows(r.rows.rms)},
               {"p99", on_rows(r.rows.p99)},
               {"outside", outside_text(r)},
-              {"result", r.passed ? "passed" : "failed"},
+              {"result", result_of(r)},
               {"result_class", r.passed ? "pass" : "fail"},
               {"why_not", svg::escape(r.why_not)}};
   return row;

@@ -14,6 +14,7 @@
 #include "data/file_list.h"
 #include "data/load.h"
 #include "data/oracle.h"
+#include "data/plausibility.h"
 #include "data/quantity.h"
 #include "effects/extended_law.h"
 
@@ -61,6 +62,8 @@ JobData with_validation_files(const data::DataOptions& options) {
   JobData data;
   data.training = data::load_dataset(options.training, options);
   data.validation = data::load_dataset(options.validation, options);
+  for (data::Dataset* part : {&data.training, &data.validation})
+    data::check_plausibility(*part, options.allow_implausible, options.place);
   data.leak = calibrate::leak_note(data.training, data.validation);
   if (!data.leak.empty()) data.validation.notes.push_back(data.leak);
   return data;
@@ -68,10 +71,12 @@ JobData with_validation_files(const data::DataOptions& options) {
 
 JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed) {
   data::Dataset all = data::load_dataset(options.training, options);
+  data::check_plausibility(all, options.allow_implausible, options.place);
   data::Split split = data::hold_out(all, options.holdout, seed);
   JobData data;
   data.training = std::move(split.training);
   data.validation = std::move(split.validation);
+  data.training.implausible = all.implausible;
   data.leak = calibrate::leak_note(data.training, data.validation);
   if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
   return data;

@@ -9,6 +9,7 @@
 #include "calibrate/band.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/comparison.h"
+#include "calibrate/experiment_errors.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -89,6 +90,8 @@ void Pipeline::calibrate() {
 void Pipeline::write_calibration() {
   output_.write("calibration.json", calibrate::calibration_json(*calibration_));
   output_.write("benchmark.md", report::benchmark_md(*calibration_));
+  output_.write("errors_by_experiment.csv",
+                calibrate::errors_by_experiment(*calibration_, data_->training, data_->validation));
   for (const ModelFit& fit : calibration_->fits)
     output_.write("models/" + fit.model.law->name + ".json",
                   calibrate::model_json(fit, *calibration_));
@@ -369,7 +372,7 @@ void Pipeline::verify() {
   load_calibration();
   load_tables();
   const double allowed = drift_allowed();
-  verification_ = verify::Verification{allowed, {}};
+  verification_ = verify::Verification{allowed, {}, job_.verify.require_proof};
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {
     const Table direct = direct_for_sources(table);

@@ -37,6 +37,9 @@ void add_data(std::string& out, const Pipeline& p) {
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
+  for (const data::Dataset* data : {&training, &validation})
+    for (const std::string& line : data->implausible)
+      out += "  implausible: " + line + "\n";
 }
 
 std::string parameters(const calibrate::ModelFit& fit) {
@@ -169,16 +172,19 @@ struct DriftLine {
   std::string proven = "-";
   double routines = 0; // the furthest of them
   std::size_t count = 0;
-  bool passed = true;
+  bool passed = true, found_passed = true, over_by_proof = false;
   std::string notes; // what did not run, or is over the tolerance
 };
 
-void add_to(DriftLine& line, const verify::DriftRecord& r) {
+void add_to(DriftLine& line, const verify::Verification& verification,
+            const verify::DriftRecord& r) {
   if (!r.ran) {
     line.notes += fmt::format("  {} {} not run: {}\n", r.model, r.subject, r.why_not);
     return;
   }
-  line.passed = line.passed && r.passed;
+  line.passed = line.passed && !verification.failed(r);
+  line.found_passed = line.found_passed && r.passed;
+  line.over_by_proof = line.over_by_proof || r.over_by_proof;
   if (!r.passed)
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
                               verify::largest_drift_MPa(r));
@@ -201,12 +207,19 @@ void add_to(DriftLine& line, const verify::DriftRecord& r) {
     line.notes += fmt::format("  {} not proven: {}\n", r.model, r.not_proven);
 }
 
+const char* result_of(const DriftLine& line) {
+  if (!line.found_passed) return "OVER TOLERANCE";
+  if (line.over_by_proof)
+    return line.passed ? "ok as found, over tolerance by proof" : "OVER TOLERANCE BY PROOF";
+  return line.passed ? "ok" : "NOT PROVEN";
+}
+
 std::string text_of(const DriftLine& line, const std::string& model) {
   const std::string routines =
       line.count == 0 ? "-" : fmt::format("{:.3g} ({})", line.routines, line.count);
   return fmt::format("  {:<14}{:>12.3g}{:>10}{:>16}{:>12.3g}{:>11.2f} %   {}\n{}", model,
-                     line.table, line.proven, routines, line.on_rows, line.share,
-                     line.passed ? "ok" : "OVER TOLERANCE", line.notes);
+                     line.table, line.proven, routines, line.on_rows, line.share, result_of(line),
+                     line.notes);
 }
 
 // One line per axis and side that rows of the data lie beyond; they are the same for every subject.
@@ -324,7 +337,7 @@ void add_drift(std::string& out, const verify::Verification& verification) {
   for (const std::string& model : models) {
     DriftLine line;
     for (const verify::DriftRecord& r : verification.records)
-      if (r.model == model) add_to(line, r);
+      if (r.model == model) add_to(line, verification, r);
     out += text_of(line, model);
   }
   add_outside(out, verification, models);

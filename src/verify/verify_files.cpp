@@ -33,6 +33,13 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
                      answered);
 }
 
+std::string proof_text(const DriftRecord& record, double max_drift_MPa) {
+  return record.proven_MPa
+             ? fmt::format("{:.6g} MPa found, but only {:.6g} MPa proven; allowed {:.6g} MPa",
+                           record.worst_case_MPa, *record.proven_MPa, max_drift_MPa)
+             : "not proven: " + record.not_proven;
+}
+
 Json beyond_json(const BeyondEnd& end) {
   return {{"axis", end.axis}, {"side", end.side}, {"outside", end.outside},
           {"end", end.end},   {"rows", end.rows}, {"largest_excess", end.largest_excess}};
@@ -68,6 +75,7 @@ Json record_json(const DriftRecord& record) {
   if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
   if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
   if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
+  if (record.over_by_proof) j["over_by_proof"] = true;
   if (record.below)
     j["below"] = {{"axis", "sigma_n_MPa"},
                   {"low", record.below->low_MPa},
@@ -91,11 +99,13 @@ std::string verification_json(const Verification& verification) {
   Json records = Json::array();
   for (const DriftRecord& record : verification.records)
     records.push_back(record_json(record));
-  return io::json_text({{"schema", "frictab/verify/1"},
-                        {"tool_version", FRICTAB_VERSION},
-                        {"max_drift_MPa", verification.max_drift_MPa},
-                        {"passed", verification.passed()},
-                        {"records", records}});
+  Json j = {{"schema", "frictab/verify/1"},
+            {"tool_version", FRICTAB_VERSION},
+            {"max_drift_MPa", verification.max_drift_MPa},
+            {"passed", verification.passed()}};
+  if (verification.require_proof) j["require_proof"] = true;
+  j["records"] = records;
+  return io::json_text(j);
 }
 
 Verification parse_verification(std::string_view text, const std::string& file) {
@@ -103,6 +113,7 @@ Verification parse_verification(std::string_view text, const std::string& file) 
   try {
     Verification verification;
     verification.max_drift_MPa = j.at("max_drift_MPa");
+    verification.require_proof = j.value("require_proof", false);
     for (const Json& one : j.at("records")) {
       DriftRecord r;
       r.model = one.at("model");
@@ -130,6 +141,7 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
         r.not_proven = one.value("not_proven", "");
+        r.over_by_proof = one.value("over_by_proof", false);
         if (one.contains("below")) {
           const Json& below = one.at("below");
           r.below = {below.at("low"), below.at("high"), below.at("outside"), below.at("n_points"),
@@ -156,7 +168,7 @@ std::string verification_junit(const Verification& verification) {
   pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
   std::size_t failures = 0, skipped = 0;
   for (const DriftRecord& record : verification.records) {
-    failures += record.ran && !record.passed;
+    failures += verification.failed(record);
     skipped += !record.ran;
   }
   suite.append_attribute("name") = "frictab verify";
@@ -169,8 +181,9 @@ std::string verification_junit(const Verification& verification) {
     test.append_attribute("name") = record.subject.c_str();
     if (!record.ran)
       test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
-    if (record.ran && !record.passed) {
-      const std::string text = failure_text(record, verification.max_drift_MPa);
+    if (verification.failed(record)) {
+      const std::string text = record.passed ? proof_text(record, verification.max_drift_MPa)
+                                             : failure_text(record, verification.max_drift_MPa);
       test.append_child("failure").append_attribute("message") = text.c_str();
     }
   }

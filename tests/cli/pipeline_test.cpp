@@ -72,8 +72,8 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
                            "Tables:", "Largest drift from the law", "Wrote "})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   for (const char* file :
-       {"calibration.json", "benchmark.md", "models/coulomb.json", "models/wzl.json",
-        "tables/levanov.h5", "export/c/levanov/recipe.json",
+       {"calibration.json", "benchmark.md", "errors_by_experiment.csv", "models/coulomb.json",
+        "models/wzl.json", "tables/levanov.h5", "export/c/levanov/recipe.json",
         "export/abaqus_vfric/levanov/recipe.json", "verify.json", "verify.xml", "report.html"})
     EXPECT_TRUE(fs::exists(directory.path("out") + "/" + file)) << file;
 }

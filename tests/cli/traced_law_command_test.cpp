@@ -16,9 +16,11 @@ using test::run_frictab;
 using test::TemporaryDirectory;
 using testing::HasSubstr;
 
+// Path and speed of the sample are drawn each for itself.
 const char* const job_text = R"([data]
 training = "training.csv"
 validation = "validation.csv"
+allow_implausible = ["speed"]
 [models]
 use = ["log_coulomb"]
 [table]

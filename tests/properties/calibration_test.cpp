@@ -1,10 +1,14 @@
 // Calibration: every law finds its own parameters again; errors and intervals by experiment.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -281,6 +285,53 @@ TEST(Metrics, IntervalTreatsTheExperimentAsTheUnit) {
   }
   const calibrate::Metrics m = calibrate::metrics(measured, predicted, first_row, 2000, 1);
   EXPECT_NEAR(m.bias_interval.high, 1.96 / std::sqrt(20.0), 0.08);
+}
+
+TEST(ExperimentErrors, AddUpToThoseOfTheRankingAndNameTheOutlier) {
+  test::SampleOptions noisy;
+  noisy.noise_MPa = 2;
+  const Dataset training = test::sample_data(test::plausible_model(*find_law("coulomb")), noisy);
+  Dataset validation = training;
+  for (std::string& name : validation.experiments)
+    name = "held out, " + name;
+  // The last test slides with 1.5 times the stress.
+  for (data::Column& column : validation.columns)
+    for (std::size_t i = *(validation.first_row.end() - 2); i < column.values.size(); ++i)
+      if (column.name == "tau_R_MPa") column.values[i] *= 1.5;
+  CalibrationInput input{training, validation, {}, {}};
+  input.models.use = {"coulomb", "coulomb_0.04"};
+  const Calibration calibration = calibrate::calibrate(input);
+  std::istringstream lines(calibrate::errors_by_experiment(calibration, training, validation));
+  std::string line, furthest;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "law,experiment,held_out,n,mae_MPa,rmse_MPa,bias_MPa,gain");
+  double sum = 0, bias = 0, largest = 0, gain = 0;
+  std::size_t count = 0;
+  while (std::getline(lines, line)) {
+    ++count;
+    const std::size_t at = line.find(",1,"); // held out
+    if (!line.starts_with("coulomb,\"held out") || at == line.npos) continue;
+    double n = 0, mae = 0, rmse = 0, mean = 0, factor = 0;
+    ASSERT_EQ(
+        std::sscanf(line.c_str() + at, ",1,%lf,%lf,%lf,%lf,%lf", &n, &mae, &rmse, &mean, &factor),
+        5)
+        << line;
+    EXPECT_LE(mae, rmse);
+    sum += n * mae;
+    bias += n * mean;
+    if (mae <= largest) continue;
+    largest = mae;
+    furthest = line;
+    gain = factor;
+  }
+  EXPECT_EQ(count, 4 * training.experiments.size()) << "two laws, two sets";
+  const auto fit = std::find_if(calibration.fits.begin(), calibration.fits.end(),
+                                [](const ModelFit& f) { return f.model.law->name == "coulomb"; });
+  const auto rows = static_cast<double>(validation.rows());
+  EXPECT_NEAR(sum / rows, fit->validation.mae_MPa, 1e-4);
+  EXPECT_NEAR(bias / rows, fit->validation.bias_MPa, 1e-4);
+  EXPECT_THAT(furthest, testing::HasSubstr(validation.experiments.back()));
+  EXPECT_NEAR(gain, 1.5, 0.05);
 }
 
 } // namespace

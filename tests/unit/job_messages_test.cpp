@@ -47,7 +47,39 @@ TEST(JobMessages, NameTheNearestKnownKey) {
       with("zzzzzzzz = 1"),
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
       "  hint: known: drop, columns, constants, files, training, validation, oracle, holdout, "
-      "delimiter, decimal, skip_rows, skip_footer, units_row, missing, experiment, bystanders");
+      "delimiter, decimal, skip_rows, skip_footer, units_row, missing, "
+      "allow_implausible, experiment, bystanders");
+}
+
+TEST(JobMessages, NameTheRuleOfSomeFiles) {
+  EXPECT_EQ(with("files = 3"), "job.toml:3:9: error: data.files must be a list of tables, not 3\n"
+                               "  hint: write [[data.files]]");
+  EXPECT_EQ(with("[[data.files]]\nlabels = { rig = \"new\" }"),
+            "job.toml:3:1: error: data.files[1] has no match\n"
+            "  hint: match = \"*.csv\" says which files");
+  EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\n[[data.files]]\nmatch = \"b\"\nskip_row = 1"),
+            "job.toml:7:1: error: unknown key 'skip_row' in [data.files[2]]\n"
+            "  hint: did you mean 'skip_rows'?");
+  EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\nfrom_name = '(\\d+)mm'"),
+            "job.toml:5:13: error: data.files[1].from_name has no named group\n"
+            "  hint: what becomes a column is written (?<name>...)");
+  EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\nconstants = { sigma_f = 480 }"),
+            "job.toml:5:25: error: 'sigma_f' in [data.files[1].constants] is no quantity\n"
+            "  hint: did you mean 'sigma_f_MPa'? A column of your own needs a name less like it");
+  EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\nlabels = { psi = \"2\" }"),
+            "job.toml:5:18: error: psi is a quantity, no label\n"
+            "  hint: give it in `constants`");
+  EXPECT_EQ(
+      with(
+          "[[data.files]]\nmatch = \"a\"\ncolumns = { F_R_N = { column = \"F\", unit = \"mm\" } }"),
+      "job.toml:5:44: error: data.files[1].columns.F_R_N.unit = \"mm\" does not convert to N\n"
+      "  hint: did you mean 'mN'?");
+  EXPECT_EQ(with("[[data.files]]\nmatch = \"a\"\ncolumns = { F_R_N = \"F\" }\nconstants = { "
+                 "radius_mm = 3 }"),
+            "accepted");
+  EXPECT_EQ(with("allow_implausible = [\"speeed\"]"),
+            "job.toml:3:22: error: unknown plausibility check 'speeed' in data.allow_implausible\n"
+            "  hint: did you mean 'speed'?");
 }
 
 TEST(JobMessages, SayWhatTypeIsWanted) {
