@@ -61,8 +61,7 @@ bool asks_flow_stress(const ExportRequest& request, const NativeForm& form) {
 double flow_stress_of(const std::string& choice) {
   const std::string number = choice.starts_with("constant:") ? choice.substr(9) : "";
   double value = 0;
-  const char* const end = number.data() + number.size();
-  if (io::scan_number(number.data(), end, '.', value) != end || !(value > 0))
+  if (!io::read_number(number, '.', value) || !(value > 0))
     throw InputError(input_place("sigma_f_MPa"), "'" + choice + "' is no flow stress to hold",
                      "constant:480");
   return value;

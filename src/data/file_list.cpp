@@ -103,16 +103,14 @@ void apply(const FileRule& rule, DataOptions& options) {
 // A point or a comma is the decimal sign of a name.
 bool is_number(const std::string& text, double& value) {
   for (const char decimal : {'.', ','})
-    if (io::scan_number(text.data(), text.data() + text.size(), decimal, value) ==
-        text.data() + text.size())
-      return !text.empty();
+    if (io::read_number(text, decimal, value)) return true;
   return false;
 }
 
 using NamedGroups = std::map<std::string, std::string>;
 
-NamedGroups groups_of(const FileRule& rule, const std::string& file) {
-  const auto found = Pattern(rule.from_name, rule.from_name_place).search(file);
+NamedGroups groups_of(const FileRule& rule, const Pattern& pattern, const std::string& file) {
+  const auto found = pattern.search(file);
   if (!found)
     throw InputError(rule.from_name_place,
                      fmt::format("'{}' does not fit '{}'", rule.from_name, file),
@@ -130,9 +128,9 @@ NamedGroups groups_of(const FileRule& rule, const std::string& file) {
 class FromNames {
 public:
   FromNames(const FileRule& rule, std::vector<FilePlan*> files) : rule_(rule), files_(files) {
-    for (const FilePlan* plan : files_)
-      groups_.push_back(groups_of(rule, plan->file));
     const Pattern pattern(rule.from_name, rule.from_name_place);
+    for (const FilePlan* plan : files_)
+      groups_.push_back(groups_of(rule, pattern, plan->file));
     for (const std::string& name : pattern.names())
       name == "experiment" ? take_label() : take(name);
   }
@@ -159,6 +157,7 @@ private:
         options.constants[name] = value;
       else
         options.labels[name] = text;
+      options.columns.erase(name);
       levels.insert(text);
     }
     constexpr std::size_t shown = 6;
@@ -237,9 +236,13 @@ FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& o
   std::map<std::string, std::size_t> stems;
   for (const std::string& file : files)
     ++stems[stem_of(file, false)];
+  DataOptions one = options; // of one file: without the lists of all
+  one.training.clear();
+  one.validation.clear();
+  one.files.clear();
   std::vector<std::size_t> rules;
   for (const std::string& file : files) {
-    plans.files.push_back({file, stem_of(file, stems[stem_of(file, false)] > 1), options});
+    plans.files.push_back({file, stem_of(file, stems[stem_of(file, false)] > 1), one});
     rules.push_back(rule_of(file, options));
     if (rules.back() < options.files.size())
       apply(options.files[rules.back()], plans.files.back().options);

@@ -22,42 +22,11 @@ namespace {
 
 const char* const experiment_column = "experiment";
 
-constexpr std::string_view file_and = "file+"; // of DataOptions::experiment
-
 std::string strip_brackets(std::string unit) {
   if (unit.size() >= 2 && std::string("[(").find(unit.front()) != std::string::npos &&
       std::string("])").find(unit.back()) != std::string::npos)
     unit = unit.substr(1, unit.size() - 2);
   return unit;
-}
-
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && text.front() == ' ')
-    text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ')
-    text.remove_suffix(1);
-  return text;
-}
-
-// "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s" as name and unit; the whole name and no
-// unit where what stands there is none that is known here.
-struct HeaderName {
-  std::string name, unit;
-};
-HeaderName read_header_name(const std::string& text) {
-  const auto split = [&](std::size_t at, std::size_t from, std::size_t end) -> HeaderName {
-    const std::string unit(without_blanks(std::string_view(text).substr(from, end - from)));
-    if (at == 0 || at == text.npos || unit.empty() || !convert(unit, unit)) return {text, ""};
-    return {std::string(without_blanks(std::string_view(text).substr(0, at))), unit};
-  };
-  if (text.empty()) return {text, ""};
-  if (text.back() == ']') return split(text.rfind('['), text.rfind('[') + 1, text.size() - 1);
-  if (text.back() == ')') return split(text.rfind('('), text.rfind('(') + 1, text.size() - 1);
-  for (const std::string_view sign : {" / ", ", "})
-    if (const std::size_t at = text.rfind(sign); at != text.npos)
-      if (HeaderName found = split(at, at + sign.size(), text.size()); !found.unit.empty())
-        return found;
-  return {text, ""};
 }
 
 // "nan", "-Inf", "1e999".
@@ -78,7 +47,7 @@ public:
          FaultList& faults)
       : raw_(raw), options_(options), label_(label), faults_(faults) {
     for (const CsvColumn& column : raw_.columns)
-      headers_.push_back(read_header_name(column.name));
+      headers_.push_back(io::read_header_name(column.name));
     out_.notes = raw.notes;
   }
 
@@ -158,8 +127,7 @@ private:
   std::string number_hint(const std::string& text) const {
     const auto looks_like = [&](char decimal) {
       double ignored = 0;
-      return io::scan_number(text.data(), text.data() + text.size(), decimal, ignored) ==
-             text.data() + text.size();
+      return io::read_number(text, decimal, ignored);
     };
     if (options_.decimal == '.' && looks_like(','))
       return "a decimal comma? set data.decimal = \",\"";
@@ -244,9 +212,8 @@ private:
 
   // The column that names the experiments; nullptr where the file or its intervals do.
   const CsvColumn* experiment_source() {
-    std::string name = options_.experiment;
-    if (name == "file" || name == "interval") return nullptr;
-    if (name.starts_with(file_and)) name = name.substr(file_and.size());
+    if (options_.experiment == "file") return nullptr;
+    const std::string name = experiment_column_of(options_);
     if (name.empty() || options_.columns.count(experiment_column)) return source(experiment_column);
     const CsvColumn* column = by_name(name);
     if (!column)
@@ -268,7 +235,7 @@ private:
     if (!column) return;
     used_.insert(column);
     read_experiments(column);
-    if (options_.experiment.starts_with(file_and))
+    if (options_.experiment.starts_with(file_and_column))
       for (std::string& name : out_.experiment)
         name = label_ + " " + name;
   }
@@ -388,7 +355,7 @@ private:
   const DataOptions& options_;
   const std::string& label_;
   FaultList& faults_;
-  std::vector<HeaderName> headers_; // of each column
+  std::vector<io::HeaderName> headers_; // of each column
   MappedFile out_;
   std::set<const CsvColumn*> used_;
   std::set<std::string> ambiguous_;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -71,5 +72,15 @@ struct DataOptions {
   Place place;                                        // of [data] or of data.training
   Place oracle_place;
 };
+
+// In front of the column in DataOptions::experiment where both name a test.
+inline constexpr std::string_view file_and_column = "file+";
+
+// The column that DataOptions::experiment names; empty where it names none.
+inline std::string experiment_column_of(const DataOptions& options) {
+  const std::string& said = options.experiment;
+  if (said == "file" || said == "interval") return "";
+  return said.starts_with(file_and_column) ? said.substr(file_and_column.size()) : said;
+}
 
 } // namespace frictab::data

@@ -19,11 +19,8 @@ struct Implausible {
   bool most() const { return 2 * rows > of; }
 };
 
-// Names and meanings of all checks.
-struct PlausibilityCheck {
-  std::string name, meaning;
-};
-const std::vector<PlausibilityCheck>& plausibility_checks();
+// Their names.
+std::vector<std::string> plausibility_checks();
 
 // What is implausible in a campaign, in the order of the checks.
 std::vector<Implausible> find_implausible(const Dataset& data);

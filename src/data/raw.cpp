@@ -83,9 +83,8 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
     format.text_columns = named_so->second.names;
     format.text_number = named_so->second.number;
   }
-  const std::size_t plus = options.experiment.find('+');
-  format.text_columns.push_back(
-      options.experiment.substr(plus == options.experiment.npos ? 0 : plus + 1));
+  if (const std::string column = experiment_column_of(options); !column.empty())
+    format.text_columns.push_back(column);
   format.wanted = wanted_names(options);
   return io::parse_csv(io::read_file(path), named, format, faults);
 }

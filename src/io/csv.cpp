@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 #include <iconv.h>
 
 #include "core/text.h"
+#include "core/units.h"
 #include "io/number.h"
 
 namespace frictab::io {
@@ -29,9 +29,7 @@ std::string_view trim(std::string_view s) {
 
 // The number a cell holds; false where it holds anything else.
 bool parse_number(std::string_view cell, char decimal, double& value) {
-  cell = trim(cell);
-  const char* const end = cell.data() + cell.size();
-  return !cell.empty() && scan_number(cell.data(), end, decimal, value) == end;
+  return read_number(trim(cell), decimal, value);
 }
 
 bool valid_utf8(std::string_view text) {
@@ -328,7 +326,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                std::string_view header_text, const CsvFormat& format, FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
-  std::size_t again = 0;
+  std::size_t again = 0, in_front = 0;
   std::vector<Fault> ragged; // since the last row: of a header that comes again, or faults
   const auto tell = [&] {
     for (Fault& fault : ragged)
@@ -344,6 +342,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
     const std::size_t row = table.line.size();
     if (starts_with_line(text, scanner.position(), header_text)) {
       skip_header(scanner, text, format.units_row);
+      in_front += ragged.size();
       ragged.clear();
       ++again;
       continue;
@@ -365,6 +364,8 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   }
   tell();
   if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
+  if (in_front > 0)
+    table.notes.push_back(fmt::format("{} lines in front of it are no rows", in_front));
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -401,11 +402,11 @@ std::string_view line_at(std::string_view text, std::size_t begin) {
                              : std::string_view();
 }
 
-// Whether a cell of a header is this name, or this name with a unit: "F_N [kN]".
-bool is_name(std::string_view cell, std::string_view name) {
-  if (!cell.starts_with(name)) return false;
-  cell = trim(cell.substr(name.size()));
-  return cell.empty() || std::strchr("[(/,", cell.front());
+// Whether a cell of a header is one of the names, or one of them with a unit.
+bool is_wanted(const std::string& cell, const CsvFormat& format) {
+  const std::string name = read_header_name(cell).name;
+  return std::any_of(format.wanted.begin(), format.wanted.end(),
+                     [&](const std::string& wanted) { return wanted == cell || wanted == name; });
 }
 
 // How many of the names stand in a line, however it is cut.
@@ -416,8 +417,7 @@ std::size_t count_names(std::string_view line, const CsvFormat& format) {
     Scanner scanner(line, delimiter);
     std::size_t count = 0;
     for (const std::string& cell : read_names(scanner))
-      count += std::any_of(format.wanted.begin(), format.wanted.end(),
-                           [&](const std::string& name) { return is_name(to_utf8(cell), name); });
+      count += is_wanted(to_utf8(cell), format);
     most = std::max(most, count);
   }
   return most;
@@ -490,6 +490,22 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
   return table;
+}
+
+HeaderName read_header_name(const std::string& text) {
+  const auto split = [&](std::size_t at, std::size_t from, std::size_t end) -> HeaderName {
+    const std::string unit(trim(std::string_view(text).substr(from, end - from)));
+    if (at == 0 || at == text.npos || unit.empty() || !convert(unit, unit)) return {text, ""};
+    return {std::string(trim(std::string_view(text).substr(0, at))), unit};
+  };
+  if (text.empty()) return {text, ""};
+  if (text.back() == ']') return split(text.rfind('['), text.rfind('[') + 1, text.size() - 1);
+  if (text.back() == ')') return split(text.rfind('('), text.rfind('(') + 1, text.size() - 1);
+  for (const std::string_view sign : {" / ", ", "})
+    if (const std::size_t at = text.rfind(sign); at != text.npos)
+      if (HeaderName found = split(at, at + sign.size(), text.size()); !found.unit.empty())
+        return found;
+  return {text, ""};
 }
 
 std::string csv_cell(const std::string& text) {

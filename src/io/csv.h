@@ -54,6 +54,13 @@ struct CsvTable {
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 
+// "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s" as name and unit; the whole name and no
+// unit where what stands there is none that is known (core/units.h).
+struct HeaderName {
+  std::string name, unit;
+};
+HeaderName read_header_name(const std::string& text);
+
 // A text as the cell of a file with commas: quoted where it must be.
 std::string csv_cell(const std::string& text);
 

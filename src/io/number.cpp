@@ -100,4 +100,9 @@ const char* scan_number(const char* begin, const char* end, char decimal, double
   return convert_slowly(begin, p, decimal, value) ? p : nullptr;
 }
 
+bool read_number(std::string_view text, char decimal, double& value) {
+  const char* const end = text.data() + text.size();
+  return !text.empty() && scan_number(text.data(), end, decimal, value) == end;
+}
+
 } // namespace frictab::io

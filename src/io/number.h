@@ -1,11 +1,16 @@
 // Reads decimal numbers at any place of a text, with a decimal point or a decimal comma.
 #pragma once
 
+#include <string_view>
+
 namespace frictab::io {
 
 // Reads the number that starts at `begin`: [+-]digits[.digits][e[+-]digits], where '.' is `decimal`
 // ("1800," and ".5" are numbers, and Fortran's d stands for e). The value is the nearest double.
 // Returns where the number ends, or nullptr where there is none or it is too large for a double.
 const char* scan_number(const char* begin, const char* end, char decimal, double& value);
+
+// Whether the whole text is one number.
+bool read_number(std::string_view text, char decimal, double& value);
 
 } // namespace frictab::io

@@ -87,12 +87,6 @@ std::vector<std::string> delimiters() {
 std::vector<std::string> decimals() {
   return {".", ","};
 }
-std::vector<std::string> plausibility_names() {
-  std::vector<std::string> names;
-  for (const data::PlausibilityCheck& check : data::plausibility_checks())
-    names.push_back(check.name);
-  return names;
-}
 std::vector<std::string> missing_words() { // as data::Missing
   return {"error", "drop"};
 }
@@ -146,7 +140,7 @@ std::vector<KeyRule> file_keys() {
           "data.allow_implausible", [](Job & job) -> auto& { return job.data.allow_implausible; },
           "plausibility checks that most rows may fail; without it that is an error", "none",
           "[\"friction_coefficient\"]") |
-          Allowed{"plausibility check", plausibility_names},
+          Allowed{"plausibility check", data::plausibility_checks},
       key<std::string>(
           "data.experiment", [](Job & job) -> auto& { return job.data.experiment; },
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "

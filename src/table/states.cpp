@@ -32,9 +32,8 @@ HeldStates held_states(const std::vector<std::string>& texts,
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
     double value = std::nan("");
-    const char* end = text.data() + text.size();
-    const bool number =
-        equals != text.npos && io::scan_number(text.data() + equals + 1, end, '.', value) == end;
+    const bool number = equals != text.npos &&
+                        io::read_number(std::string_view(text).substr(equals + 1), '.', value);
     if (!number || !std::isfinite(value))
       throw InputError({}, fmt::format("'{}' is no state", text), "name=number, for example psi=2");
     if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) no_input(name, inputs);
