@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/sources.h"
 #include "codegen/combine.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
@@ -164,16 +165,8 @@ std::vector<fs::path> combined_recipes(const std::string& directory) {
 
 } // namespace
 
-void commit_and_list(io::OutputFiles& output, const CommonOptions& common) {
-  const std::vector<std::string> files = output.paths();
-  commit(output, common.output, common);
-  for (const std::string& file : files)
-    fmt::print("{}\n", (fs::path(common.output) / file).string());
-}
-
 int export_combined(const CombineOptions& options, const CommonOptions& common) {
-  if (common.output.empty())
-    throw InputError({}, "nowhere to write the sources to", "give -o DIR with --combine");
+  need_directory(common, "--combine");
   NamedTables laws = named_files(options.laws);
   const codegen::ExportOptions said = export_options(options, common);
   const auto exporters = combining(said.targets, common);

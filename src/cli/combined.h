@@ -17,9 +17,6 @@ struct CombineOptions {
   std::string units;
 };
 
-// Puts sources in place under -o DIR and prints their names.
-void commit_and_list(io::OutputFiles& output, const CommonOptions& common);
-
 // Writes DIR/<target>/ for each target.
 int export_combined(const CombineOptions& options, const CommonOptions& common);
 

@@ -8,6 +8,7 @@
 #include "cli/combined.h"
 #include "cli/job_commands.h"
 #include "cli/law_alone.h"
+#include "cli/sources.h"
 #include "codegen/exporter.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -28,15 +29,12 @@ struct Options {
 };
 
 int export_alone(const Options& options, const CommonOptions& common) {
-  if (common.output.empty())
-    throw InputError({}, "nowhere to write the sources to", "give -o DIR with --table FILE");
+  need_directory(common, "--table FILE");
   const auto exporters = codegen::exporters_named(options.targets);
   codegen::check_request_size(table::read_description(options.table).table, exporters, {});
   const table::Table table = table::read_table(options.table);
   io::OutputFiles output(common.output);
-  for (const codegen::Exporter* exporter : exporters)
-    for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
-      output.write(exporter->name + "/" + path, text);
+  write_sources(output, exporters, table, options.units);
   commit_and_list(output, common);
   return 0;
 }

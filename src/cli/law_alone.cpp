@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
-#include "cli/combined.h"
+#include "cli/sources.h"
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -24,11 +24,6 @@ namespace frictab::cli {
 namespace {
 
 constexpr const char* flow_stress = "sigma_f_MPa";
-
-bool read_number(std::string_view text, double& value) {
-  return io::scan_number(text.data(), text.data() + text.size(), '.', value) ==
-         text.data() + text.size();
-}
 
 // "mu=0.08" as name and what stands behind.
 std::map<std::string, std::string> assignments(const std::vector<std::string>& words,
@@ -77,7 +72,7 @@ std::vector<double> parameters_of(const models::Law& law, const std::vector<std:
     if (found == given.end() && law.calibrated != models::Calibrated::fixed)
       faults.add({}, fmt::format("{} needs --param {}=NUMBER", law.name, p.name), about(p));
     else if (found != given.end() &&
-             (!read_number(found->second, value) || value < p.lower || value > p.upper))
+             (!io::read_number(found->second, '.', value) || value < p.lower || value > p.upper))
       faults.add({}, fmt::format("{} = {} is none of its values", p.name, found->second), about(p));
     out.push_back(value);
   }
@@ -90,8 +85,8 @@ std::vector<double> parameters_of(const models::Law& law, const std::vector<std:
 table::StateRange asked_range(const data::Quantity& quantity, const std::string& text) {
   const std::size_t dots = text.find("..");
   double low = 0, high = 0;
-  if (dots == text.npos || !read_number(std::string_view(text).substr(0, dots), low) ||
-      !read_number(std::string_view(text).substr(dots + 2), high) || !(low < high) ||
+  if (dots == text.npos || !io::read_number(std::string_view(text).substr(0, dots), '.', low) ||
+      !io::read_number(std::string_view(text).substr(dots + 2), '.', high) || !(low < high) ||
       low < quantity.lowest || (quantity.log_axis && !(low > 0)))
     throw InputError({}, fmt::format("'{}' is no range of {}", text, quantity.name),
                      fmt::format("--range {}=LOW..HIGH in {}, with LOW < HIGH{}", quantity.name,
@@ -143,8 +138,7 @@ std::string model_file(const models::Model& model) {
 } // namespace
 
 int export_law(const LawOptions& options, const CommonOptions& common) {
-  if (common.output.empty())
-    throw InputError({}, "nowhere to write the sources to", "give -o DIR with --law NAME");
+  need_directory(common, "--law NAME");
   const auto given = assignments(options.ranges, "--range", "sigma_f_MPa=300..900");
   const models::AssembledLaw law(model_of(options, given));
   const auto exporters = codegen::exporters_named(options.targets);
@@ -155,17 +149,11 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   verify::Verification verification{usual.tolerance_MPa, {}};
   verification.records =
       verify::verify({law, table, "the new table", nullptr, usual.tolerance_MPa}, {});
-  const verify::DriftRecord& drift = verification.records.front();
-  table.record.worst_case_MPa = drift.worst_case_MPa;
-  table.record.proven_drift_MPa = drift.proven_MPa;
-  for (const auto& [name, value] : drift.worst_state)
-    table.record.inputs[name].worst_case_at = value;
+  verify::set_drift(table.record, verification.records.front());
   io::OutputFiles output(common.output);
   table::write_table(table, output.stage(options.law + ".h5"), usual.hdf5);
   output.write(options.law + ".json", model_file(law.model));
-  for (const codegen::Exporter* exporter : exporters)
-    for (const auto& [path, text] : exporter->generate({table, options.units, {}}))
-      output.write(exporter->name + "/" + path, text);
+  write_sources(output, exporters, table, options.units);
   commit_and_list(output, common);
   fmt::print("{}", run::drift_text(verification));
   return verification.passed() ? 0 : 1;

@@ -190,10 +190,7 @@ void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
                                   "MPa allowed: more nodes in [table.axes], or a larger "
                                   "table.tolerance_MPa",
                                   table.model, verify::largest_drift_MPa(drift), drift_allowed()));
-  table.record.worst_case_MPa = drift.worst_case_MPa;
-  table.record.proven_drift_MPa = drift.proven_MPa;
-  for (const auto& [name, value] : drift.worst_state)
-    table.record.inputs[name].worst_case_at = value;
+  verify::set_drift(table.record, drift);
 }
 
 void Pipeline::write_table_file(const Table& table) {

@@ -413,4 +413,11 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
   return records;
 }
 
+void set_drift(table::TableRecord& record, const DriftRecord& drift) {
+  record.worst_case_MPa = drift.worst_case_MPa;
+  record.proven_drift_MPa = drift.proven_MPa;
+  for (const auto& [name, value] : drift.worst_state)
+    record.inputs[name].worst_case_at = value;
+}
+
 } // namespace frictab::verify

@@ -30,6 +30,9 @@ struct GeneratedSource {
 std::vector<DriftRecord> verify(const VerifyInput& input,
                                 const std::vector<GeneratedSource>& sources);
 
+// What a table carries of its comparison: the worst case, where it is, and the bound.
+void set_drift(table::TableRecord& record, const DriftRecord& drift);
+
 // verify.json and verify.xml (JUnit).
 std::string verification_json(const Verification& verification);
 Verification parse_verification(std::string_view text, const std::string& file);
