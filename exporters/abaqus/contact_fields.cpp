@@ -20,8 +20,7 @@ const char* const source_of_signature =
     "verified: argument list and sizes in the v2024 reference, and in the public routine and deck "
     "of RWTH WZL that ran in production (*Field, user, number=4; FV in *Element Output). Recalled, "
     "check against your release: kField of fields that are not updated all at once; whether "
-    "VUFIELD "
-    "is called before or behind the friction routine of an increment";
+    "VUFIELD is called before or behind the friction routine of an increment";
 
 } // namespace
 
@@ -40,7 +39,9 @@ std::string contact_fields_source(const ExportRequest& request) {
   TemplateValues values;
   values.text["stress"] = solver_unit("MPa", request.units).name;
   values.lists["source"] = fortran::comments({source_of_signature});
-  values.flags["windows"] = request.said(fields_key) == "vufield_windows";
+  const bool windows = request.said(fields_key) == "vufield_windows";
+  values.flags["windows"] = windows;
+  values.text["locks"] = fortran::locks("fv", windows);
   return render_template("abaqus/frictab_vufield.f", values);
 }
 

@@ -36,6 +36,13 @@ Lines comments(const std::vector<std::string>& texts) {
   return lines;
 }
 
+std::string locks(const std::string& stem, bool windows) {
+  TemplateValues values;
+  values.text["stem"] = stem;
+  values.flags["windows"] = windows;
+  return without_last_break(render_template("fortran/frictab_locks.f", values));
+}
+
 std::string in_apostrophes(std::string_view name) {
   std::string out = comment_text(name).substr(0, 30);
   std::replace(out.begin(), out.end(), '\'', ' ');

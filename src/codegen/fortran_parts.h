@@ -14,6 +14,10 @@ namespace frictab::codegen::fortran {
 // Comment lines; what does not fit goes on, set in by two blanks.
 Lines comments(const std::vector<std::string>& texts);
 
+// Interfaces of the system's lock, <stem>lock(lock) and <stem>free(lock): subroutines on Windows,
+// else functions.
+std::string locks(const std::string& stem, bool windows);
+
 // What may stand between apostrophes in a line of Fortran: 30 characters of a name.
 std::string in_apostrophes(std::string_view name);
 

@@ -62,8 +62,10 @@ std::string fortran::outside_summary(const Exporter& exporter, const ExportReque
     values.lists["ends"].push_back(end_values(request.table, axis, argument->solver.name));
     values.lists["ends"].back().text["number"] = std::to_string(values.lists["ends"].size());
   }
-  values.flags["windows"] = said == "at_exit_windows";
-  values.text = {{"model", fortran::in_apostrophes(request.table.model)},
+  const bool windows = said == "at_exit_windows";
+  values.flags["windows"] = windows;
+  values.text = {{"locks", locks("ft", windows)},
+                 {"model", fortran::in_apostrophes(request.table.model)},
                  {"n_x", std::to_string(std::max<std::size_t>(request.table.inputs().size(), 1))}};
   return without_last_break(render_template("fortran/frictab_seen.f", values));
 }

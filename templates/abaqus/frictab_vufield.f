@@ -29,7 +29,7 @@ C     jFlags: increment, pass.
      1 time(4), coords(3,nBlock), u(8,nBlock), v(8,nBlock), a(8,nBlock)
       double precision seen(3)
       do k = 1, nBlock
-        call fvseen(jNodeUid(k), kStep, jFlags(1), seen)
+        call fvnode(.false., jNodeUid(k), kStep, jFlags(1), seen)
         do i = 1, nField
 C         All of them at once, or one alone.
           number = i
@@ -55,16 +55,8 @@ C     One contact point in contact, called by the friction routine.
       return
       end
 C
-C     What VUFIELD gives for a node.
-      subroutine fvseen(node, kstep, kinc, seen)
-      implicit none
-      integer node, kstep, kinc
-      double precision seen(3)
-      call fvnode(.false., node, kstep, kinc, seen)
-      return
-      end
-C
-C     All nodes that friction has met, by their numbers in the deck: a
+C     Keeps what was seen at a node, or gives it. All nodes that
+C     friction has met, by their numbers in the deck: a
 C     table with open addressing, at most half full. Threads take turns.
 C     In a domain-parallel analysis each process knows its own nodes.
       subroutine fvnode(keep, node, kstep, kinc, seen)
@@ -74,27 +66,7 @@ C     In a domain-parallel analysis each process knows its own nodes.
       integer node, kstep, kinc
       double precision seen(3)
       interface
-@if windows
-        subroutine fvlock(lock) bind(c, name='AcquireSRWLockExclusive')
-          import :: c_int64_t
-          integer(c_int64_t) lock(8)
-        end subroutine fvlock
-        subroutine fvfree(lock) bind(c, name='ReleaseSRWLockExclusive')
-          import :: c_int64_t
-          integer(c_int64_t) lock(8)
-        end subroutine fvfree
-@else
-        integer(c_int) function fvlock(lock)
-     &    bind(c, name='pthread_mutex_lock')
-          import :: c_int, c_int64_t
-          integer(c_int64_t) lock(8)
-        end function fvlock
-        integer(c_int) function fvfree(lock)
-     &    bind(c, name='pthread_mutex_unlock')
-          import :: c_int, c_int64_t
-          integer(c_int64_t) lock(8)
-        end function fvfree
-@end
+@{locks}
       end interface
 C     Zeros are a lock that nobody holds. Node 0 is a free place.
       integer(c_int64_t), save :: lock(8) = 0

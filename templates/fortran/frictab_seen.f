@@ -60,27 +60,7 @@ C     to it that the end of the program is told.
           import :: c_int, c_funptr
           type(c_funptr), value :: task
         end function ftexit
-@if windows
-        subroutine ftlock(lock) bind(c, name='AcquireSRWLockExclusive')
-          import :: c_int64_t
-          integer(c_int64_t) lock(8)
-        end subroutine ftlock
-        subroutine ftfree(lock) bind(c, name='ReleaseSRWLockExclusive')
-          import :: c_int64_t
-          integer(c_int64_t) lock(8)
-        end subroutine ftfree
-@else
-        integer(c_int) function ftlock(lock)
-     &    bind(c, name='pthread_mutex_lock')
-          import :: c_int, c_int64_t
-          integer(c_int64_t) lock(8)
-        end function ftlock
-        integer(c_int) function ftfree(lock)
-     &    bind(c, name='pthread_mutex_unlock')
-          import :: c_int, c_int64_t
-          integer(c_int64_t) lock(8)
-        end function ftfree
-@end
+@{locks}
       end interface
 C     Zeros are a lock that nobody holds.
       integer(c_int64_t), save :: lock(8) = 0
