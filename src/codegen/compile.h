@@ -6,16 +6,9 @@
 #include <string>
 
 #include "codegen/exporter.h"
+#include "core/program.h"
 
 namespace frictab::codegen {
-
-// True where a program of this name is on PATH (or is a path that can be executed), or none is
-// asked for.
-bool have_program(const std::string& name);
-
-// Runs a program without a shell; its output goes to `log`. Throws std::runtime_error with that
-// output where it fails.
-void run_program(const std::vector<std::string>& command, const std::filesystem::path& log);
 
 // Writes bundle and extra files below `work_dir`, runs the variant's command there without a shell
 // and gives the library's path. Throws std::runtime_error with the compiler's output where it
@@ -44,19 +37,6 @@ public:
 
 private:
   void* handle_;
-};
-
-// A directory of our own below the system's temporary directory, removed with everything in it.
-class TemporaryDirectory {
-public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
 };
 
 // One bundle of a target, made ready in a directory of its own and called as its solver would.

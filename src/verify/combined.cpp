@@ -96,7 +96,7 @@ DriftRecord verify_law(const CombinedSource& source, const codegen::ExportReques
   DriftRecord record;
   record.model = law.law_name + ": " + law.table.model;
   record.subject = source.exporter->name + "/" + variant.name;
-  if (!codegen::have_program(variant.program())) {
+  if (!have_program(variant.program())) {
     record.ran = false;
     record.why_not = "there is no " + variant.program() + " on this machine";
     return record;

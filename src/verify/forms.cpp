@@ -116,7 +116,7 @@ FormComparison compare_forms(const models::AssembledLaw& law, const table::Table
   const std::string compiler = exporter.variants({table, "mm-t-s", {}})[0].command.front();
   if (table.axes.empty())
     out.why_not = "nothing is tabulated, both are the same";
-  else if (!codegen::have_program(compiler))
+  else if (!have_program(compiler))
     out.why_not = "there is no " + compiler + " on this machine";
   else
     try {

@@ -373,7 +373,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
   const codegen::Exporter& exporter = *source.exporter;
   const std::string form = source.request.table.is_direct() && exporter.whole() ? " direct" : "";
   const std::string subject = source.exporter->name + "/" + variant.name + form;
-  if (!codegen::have_program(variant.program())) {
+  if (!have_program(variant.program())) {
     DriftRecord record;
     record.model = input.law.model.name();
     record.subject = subject;

@@ -24,7 +24,7 @@ public:
   double (*tau)(double sigma_n, double psi, double v, double T, double s, double sigma_f);
 
 private:
-  codegen::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<codegen::Library> library_;
 };
 
@@ -37,7 +37,7 @@ public:
   void (*gradient)(const double* u, double* value, double* by_u, const int* flag) = nullptr;
 
 private:
-  codegen::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<codegen::Library> library_;
 };
 
@@ -50,7 +50,7 @@ public:
   void (*gradient)(std::size_t, Array, Array, Array, Array, Array, Array, double*, double*);
 
 private:
-  codegen::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<codegen::Library> library_;
 };
 
@@ -62,7 +62,7 @@ public:
   void (*value)(std::size_t, Array, Array, Array, Array, Array, Array, float*);
 
 private:
-  codegen::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<codegen::Library> library_;
 };
 

@@ -140,7 +140,7 @@ void print_subject(const Subject& subject) {
     if (!exporter.whole()) continue;
     const ExportRequest request{subject.table, "mm-t-s", {}};
     for (const BuildVariant& variant : compilers(exporter, request))
-      if (codegen::have_program(variant.program()))
+      if (have_program(variant.program()))
         print_line(subject, exporter, request, variant, states, truth);
   }
 }
@@ -172,7 +172,7 @@ void print_blocks(const Subject& subject) {
   const Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
   const ExportRequest request{subject.table, "mm-t-s", {}};
   const BuildVariant variant = exporter.variants(request)[0];
-  if (!codegen::have_program(variant.program())) return;
+  if (!have_program(variant.program())) return;
   const codegen::CompiledTarget target(exporter, request, exporter.generate(request), variant);
   void* routine = codegen::Library::address(target.handle(), "vfric_");
   const test::States states(subject.table, rows, 41, 0, {{"psi", 0.7}, {"s_mm", 0.3}});

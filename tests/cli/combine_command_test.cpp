@@ -54,7 +54,7 @@ protected:
 const std::vector<std::string> both = {"PUNCH=a/oil.h5", "DIE=b/soap.h5"};
 
 TEST_F(CombineCommand, WritesAUserFileThatVerifyProvesUntilSomebodySwapsTheLaws) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const CommandResult made = combine(both, {"--targets", "abaqus_fric", "-o", "user"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(made.out, "user/abaqus_fric/frictab_fric.f\nuser/abaqus_fric/recipe.json\n");
@@ -107,7 +107,7 @@ TEST_F(CombineCommand, TakesWhatHoldsForAllLawsFromAJob) {
   const std::string source = directory.read("user/marc_ufric/frictab_ufric.f");
   EXPECT_THAT(source, HasSubstr("vrel(2)"));
   EXPECT_THAT(source, HasSubstr("if (nsurf .eq. 3) then"));
-  if (codegen::have_program("gfortran")) {
+  if (have_program("gfortran")) {
     EXPECT_EQ(run({"verify", "--combined", "user"}).exit_code, 0);
   }
 }

@@ -68,8 +68,7 @@ void expect_law(const models::Model& model) {
     const test::SampleRequest sampled(exporter, table, "mm-t-s");
     const codegen::ExportRequest request = sampled.get();
     const codegen::BuildVariant variant = exporter.variants(request)[0]; // double precision
-    if (!codegen::have_program(variant.program()))
-      GTEST_SKIP() << variant.program() << " is missing";
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
     std::vector<double> tau(probe.law.size(), -1);
     codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
         .drive(tau.size(), columns, tau);

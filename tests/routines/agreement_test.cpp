@@ -41,8 +41,7 @@ void compare(const Exporter& exporter, const codegen::ExportRequest& request,
              const std::vector<Rows>& all) {
   const codegen::SourceBundle bundle = exporter.generate(request);
   for (codegen::BuildVariant variant : exporter.variants(request)) {
-    if (!codegen::have_program(variant.program()))
-      GTEST_SKIP() << variant.program() << " is not installed";
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is not installed";
     if (variant.program() == "gfortran") test::add_flags(variant, test::no_warnings);
     codegen::CompiledTarget routine(exporter, request, bundle, variant);
     const double bound = variant.eps < 1e-10 ? double_bound : single_bound;
@@ -99,7 +98,7 @@ TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
     for (const std::vector<std::string>& flags :
          {std::vector<std::string>{}, {"-march=native", "-O3"}, {"-DFT_PLAIN", "-O1"}}) {
       codegen::BuildVariant build = c.variants(request)[0];
-      if (!codegen::have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
+      if (!have_program(build.program())) GTEST_SKIP() << "gcc is not installed";
       build.command.insert(build.command.begin() + 1, flags.begin(), flags.end());
       std::vector<double> tau(states.rows());
       codegen::CompiledTarget(c, request, c.generate(request), build)
@@ -108,7 +107,7 @@ TEST(SlowSameBits, OfTheInterpolationInCppInCWhateverItsFlagsAndInFortran) {
     }
     const Exporter& free_form = *find_exporter("fortran");
     const codegen::BuildVariant build = free_form.variants(request)[0];
-    if (!codegen::have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program(build.program())) GTEST_SKIP() << "gfortran is not installed";
     std::vector<double> tau(states.rows());
     codegen::CompiledTarget(free_form, request, free_form.generate(request), build)
         .drive(states.rows(), states.columns(), tau);

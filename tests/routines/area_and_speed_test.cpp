@@ -15,7 +15,6 @@ namespace frictab::area_and_speed_test {
 
 using codegen::ExportRequest;
 using codegen::find_exporter;
-using codegen::have_program;
 using codegen::Library;
 
 namespace {

@@ -12,7 +12,7 @@ namespace {
 TEST(SlowCTarget, CompilesWithoutAWarningByGccAndClangAndAgrees) {
   const codegen::Exporter& c = *codegen::find_exporter("c");
   for (const std::string compiler : {"gcc", "clang"}) {
-    if (!codegen::have_program(compiler)) GTEST_SKIP() << compiler << " is not installed";
+    if (!have_program(compiler)) GTEST_SKIP() << compiler << " is not installed";
     for (const test::NamedTable& sample : test::sample_tables()) {
       SCOPED_TRACE(compiler + " " + sample.name);
       const codegen::ExportRequest request{sample.table, "m-kg-s", {}};
@@ -41,7 +41,7 @@ TEST(SlowCTarget, CompilesAsOneFileAloneAndIsUsableFromCpp) {
   codegen::BuildVariant build;
   build.name = "cpp";
   build.command = {"g++", "-Wall", "-Werror", "-fPIC", "-shared", "-o", "@{out}", "@{dir}/use.cpp"};
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   EXPECT_NO_THROW(codegen::compile_library(bundle, build, work.path()));
 }
 

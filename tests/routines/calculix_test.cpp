@@ -45,7 +45,7 @@ struct Spring {
 class Calculix : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static const codegen::Exporter& target() { return *codegen::find_exporter("calculix_usrmu"); }

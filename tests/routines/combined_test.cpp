@@ -47,7 +47,7 @@ void expect_both_in_one_library(const codegen::Exporter& exporter, const std::st
     EXPECT_TRUE(bundle.empty()) << "two files of one name: " << bundle.begin()->first;
     build.command.insert(build.command.begin() + 1, "@{dir}/" + prefix + "_tau_R" + suffix);
   }
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const Library library(codegen::compile_library(all, build, work.path()));
   for (const auto& [prefix, table] : laws) {
     library.tell_directory(work.path(), prefix + "_directory");
@@ -65,7 +65,7 @@ TEST(Prefix, LetsTwoLawsInCIntoOneProgramWithTheirFilesOfValues) {
 }
 
 TEST(Prefix, LetsTwoModulesOfFortranIntoOneProgramWithTheirFilesOfValues) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   expect_both_in_one_library(*codegen::find_exporter("fortran"), ".f90", {"-Wall", "-Werror"});
 }
 
@@ -118,7 +118,7 @@ struct Laws {
 class CombinedLaws : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static const codegen::Exporter& vfriction() {
@@ -130,7 +130,7 @@ protected:
     return both;
   }
   static const Library& combined() {
-    static const codegen::TemporaryDirectory work;
+    static const TemporaryDirectory work;
     static const Library library = [] {
       const CombinedBundle bundle = laws().bundle(vfriction());
       codegen::BuildVariant variant = vfriction().variants(bundle.laws[0])[0];
@@ -247,7 +247,7 @@ void expect_one_user_file(const std::vector<std::string>& targets, const Laws& l
 }
 
 TEST(SlowCombinedLaws, OfContactPairsAndOfGeneralContactStandInOneUserFile) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Laws laws{{"PUNCH", "DIE"}, {test::one_axis_table(), test::constant_table()}};
   expect_one_user_file({"abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"}, laws);
   expect_one_user_file({"abaqus_fric", "abaqus_fric_coef"}, laws);
@@ -332,7 +332,7 @@ TEST(CombinedText, RefusesHistoriesThatNothingTellsApartByContact) {
 }
 
 TEST(SlowCombinedLaws, AreTheirSeparateRoutinesBitForBitInEveryTargetThatCombines) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   for (const codegen::Exporter& exporter : codegen::all_exporters()) {
     if (!exporter.combine) continue;
     const bool numbers = exporter.name.find("abaqus") == std::string::npos;

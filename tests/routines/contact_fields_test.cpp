@@ -28,7 +28,7 @@ const std::map<std::string, std::string> shown = {{"contact_fields", "vufield"}}
 template <class Real> class ContactFields : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static const char* precision() { return sizeof(Real) == 4 ? "single" : "double"; }
@@ -77,7 +77,7 @@ protected:
   }
 
   const table::Table table_ = test::four_axis_table();
-  const codegen::TemporaryDirectory work_;
+  const TemporaryDirectory work_;
 };
 
 using Precisions = testing::Types<float, double>;

@@ -55,7 +55,7 @@ ExportRequest request(const Table& table, const std::string& friction = "coulomb
 // 100 degC in `call`.
 struct SlowDeform : testing::Test {
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   void use(const std::string& key, const ExportRequest& asked) {
@@ -292,7 +292,7 @@ TEST_F(SlowDeform, StopsWithAnErrorCodeBeyondAnErrorSideAndNamesStateAndValue) {
       {"gfortran", "-shared", "-fPIC", "-std=legacy", "-o", "@{out}", "@{dir}/frictab_usrbcc.f"},
       {},
       0};
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const Library own(codegen::compile_library(deform().generate(asked), variant, work.path()));
   void* function = Library::address(own.handle(), "usrbcc_");
   *own.find<Ufhcom>("ufhcom_") = {20, 20, 50, 1000};

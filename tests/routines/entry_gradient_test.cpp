@@ -99,7 +99,7 @@ private:
   Table table_;
   codegen::ExportRequest request_;
   std::vector<InputArgument> arguments_;
-  codegen::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<codegen::Library> library_;
 };
 
@@ -141,8 +141,7 @@ Row row(const test::States& states, std::size_t i) {
 class SlowEntryGradient : public testing::TestWithParam<Target> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program(GetParam().compiler))
-      GTEST_SKIP() << GetParam().compiler << " is missing";
+    if (!have_program(GetParam().compiler)) GTEST_SKIP() << GetParam().compiler << " is missing";
   }
 };
 

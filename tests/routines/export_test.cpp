@@ -21,7 +21,6 @@ using codegen::BuildVariant;
 using codegen::Exporter;
 using codegen::ExportRequest;
 using codegen::find_exporter;
-using codegen::have_program;
 using table::Table;
 
 namespace {
@@ -44,7 +43,7 @@ nlohmann::ordered_json recipe(const std::string& target, const ExportRequest& re
 // What ifort and ifx take as well: nothing beyond the standard but the solver's own includes.
 TEST(SlowExport, FixedFormSourcesAreFortran2008) {
   if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const std::vector<Table> tables = {test::four_axis_table(), test::spline_table(),
                                      test::further_histories_table(), test::direct_network()};
   for (const Exporter& exporter : all_exporters())
@@ -268,7 +267,7 @@ TEST(Export, EveryTargetDescribesItself) {
 
 TEST(Compile, GivesTheCompilersWordsWhereItFails) {
   if (!have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const BuildVariant build{"x", {"gcc", "-shared", "-o", "@{out}", "@{dir}/a.c"}, {}, 0};
   try {
     codegen::compile_library({{"a.c", "int f(void) { return missing; }\n"}}, build, work.path());
@@ -279,7 +278,7 @@ TEST(Compile, GivesTheCompilersWordsWhereItFails) {
 }
 
 TEST(Compile, UsesNoShell) {
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const BuildVariant build{"x", {"echo", "$(touch hacked)", ";", "touch hacked"}, {}, 0};
   codegen::compile_library({}, build, work.path());
   EXPECT_FALSE(std::filesystem::exists("hacked"));
@@ -288,7 +287,7 @@ TEST(Compile, UsesNoShell) {
 TEST(Compile, TellsAMissingProgram) {
   EXPECT_FALSE(have_program("no-such-compiler-here"));
   EXPECT_TRUE(have_program("sh"));
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const BuildVariant build{"x", {"no-such-compiler-here"}, {}, 0};
   EXPECT_THROW(codegen::compile_library({}, build, work.path()), std::runtime_error);
   EXPECT_THROW(codegen::Library("/nowhere/lib.so"), std::runtime_error);

@@ -71,7 +71,7 @@ TEST(FlowCurve, GivesTheLawItsFlowStressAtTheStrainOfTheSimulation) {
                                         {"abaqus_fric", "gfortran"},
                                         {"calculix_usrmu", "gfortran"},
                                         {"qform_lua", "lua5.4"}}) {
-    if (!codegen::have_program(program)) continue;
+    if (!have_program(program)) continue;
     SCOPED_TRACE(target);
     std::map<std::string, std::string> choices = inputs(curve);
     if (target != std::string("abaqus_vfric") && target != std::string("abaqus_fric"))

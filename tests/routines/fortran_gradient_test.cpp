@@ -56,7 +56,7 @@ public:
 
 private:
   std::size_t inputs_;
-  codegen::TemporaryDirectory work_;
+  TemporaryDirectory work_;
   std::unique_ptr<codegen::Library> library_;
   void (*gradient_)(const double*, double*, double*);
   double (*value_)(const double*);
@@ -92,7 +92,7 @@ std::vector<double> row(const test::States& states, std::size_t i) {
 class SlowFortranGradient : public testing::TestWithParam<std::size_t> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   const Table& table() const { return test::sample_tables()[GetParam()].table; }
 };
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, SlowFortranGradient, testing::ValuesIn(sample_
                          });
 
 TEST(SlowFortranGradientUnit, IsNaNWhereASideRefusesAndTauIsWhatFttauSays) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Core core(test::sides_table()); // temperature below 20: error
   std::vector<double> slopes;
   const std::vector<double> x = {1000, 50, 10, 480};
@@ -197,7 +197,7 @@ TEST(SlowFortranGradientUnit, IsNaNWhereASideRefusesAndTauIsWhatFttauSays) {
 }
 
 TEST(SlowFortranGradientUnit, OfALargerNetworkIsItsFormulas) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const models::Model model = test::network_model(20, 8);
   Table table = test::direct_network();
   table::add_extension(table, models::AssembledLaw(model));

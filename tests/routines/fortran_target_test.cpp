@@ -15,7 +15,7 @@ namespace {
 class FortranTarget : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   static const codegen::Exporter& fortran() { return *codegen::find_exporter("fortran"); }
 };
@@ -69,7 +69,7 @@ TEST_F(FortranTarget, IsUsedFromFortranForArraysAndConcurrently) {
   codegen::BuildVariant build = fortran().variants(request)[0];
   for (const char* argument : {"-Wall", "-Werror", "@{dir}/use_arrays.f90"})
     build.command.push_back(argument);
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const codegen::Library library(codegen::compile_library(bundle, build, work.path()));
   const double pressure[] = {600, 900, 1200, 1500, 1800, 2100};
   double tau[12], slope = -1;

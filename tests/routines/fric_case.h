@@ -25,7 +25,7 @@ inline constexpr double critical = 0x1p-7; // mm, the elastic slip at which stic
 class FricCase : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const codegen::ExportRequest& request) {

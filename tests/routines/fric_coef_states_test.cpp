@@ -23,7 +23,7 @@ using calls::CoefCall;
 class FricCoef2024 : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   static void* routine(const std::string& key, const codegen::ExportRequest& request) {
     return codegen::Library::address(compiled("states " + key,

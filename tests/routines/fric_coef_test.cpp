@@ -27,7 +27,7 @@ using namespace test;
 class SlowFricCoef : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static bool newer() { return GetParam() == "2024"; }

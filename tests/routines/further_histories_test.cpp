@@ -19,7 +19,6 @@
 namespace frictab::further_histories_test {
 
 using codegen::find_exporter;
-using codegen::have_program;
 using codegen::Library;
 using expr::Expr;
 using table::Table;

@@ -76,7 +76,7 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13;
 
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const Table& table, const std::string& units) {

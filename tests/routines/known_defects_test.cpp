@@ -68,7 +68,7 @@ template <class Call> Call pressed(int points) {
 class KnownDefects : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
   const Table constant = test::constant_table();
 };

@@ -42,7 +42,7 @@ template <class Real> struct SlowLsDyna : testing::Test {
   static constexpr const char* variant = single ? "single" : "double";
 
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static const Library& library(const std::string& key, const Table& table,
@@ -442,7 +442,7 @@ TYPED_TEST(SlowLsDyna, EndsTheAnalysisOutsideAndWhereTheContactGivesNoAreas) {
                            "      common /told/ calls\n"
                            "      calls = calls + 1\n"
                            "      end\n";
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const Library own(codegen::compile_library(lsdyna().generate(asked), build, work.path()));
   const auto* calls = own.find<std::int32_t>("told_");
   auto c = this->call(2);

@@ -43,7 +43,7 @@ ExportRequest request(const Table& table, const Options& options = {},
 class SlowMarc : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   static void* routine(const std::string& key, const ExportRequest& request) {
@@ -228,7 +228,7 @@ TEST_F(SlowMarc, EndsTheAnalysisThroughQUITBeyondAnErrorSideAndNamesStateAndValu
                                             "      seen = number\n"
                                             "      end\n"}},
                                 0};
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const Library library(codegen::compile_library(marc().generate(asked), variant, work.path()));
   const int* seen = library.find<int>("told_");
   void* function = Library::address(library.handle(), "ufric_");

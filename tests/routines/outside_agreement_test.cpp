@@ -67,8 +67,7 @@ void expect_everywhere(const Table& table, const std::vector<double>& pressure,
     if (!exporter.whole()) continue; // a solver's own table has no rule of ours beyond its ends
     const codegen::ExportRequest request{table, "mm-t-s", {}};
     const codegen::BuildVariant variant = exporter.variants(request)[0];
-    if (!codegen::have_program(variant.program()))
-      GTEST_SKIP() << variant.program() << " is missing";
+    if (!have_program(variant.program())) GTEST_SKIP() << variant.program() << " is missing";
     codegen::CompiledTarget(exporter, request, exporter.generate(request), variant)
         .drive(tau.size(), columns, tau);
     EXPECT_LE(test::worst_relative(tau, wanted), 1e-14) << exporter.name;
@@ -219,7 +218,7 @@ TEST(SlowOutsideTheRange, CGivesNaNBeyondAnErrorSideAndTheEdgeWithinRounding) {
 template <class Real> class Stopping : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
     const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_vfric");
     const codegen::ExportRequest request{table, "mm-t-s", {}};
     codegen::BuildVariant variant = exporter.variants(request)[sizeof(Real) == 4 ? 1 : 0];
@@ -250,7 +249,7 @@ protected:
   }
 
   const Table table = test::sides_table();
-  codegen::TemporaryDirectory work;
+  TemporaryDirectory work;
   std::unique_ptr<Library> library;
   test::Told* told = nullptr;
 };

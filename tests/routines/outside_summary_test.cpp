@@ -52,7 +52,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 class OutsideSummary : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   // What the program writes that is linked with the routine.
@@ -62,7 +62,7 @@ protected:
     const table::Table table = test::four_axis_table();
     const codegen::ExportRequest request{
         table, "mm-t-s", test::sample_inputs(exporter), {{"outside_summary", "at_exit"}}};
-    const codegen::TemporaryDirectory work;
+    const TemporaryDirectory work;
     codegen::BuildVariant variant = exporter.variants(request).front();
     // The variant's library becomes a program, by a file beside it.
     variant.extra["main.f"] = replaced(replaced(program, "@BEYOND@", beyond), "@LOW@", low);

@@ -31,16 +31,16 @@ std::string source(const Table& table, const std::map<std::string, std::string>&
 
 // What a script prints that is run behind the generated source.
 std::string printed(const std::string& program, const std::string& lua, const std::string& script) {
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   std::ofstream(work.path() / "a.lua") << lua << script;
-  codegen::run_program({program, (work.path() / "a.lua").string()}, work.path() / "log");
+  run_program({program, (work.path() / "a.lua").string()}, work.path() / "log");
   return io::read_file(work.path() / "log");
 }
 
 class QFormLua : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program(GetParam())) GTEST_SKIP() << GetParam() << " is not installed";
+    if (!have_program(GetParam())) GTEST_SKIP() << GetParam() << " is not installed";
   }
   std::string run(const std::string& lua, const std::string& script) {
     return printed(GetParam(), lua, script);
@@ -143,7 +143,7 @@ TEST(QFormSource, KeepsTextsFromOutsideInComments) {
   table.model = "a\nos.exit(1) --[[";
   table.record.data_origin = "]]\nos.exit(1)";
   for (const char* program : {"luajit", "lua5.4"})
-    if (codegen::have_program(program)) {
+    if (have_program(program)) {
       EXPECT_EQ(printed(program, source(table), "print('here')\n"), "here\n");
     }
 }

@@ -66,7 +66,7 @@ std::string refusal(const ExportRequest& request) {
 class SlowSinglePrecision : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
+    if (!have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
   }
 };
 
@@ -125,8 +125,8 @@ TEST_F(SlowSinglePrecision, RefusesNothingThatLiesOnAnEndNorAcceptsWhatLiesBeyon
 }
 
 TEST_F(SlowSinglePrecision, IsDeviceCodeInOpenCL) {
-  if (!codegen::have_program("clang")) GTEST_SKIP() << "clang is not installed";
-  const codegen::TemporaryDirectory work;
+  if (!have_program("clang")) GTEST_SKIP() << "clang is not installed";
+  const TemporaryDirectory work;
   for (const Table& table : {test::four_axis_table(), test::spline_table(), test::sides_table(),
                              test::direct_network()}) {
     codegen::BuildVariant build;
@@ -180,7 +180,7 @@ Stated stated_bound(const ExportRequest& request) {
 class SlowSinglePrecisionOf : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
+    if (!have_program("gcc")) GTEST_SKIP() << "gcc is not installed";
   }
 
   // Over 300,000 states inside the ranges.

@@ -51,7 +51,7 @@ Routine routine(const std::string& target, const std::string& entry, const table
 class SpeedScale : public testing::Test {
 protected:
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   }
 
   // Forces and state variables of six increments of this length: `run(scaled, seconds)`. Equal at

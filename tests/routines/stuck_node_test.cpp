@@ -37,7 +37,7 @@ protected:
   static constexpr double bound = single ? 2e-5 : 1e-13; // as in vfric_test.cpp
 
   void SetUp() override {
-    if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+    if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
     static const table::Table table = test::four_axis_table();
     const codegen::ExportRequest request{table, "mm-t-s", {}};
     function_ = codegen::Library::address(

@@ -348,7 +348,7 @@ protected:
 };
 
 TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Case c({"humidity", GetParam()});
   const Case without({"humidity"});
   const double exact = predict(c.model, path(4000)).back();
@@ -366,7 +366,7 @@ TEST_P(HistoryOnAPath, OfVfricIsThatOfTheLawToFirstOrder) {
 class TurningHistory : public HistoryOnAPath {};
 
 TEST_P(TurningHistory, OfVfricComesCloseToThatOfTheLaw) {
-  if (!codegen::have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
+  if (!have_program("gfortran")) GTEST_SKIP() << "gfortran is not installed";
   const Case c({"humidity", GetParam()});
   const Case without({"humidity"});
   const double exact = predict(c.model, path(4000)).back();

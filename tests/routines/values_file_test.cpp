@@ -23,7 +23,6 @@ using codegen::BuildVariant;
 using codegen::Exporter;
 using codegen::ExportRequest;
 using codegen::find_exporter;
-using codegen::have_program;
 using codegen::SourceBundle;
 using codegen::values_file_name;
 using table::Table;
@@ -180,11 +179,11 @@ TEST(ValuesFile, IsReadOnceByThreadsThatCallTogether) {
     const test::States states(table, 200, 31);
     const std::vector<double> truth = test::expected(table, states);
     for (int round = 0; round < 20; ++round) {
-      const codegen::TemporaryDirectory work;
+      const TemporaryDirectory work;
       const SourceBundle bundle = exporter.generate(request);
       static std::map<std::string, std::filesystem::path> made; // compiled once, loaded anew
       const std::filesystem::path own = work.path() / "own.so";
-      static const codegen::TemporaryDirectory kept;
+      static const TemporaryDirectory kept;
       if (!made.count(target))
         made[target] = codegen::compile_library(bundle, variant, kept.path() / target);
       std::filesystem::copy_file(made[target], own);

@@ -54,14 +54,14 @@ BuildVariant for_windows(BuildVariant variant) {
 class SlowWindows : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
-    if (!codegen::have_program(cross + "gfortran") || !codegen::have_program(cross + "gcc"))
+    if (!have_program(cross + "gfortran") || !have_program(cross + "gcc"))
       GTEST_SKIP() << "Debian's gfortran- and gcc-mingw-w64-x86-64-win32 are not installed";
   }
 };
 
 TEST_P(SlowWindows, RoutineAndDriverOfEveryTargetAreBuiltFromFilesWithCrlfInADirectoryWithABlank) {
   const Exporter& exporter = *codegen::find_exporter(GetParam());
-  const codegen::TemporaryDirectory work;
+  const TemporaryDirectory work;
   const table::Table axes = test::four_axis_table(), histories = test::further_histories_table();
   for (const auto& [table, values] :
        {std::pair{&axes, "file_windows"}, std::pair{&histories, "source"}}) {
@@ -116,8 +116,8 @@ void write_bytes(const fs::path& file, const void* bytes, std::size_t size) {
 std::vector<double> run_under_wine(const std::string& target, const std::string& source,
                                    const ExportRequest& request,
                                    const std::vector<std::vector<double>>& columns,
-                                   const codegen::TemporaryDirectory& prefix) {
-  const codegen::TemporaryDirectory work;
+                                   const TemporaryDirectory& prefix) {
+  const TemporaryDirectory work;
   SourceBundle files = codegen::find_exporter(target)->generate(request);
   files["frictab_tau_R.h"] =
       codegen::find_exporter("c")->generate(request).at("frictab_tau_R.h"); // the same for both
@@ -148,9 +148,9 @@ std::vector<double> run_under_wine(const std::string& target, const std::string&
 }
 
 TEST(SlowWine, FunctionsGiveTheStressesOfFrictabAlsoWithTheirValuesInAFile) {
-  if (!codegen::have_program(wine) || !codegen::have_program(cross + "gfortran"))
+  if (!have_program(wine) || !have_program(cross + "gfortran"))
     GTEST_SKIP() << "Debian's wine64 and MinGW-w64 are not installed";
-  const codegen::TemporaryDirectory prefix; // what Wine keeps, made by the first run
+  const TemporaryDirectory prefix; // what Wine keeps, made by the first run
   const table::Table table = test::four_axis_table();
   const test::States states(table, 2000, 31);
   const std::vector<double> truth = test::expected(table, states);

@@ -65,7 +65,7 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
   const fs::path kept = kept_library(bundle, build);
   keep_values(bundle, fs::path(kept).replace_extension());
   if (!fs::exists(kept)) {
-    const codegen::TemporaryDirectory work;
+    const TemporaryDirectory work;
     const fs::path made = codegen::compile_library(bundle, build, work.path());
     const fs::path own = kept.string() + "." + std::to_string(getpid());
     fs::create_directories(kept.parent_path());
@@ -93,7 +93,7 @@ const Library* compiled(const std::string& key, const codegen::Exporter& exporte
   const std::string name = exporter.name + "/" + variant + "/" + key;
   if (const auto found = libraries.find(name); found != libraries.end()) return found->second.get();
   const BuildVariant build = variant_of(exporter, request, variant, flags);
-  if (!codegen::have_program(build.command[0])) return nullptr;
+  if (!have_program(build.command[0])) return nullptr;
   return libraries.emplace(name, library_of(exporter.generate(request), build)).first->second.get();
 }
 
