@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
+
 namespace frictab {
 
 std::string format_place(const Place& place) {
@@ -38,6 +40,19 @@ void FaultList::add(Place place, std::string what, std::string hint) {
 
 void FaultList::throw_if_any() const {
   if (!faults_.empty()) throw InputError(faults_);
+}
+
+void FaultsByCause::add(const std::string& cause, Fault fault) {
+  const auto [found, is_new] = index_.emplace(cause, causes_.size());
+  if (is_new)
+    causes_.push_back({std::move(fault)});
+  else
+    ++causes_[found->second].more;
+}
+
+void FaultsByCause::tell(FaultList& faults, const std::string& noun) const {
+  for (const Cause& cause : causes_)
+    faults.add(cause.first.place, cause.first.what + and_more(cause.more, noun), cause.first.hint);
 }
 
 } // namespace frictab

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,23 @@ public:
 
 private:
   std::vector<Fault> faults_;
+};
+
+// Faults of the same cause told once, with their count.
+class FaultsByCause {
+public:
+  // `cause`: any text that faults of one cause share. The first one of a cause is told.
+  void add(const std::string& cause, Fault fault);
+  // "what (and 12 more rows)", in the order in which the causes came.
+  void tell(FaultList& faults, const std::string& noun) const;
+
+private:
+  struct Cause {
+    Fault first;
+    std::size_t more = 0;
+  };
+  std::vector<Cause> causes_;
+  std::map<std::string, std::size_t> index_;
 };
 
 // "place: error: what\n  hint: ..." a fault; the text `InputError::what()` returns.

@@ -97,6 +97,11 @@ std::string thousands(std::size_t value) {
   return text;
 }
 
+std::string and_more(std::size_t count, std::string_view noun) {
+  if (count == 0) return "";
+  return fmt::format(" (and {} more {}{})", thousands(count), noun, count == 1 ? "" : "s");
+}
+
 std::string human_bytes(double bytes) {
   const char* units[] = {"B", "KiB", "MiB", "GiB"};
   std::size_t unit = 0;

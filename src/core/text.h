@@ -32,6 +32,9 @@ std::string shortest(double value);
 // 44550 -> "44,550".
 std::string thousands(std::size_t value);
 
+// " (and 1,200 more rows)"; nothing for 0.
+std::string and_more(std::size_t count, std::string_view noun);
+
 // 1536 -> "1.5 KiB".
 std::string human_bytes(double bytes);
 

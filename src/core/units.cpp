@@ -1,89 +1,98 @@
-// Units that tribometers and FE codes use, by dimension.
+// Units by UDUNITS-2.
 #include "core/units.h"
 
-#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include <udunits2.h>
 
 namespace frictab {
 
 namespace {
 
-enum class Dimension { stress, speed, length, time, force, temperature, ratio };
+// The library's own database and what rigs write beside it; one thread at a time may ask it.
+class Units {
+public:
+  Units() {
+    ut_set_error_message_handler(ut_ignore); // names are asked for that may be none
+    system_ = ut_read_xml(nullptr);
+    if (!system_)
+      throw std::runtime_error("the units of UDUNITS-2 cannot be read: is libudunits2-data "
+                               "installed, and UDUNITS2_XML_PATH unset or right?");
+  }
 
-struct Unit {
-  std::string_view name;
-  Dimension dimension;
-  double factor; // to the first unit of the dimension
-  double offset = 0;
+  std::optional<Conversion> convert(const std::string& from, const std::string& to) {
+    const std::lock_guard lock(mutex_);
+    const auto [found, is_new] = known_.try_emplace({from, to});
+    if (is_new) found->second = ask(from, to);
+    return found->second;
+  }
+
+private:
+  ut_unit* parse(const std::string& name) {
+    if (name.empty()) return nullptr;
+    if (name == "-") return ut_parse(system_, "1", UT_UTF8);
+    if (name == "C") return ut_parse(system_, "degC", UT_UTF8); // no rig measures coulombs
+    return ut_parse(system_, name.c_str(), UT_UTF8);
+  }
+
+  std::optional<Conversion> ask(const std::string& from, const std::string& to) {
+    ut_unit *a = parse(from), *b = parse(to);
+    std::optional<Conversion> out;
+    if (a && b && ut_are_convertible(a, b)) out = converter(a, b);
+    ut_free(a);
+    ut_free(b);
+    return out;
+  }
+
+  // nullopt where it is no straight line: logarithmic units, or the reciprocal of the unit.
+  static std::optional<Conversion> converter(ut_unit* a, ut_unit* b) {
+    cv_converter* const how = ut_get_converter(a, b);
+    if (!how) return std::nullopt;
+    const double at_0 = cv_convert_double(how, 0), at_1 = cv_convert_double(how, 1),
+                 at_4096 = cv_convert_double(how, 4096);
+    cv_free(how);
+    const double factor = at_0 == 0 ? at_1 : (at_4096 - at_0) / 4096;
+    const bool straight = std::abs(at_0 + factor - at_1) <= 1e-12 * (std::abs(at_0) + factor);
+    if (!straight || !(factor > 0)) return std::nullopt;
+    return Conversion{rounded(factor), rounded(at_0)};
+  }
+
+  // 1e-06 where the library's own multiplications give 9.9999999999999995e-07.
+  static double rounded(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.12g", value);
+    const double written = std::strtod(text, nullptr);
+    return std::abs(written - value) <= 4e-16 * std::abs(value) ? written : value;
+  }
+
+  std::mutex mutex_;
+  ut_system* system_;
+  std::map<std::pair<std::string, std::string>, std::optional<Conversion>> known_;
 };
 
-constexpr std::array units = {
-    Unit{"MPa", Dimension::stress, 1},
-    Unit{"N/mm2", Dimension::stress, 1},
-    Unit{"N/mm^2", Dimension::stress, 1},
-    Unit{"Pa", Dimension::stress, 1e-6},
-    Unit{"kPa", Dimension::stress, 1e-3},
-    Unit{"GPa", Dimension::stress, 1e3},
-    Unit{"bar", Dimension::stress, 0.1},
-    Unit{"psi", Dimension::stress, 6.894757293168e-3},
-    Unit{"ksi", Dimension::stress, 6.894757293168},
-    Unit{"mm/s", Dimension::speed, 1},
-    Unit{"m/s", Dimension::speed, 1e3},
-    Unit{"cm/s", Dimension::speed, 10},
-    Unit{"um/s", Dimension::speed, 1e-3},
-    Unit{"µm/s", Dimension::speed, 1e-3},
-    Unit{"micron/s", Dimension::speed, 1e-3},
-    Unit{"m/min", Dimension::speed, 1e3 / 60},
-    Unit{"mm/min", Dimension::speed, 1.0 / 60},
-    Unit{"mm", Dimension::length, 1},
-    Unit{"m", Dimension::length, 1e3},
-    Unit{"cm", Dimension::length, 10},
-    Unit{"um", Dimension::length, 1e-3},
-    Unit{"micron", Dimension::length, 1e-3},
-    Unit{"microns", Dimension::length, 1e-3},
-    Unit{"µm", Dimension::length, 1e-3}, // U+00B5
-    Unit{"μm", Dimension::length, 1e-3}, // U+03BC
-    Unit{"in", Dimension::length, 25.4},
-    Unit{"s", Dimension::time, 1},
-    Unit{"ms", Dimension::time, 1e-3},
-    Unit{"us", Dimension::time, 1e-6},
-    Unit{"min", Dimension::time, 60},
-    Unit{"h", Dimension::time, 3600},
-    Unit{"N", Dimension::force, 1},
-    Unit{"mN", Dimension::force, 1e-3},
-    Unit{"kN", Dimension::force, 1e3},
-    Unit{"MN", Dimension::force, 1e6},
-    Unit{"lbf", Dimension::force, 4.4482216152605},
-    Unit{"degC", Dimension::temperature, 1},
-    Unit{"C", Dimension::temperature, 1},
-    Unit{"°C", Dimension::temperature, 1},
-    Unit{"K", Dimension::temperature, 1, -273.15},
-    Unit{"degF", Dimension::temperature, 5.0 / 9, -160.0 / 9},
-    Unit{"1", Dimension::ratio, 1},
-    Unit{"-", Dimension::ratio, 1},
-    Unit{"%", Dimension::ratio, 0.01},
-};
-
-const Unit* find(std::string_view name) {
-  for (const Unit& unit : units)
-    if (unit.name == name) return &unit;
-  return nullptr;
+Units& units() {
+  static Units* const all = new Units; // kept to the end: threads may still ask
+  return *all;
 }
 
 } // namespace
 
 std::optional<Conversion> convert(std::string_view from, std::string_view to) {
-  const Unit* a = find(from);
-  const Unit* b = find(to);
-  if (!a || !b || a->dimension != b->dimension) return std::nullopt;
-  if (a == b) return Conversion{};
-  return Conversion{a->factor / b->factor, (a->offset - b->offset) / b->factor};
+  return units().convert(std::string(from), std::string(to));
 }
 
 std::vector<std::string> units_like(std::string_view unit) {
   std::vector<std::string> names;
-  const Unit* wanted = find(unit);
-  for (const Unit& one : units)
-    if (wanted && one.dimension == wanted->dimension) names.emplace_back(one.name);
+  for (const char* name :
+       {"MPa",  "N/mm2", "GPa", "kPa", "Pa",   "bar", "psi",  "ksi", "mm/s", "m/s", "m/min",
+        "um/s", "mm",    "m",   "cm",  "um",   "in",  "s",    "ms",  "min",  "h",   "N",
+        "mN",   "kN",    "MN",  "lbf", "degC", "K",   "degF", "1",   "%"})
+    if (convert(name, unit)) names.emplace_back(name);
   return names;
 }
 

@@ -16,6 +16,14 @@ struct Column {
   std::vector<std::string> levels; // not empty: a text column; sorted
 };
 
+// Where two clocks of an experiment agree best (data/join.h).
+struct ClockOffset {
+  std::string experiment;
+  double offset = 0;      // added to the second clock it gives the first
+  double std_error = 0;   // jackknife over 8 pieces of the common span
+  double correlation = 0; // of the two series at this offset
+};
+
 // Rows of one experiment are contiguous and in time order; an experiment is never split.
 class Dataset {
 public:
@@ -28,8 +36,10 @@ public:
     std::string rule; // "tau_R_MPa below 0.1"
     std::size_t rows;
   };
-  std::vector<Dropped> dropped;   // rows left out at the user's word
-  std::vector<std::string> notes; // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
+  std::vector<Dropped> dropped;    // rows left out at the user's word
+  std::vector<std::string> notes;  // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
+  std::vector<ClockOffset> clocks; // of data.join, where they were found
+  std::vector<std::string> unused; // "tests.csv: K7": a test beside the data that none of them has
   std::vector<std::string> implausible; // what some rows cannot have been (data/plausibility.h)
   // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
   // so that nothing can be fitted to it, and not part of the fingerprint.

@@ -83,9 +83,11 @@ std::size_t rule_of(const std::string& file, const DataOptions& options) {
 void apply(const FileRule& rule, DataOptions& options) {
   if (rule.delimiter) options.delimiter = *rule.delimiter;
   if (rule.decimal) options.decimal = *rule.decimal;
+  if (rule.thousands) options.thousands = *rule.thousands;
   if (rule.skip_rows) options.skip_rows = *rule.skip_rows;
   if (rule.skip_footer) options.skip_footer = *rule.skip_footer;
   if (rule.units_row) options.units_row = *rule.units_row;
+  if (!rule.sheet.empty()) options.sheet = rule.sheet;
   for (const auto& [name, source] : rule.columns) {
     options.columns[name] = source;
     options.constants.erase(name);
@@ -199,7 +201,8 @@ std::string note_of(const FileRule& rule, std::size_t files,
     parts.push_back(name + " = " + text);
   if (!names.empty()) parts.push_back("from the names " + join(names, ", "));
   if (!rule.experiment.empty()) parts.push_back("an experiment is " + rule.experiment);
-  if (rule.delimiter || rule.decimal || rule.skip_rows || rule.skip_footer || rule.units_row)
+  if (rule.delimiter || rule.decimal || rule.thousands || rule.skip_rows || rule.skip_footer ||
+      rule.units_row || !rule.sheet.empty())
     parts.emplace_back("a dialect of its own");
   return fmt::format("{} ({} {}): {}", rule.match, files, files == 1 ? "file" : "files",
                      parts.empty() ? "nothing special" : join(parts, "; "));

@@ -11,6 +11,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "data/computed.h"
 #include "data/quantity.h"
 #include "io/number.h"
 
@@ -55,7 +56,6 @@ public:
     for (const Quantity& quantity : quantities())
       map_quantity(quantity);
     map_experiment();
-    multiply_coefficients();
     map_bystanders();
     add_same_for_all();
     return std::move(out_);
@@ -78,6 +78,7 @@ private:
     if (mapped == options_.columns.end())
       return options_.constants.count(canonical) ? nullptr : by_name(canonical);
     const ColumnSource& from = mapped->second;
+    if (!from.formula.empty()) return nullptr; // computed later
     if (from.number > 0) {
       if (from.number <= raw_.columns.size()) return &raw_.columns[from.number - 1];
       faults_.add(from.place, fmt::format("{}: column number {} is beyond the {} columns of {}",
@@ -114,14 +115,18 @@ private:
     return found;
   }
 
+  // What can be wrong with a cell.
+  enum class Cause { no_number, empty, not_finite };
+
   // `what` follows the column's name and, in HDF5, the row.
-  void cell_fault(std::size_t row, std::size_t cell_column, const std::string& name,
-                  const std::string& what, const std::string& hint, bool missing = false) {
+  void cell_fault(std::size_t row, std::size_t cell_column, const std::string& name, Cause cause,
+                  const std::string& what, const std::string& hint) {
     const std::string where = raw_.header_line > 0 ? "" : fmt::format(" (row {})", raw_.line[row]);
     out_.cell_faults.push_back(
         {row,
          {row_place(raw_, row, cell_column), fmt::format("{}{}: {}", name, where, what), hint},
-         missing});
+         fmt::format("{} {}", name, static_cast<int>(cause)),
+         cause == Cause::empty});
   }
 
   std::string number_hint(const std::string& text) const {
@@ -133,6 +138,11 @@ private:
       return "a decimal comma? set data.decimal = \",\"";
     if (options_.decimal == ',' && looks_like('.'))
       return "a decimal point? set data.decimal = \".\"";
+    double ignored = 0;
+    for (const char between : {'.', ',', '\'', ' '})
+      if (between != options_.decimal && options_.thousands == 0 &&
+          io::read_grouped_number(text, options_.decimal, between, ignored))
+        return fmt::format("digits in groups of three? set data.thousands = \"{}\"", between);
     return "";
   }
 
@@ -142,11 +152,11 @@ private:
       if (is_not_finite(cell.text))
         not_finite(cell.row, cell.column, canonical, cell.text);
       else if (cell.text.empty())
-        cell_fault(cell.row, cell.column, canonical, "the cell is empty",
-                   "repair it, or data.missing = \"drop\" leaves such rows out", true);
+        cell_fault(cell.row, cell.column, canonical, Cause::empty, "the cell is empty",
+                   "repair it, or data.missing = \"drop\" leaves such rows out");
       else
-        cell_fault(cell.row, cell.column, canonical, fmt::format("'{}' is not a number", cell.text),
-                   number_hint(cell.text));
+        cell_fault(cell.row, cell.column, canonical, Cause::no_number,
+                   fmt::format("'{}' is not a number", cell.text), number_hint(cell.text));
     std::size_t text = 0;
     for (std::size_t i = 0; i < column.numbers.size(); ++i) {
       while (text < column.texts.size() && column.texts[text].row < i)
@@ -160,7 +170,7 @@ private:
 
   void not_finite(std::size_t row, std::size_t cell_column, const std::string& canonical,
                   const std::string& text) {
-    cell_fault(row, cell_column, canonical, text + " is not a finite number",
+    cell_fault(row, cell_column, canonical, Cause::not_finite, text + " is not a finite number",
                "leave the row out, or repair it");
   }
 
@@ -249,7 +259,7 @@ private:
       const bool is_text = text < column->texts.size() && column->texts[text].row == i;
       out_.experiment[i] = is_text ? column->texts[text].text : shortest(column->numbers[i]);
       if (out_.experiment[i].empty())
-        cell_fault(i, 0, experiment_column, "the cell is empty",
+        cell_fault(i, 0, experiment_column, Cause::no_number, "the cell is empty",
                    "every row needs the name of its test");
     }
   }
@@ -258,21 +268,6 @@ private:
     for (Column& column : out_.columns)
       if (column.name == name) return &column;
     return nullptr;
-  }
-
-  void multiply_coefficients() {
-    for (const auto& [canonical, from] : options_.columns) {
-      if (from.times.empty()) continue;
-      Column* target = find(canonical);
-      const Column* factor = find(from.times);
-      if (!factor && !options_.columns.count(from.times)) // else told already
-        faults_.add(from.place, fmt::format("{}: times = '{}', which the data do not have",
-                                            canonical, from.times));
-      if (!target || !factor || target->values.size() != factor->values.size()) continue;
-      for (std::size_t i = 0; i < target->values.size(); ++i)
-        target->values[i] *= factor->values[i];
-      out_.notes.push_back(canonical + " = measured coefficient times " + from.times);
-    }
   }
 
   void map_bystanders() {
@@ -285,7 +280,9 @@ private:
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
       const auto& keep = options_.bystanders;
-      if (keep && std::find(keep->begin(), keep->end(), column.name) == keep->end()) continue;
+      if (keep && std::find(keep->begin(), keep->end(), column.name) == keep->end() &&
+          !is_formula_input(options_, column.name))
+        continue;
       if (by_name(column.name) != &column) continue; // a duplicate: the fault is told already
       add_bystander(column);
     }
@@ -304,7 +301,7 @@ private:
     }
     for (const CsvColumn::Text& cell : raw.texts)
       if (!is_missing(cell.text))
-        cell_fault(cell.row, cell.column, raw.name,
+        cell_fault(cell.row, cell.column, raw.name, Cause::no_number,
                    fmt::format("'{}' is not a number, as most of the column is", cell.text),
                    "repair the cell, or leave the column out by listing the others in "
                    "data.bystanders");

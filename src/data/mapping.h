@@ -1,4 +1,4 @@
-// From a file's own columns to canonical ones: names, units, coefficients, forces, slopes.
+// From a file's own columns to canonical ones: names and units.
 #pragma once
 
 #include "data/dataset.h"
@@ -15,6 +15,7 @@ struct MappedFile {
   struct CellFault { // of one cell: told only where its row is not left out
     std::size_t row;
     Fault fault;
+    std::string cause;    // the same of cells that have the same fault
     bool missing = false; // the cell is empty: DataOptions::missing
   };
   std::vector<CellFault> cell_faults;

@@ -19,6 +19,7 @@ struct ColumnSource {
   std::string times;              // a measured coefficient: multiplied with this canonical column
   double area_mm2 = 0;            // a force over this nominal area gives a stress
   std::size_t slope_rows = 0;     // |d column/d time| by a least-squares line over this many rows
+  std::string formula;            // or computed from other columns (data/computed.h)
   Place place;
 };
 
@@ -36,15 +37,30 @@ enum class Missing { error, drop };
 // is as for all.
 struct FileRule {
   std::string match; // a glob; of the whole name where it holds a /
-  std::optional<char> delimiter, decimal;
+  std::optional<char> delimiter, decimal, thousands;
   std::optional<std::size_t> skip_rows, skip_footer;
   std::optional<bool> units_row;
+  std::string sheet; // of a workbook
   std::map<std::string, ColumnSource> columns;
   std::map<std::string, double> constants;   // canonical, or a column of its own
   std::map<std::string, std::string> labels; // text columns
   std::string from_name;                     // a regular expression with named groups
   std::string experiment;
   Place place, from_name_place;
+};
+
+// A number, or "auto".
+struct AutoNumber {
+  std::optional<double> value;
+};
+
+// [data.join]: other files of the same tests with a clock of their own (data/join.h).
+struct JoinOptions {
+  std::vector<std::string> files; // empty: none
+  std::string by = "time_s";      // or s_mm
+  AutoNumber offset;              // what is added to their clock
+  FileRule how;                   // they are read; its match is all of them
+  Place place;
 };
 
 struct DataOptions {
@@ -54,9 +70,11 @@ struct DataOptions {
   double holdout = 0.25;               // share of EXPERIMENTS
   char delimiter = 0;                  // 0: found from the header line (, ; tab | or blanks)
   char decimal = '.';
+  char thousands = 0;          // between groups of three digits; 0: nothing
   std::size_t skip_rows = 0;   // preamble lines before the header
   std::size_t skip_footer = 0; // lines after the data
   bool units_row = false;      // a line of units below the header
+  std::string sheet;           // of a workbook; empty: the first one
   std::vector<DropRule> drop;
   std::map<std::string, ColumnSource> columns; // by canonical name
   std::map<std::string, double> constants;     // by canonical name; of one file others as well
@@ -67,6 +85,11 @@ struct DataOptions {
   Missing missing = Missing::error;
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
+  std::string tests; // a file with one row per experiment
+  Place tests_place;
+  JoinOptions join;
+  std::string wide; // a regular expression: which columns are one test each (data/wide.h)
+  Place wide_place;
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
   std::string base;                                   // directory that relative paths start from
   Place place;                                        // of [data] or of data.training

@@ -222,9 +222,8 @@ std::vector<Implausible> find_implausible(const Dataset& data) {
   return found;
 }
 
-void check_plausibility(Dataset& data, const std::vector<std::string>& allowed,
-                        const Place& place) {
-  FaultList faults;
+void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
+                        FaultList& faults) {
   for (const Implausible& one : find_implausible(data)) {
     const std::string text =
         fmt::format("{} ({} of {} rows)", one.what, thousands(one.rows), thousands(one.of));
@@ -236,7 +235,6 @@ void check_plausibility(Dataset& data, const std::vector<std::string>& allowed,
     else
       data.implausible.push_back(text);
   }
-  faults.throw_if_any();
 }
 
 } // namespace frictab::data

@@ -25,7 +25,8 @@ std::vector<std::string> plausibility_checks();
 // What is implausible in a campaign, in the order of the checks.
 std::vector<Implausible> find_implausible(const Dataset& data);
 
-// Sets data.implausible to what some rows fail, or what is allowed; throws InputError for the rest.
-void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place);
+// Sets data.implausible to what some rows fail, or what is allowed; the rest is added to `faults`.
+void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,
+                        FaultList& faults);
 
 } // namespace frictab::data

@@ -1,4 +1,4 @@
-// A file's columns before they have canonical names: the common ground of CSV and HDF5.
+// A file's columns before they have canonical names: the common ground of CSV, workbooks and HDF5.
 #pragma once
 
 #include "core/error.h"
@@ -11,7 +11,9 @@ namespace frictab::data {
 // `what`.
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column = 0);
 
-// CSV, or HDF5 where the file starts like it (then `line` counts rows from 1 and header_line is 0).
+// CSV; a sheet of a workbook (.xlsx); or HDF5 where the file starts like it, with one dataset per
+// column, or one group of such datasets per experiment, whose attributes are columns as well (then
+// `line` counts rows from 1 and header_line is 0).
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults);
 

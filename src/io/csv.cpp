@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -28,8 +29,11 @@ std::string_view trim(std::string_view s) {
 }
 
 // The number a cell holds; false where it holds anything else.
-bool parse_number(std::string_view cell, char decimal, double& value) {
-  return read_number(trim(cell), decimal, value);
+bool parse_number(std::string_view cell, const CsvFormat& format, double& value) {
+  cell = trim(cell);
+  return read_number(cell, format.decimal, value) ||
+         (format.thousands != 0 &&
+          read_grouped_number(cell, format.decimal, format.thousands, value));
 }
 
 bool valid_utf8(std::string_view text) {
@@ -252,7 +256,7 @@ std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
 
 // Reads one line's cells into row `row` of the columns; returns how many there are, without empty
 // ones behind the last column.
-std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
+std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
                        const std::vector<char>& is_text, std::size_t row) {
   std::string storage;
   std::size_t cells = 0, filled = 0;
@@ -260,7 +264,7 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
     const bool known = cells < is_text.size();
     if (known) filled = cells + 1;
     double value = nan;
-    if (known && !is_text[cells] && scanner.number(decimal, value, last)) {
+    if (known && !is_text[cells] && scanner.number(format.decimal, value, last)) {
       table.columns[cells].numbers.push_back(value);
       continue;
     }
@@ -270,7 +274,7 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, char decimal,
       if (!cell.empty()) filled = cells + 1;
       continue;
     }
-    if (is_text[cells] || !parse_number(cell, decimal, value)) {
+    if (is_text[cells] || !parse_number(cell, format, value)) {
       table.columns[cells].texts.push_back({row, to_utf8(cell), place});
       value = nan;
     }
@@ -322,16 +326,36 @@ void forget_row(CsvTable& table, std::size_t row) {
   }
 }
 
+// A line that is no row.
+struct RaggedLine {
+  std::size_t line, cells;
+};
+
+// Once per number of cells.
+void tell_ragged(const std::vector<RaggedLine>& ragged, const CsvTable& table, FaultList& faults) {
+  std::map<std::size_t, std::size_t> count;
+  for (const RaggedLine& one : ragged)
+    ++count[one.cells];
+  for (const RaggedLine& one : ragged) {
+    std::size_t& lines = count[one.cells];
+    if (lines == 0) continue; // told
+    faults.add({table.file, one.line, 0},
+               fmt::format("{} cells, the header has {}{}", one.cells, table.columns.size(),
+                           and_more(lines - 1, "line")),
+               "a delimiter too many or too few, or a line that is no data (skip_footer)");
+    lines = 0;
+  }
+}
+
 void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                std::string_view header_text, const CsvFormat& format, FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
   std::size_t again = 0, in_front = 0;
-  std::vector<Fault> ragged; // since the last row: of a header that comes again, or faults
+  std::vector<RaggedLine> ragged, since_row; // lines of a header that comes again are no faults
   const auto tell = [&] {
-    for (Fault& fault : ragged)
-      faults.add(std::move(fault.place), std::move(fault.what), std::move(fault.hint));
-    ragged.clear();
+    ragged.insert(ragged.end(), since_row.begin(), since_row.end());
+    since_row.clear();
   };
   while (!scanner.at_end()) {
     if (is_blank(text, scanner.position())) {
@@ -342,12 +366,12 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
     const std::size_t row = table.line.size();
     if (starts_with_line(text, scanner.position(), header_text)) {
       skip_header(scanner, text, format.units_row);
-      in_front += ragged.size();
-      ragged.clear();
+      in_front += since_row.size();
+      since_row.clear();
       ++again;
       continue;
     }
-    const std::size_t cells = read_cells(table, scanner, format.decimal, is_text, row);
+    const std::size_t cells = read_cells(table, scanner, format, is_text, row);
     if (cells >= named && cells <= width) {
       fill_row(table, cells, row);
       tell();
@@ -355,14 +379,11 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
       table.interval.push_back(again);
       continue;
     }
-    Fault fault;
-    fault.place = {table.file, line, 0};
-    fault.what = fmt::format("{} cells, the header has {}", cells, width);
-    fault.hint = "a delimiter too many or too few, or a line that is no data (skip_footer)";
-    ragged.push_back(std::move(fault));
+    since_row.push_back({line, cells});
     forget_row(table, row);
   }
   tell();
+  tell_ragged(ragged, table, faults);
   if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
   if (in_front > 0)
     table.notes.push_back(fmt::format("{} lines in front of it are no rows", in_front));
@@ -376,7 +397,7 @@ void read_header(CsvTable& table, Scanner& scanner, const CsvFormat& format) {
   std::size_t numeric = 0;
   double ignored = 0;
   for (const std::string& name : read_names(scanner)) {
-    numeric += parse_number(name, format.decimal, ignored);
+    numeric += parse_number(name, format, ignored);
     table.columns.push_back({to_utf8(name), "", {}, {}});
   }
   if (2 * numeric > table.columns.size())

@@ -12,6 +12,7 @@ namespace frictab::io {
 struct CsvFormat {
   char delimiter = 0; // 0: found from the header line; ' ' = runs of blanks
   char decimal = '.';
+  char thousands = 0;          // between groups of three digits; 0: nothing
   std::size_t skip_rows = 0;   // physical lines before the header
   std::size_t skip_footer = 0; // physical lines at the end, blank ones not counted
   bool units_row = false;
@@ -49,8 +50,9 @@ struct CsvTable {
 // Handles UTF-8 and UTF-16 with a BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells
 // with delimiters and line breaks inside, blank lines, empty column names, delimiters behind the
 // last cell. Where the header line comes again a new interval starts; lines in front of it that are
-// no rows belong to it. Other ragged rows and an unclosed quote are added to `faults`; they are
-// left out of the result (the caller throws). Throws InputError where there is no header or no row.
+// no rows belong to it. Other ragged rows (once per number of cells, with their count) and an
+// unclosed quote are added to `faults`; they are left out of the result (the caller throws). Throws
+// InputError where there is no header or no row.
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 

@@ -62,22 +62,31 @@ namespace {
 constexpr std::size_t small_bytes = std::size_t{1} << 24; // read at a time
 }
 
+// `group` is a path with / behind it; empty for the root.
+void Hdf5Reader::read_group(const Hdf5Reader& in, const std::string& group, bool large) {
+  const std::string object = group.empty() ? "/" : group;
+  in.attributes(object);
+  for (const std::string& own : in.datasets(object)) {
+    const std::string name = group + own;
+    in.attributes(name);
+    const auto shape = in.shape(name);
+    for (std::size_t axis = 0; axis < shape.size(); ++axis)
+      in.scale(name, axis);
+    if (in.is_text(name))
+      in.texts(name);
+    else if (in.layout(name).stored_bytes < small_bytes || (large && !in.raw_offset(name)))
+      in.blocks(name, small_bytes / sizeof(double), [](std::size_t, std::span<const double>) {});
+  }
+}
+
 // Reads everything once, plain numbers of large datasets left out; what is wrong is for the real
 // reading to say.
 void Hdf5Reader::read_all(const std::filesystem::path& file, bool large) {
   try {
     const Hdf5Reader in(file, "", Unchecked{});
-    in.attributes("/");
-    for (const std::string& name : in.datasets()) {
-      in.attributes(name);
-      const auto shape = in.shape(name);
-      for (std::size_t axis = 0; axis < shape.size(); ++axis)
-        in.scale(name, axis);
-      if (in.is_text(name))
-        in.texts(name);
-      else if (in.layout(name).stored_bytes < small_bytes || (large && !in.raw_offset(name)))
-        in.blocks(name, small_bytes / sizeof(double), [](std::size_t, std::span<const double>) {});
-    }
+    read_group(in, "", large);
+    for (const std::string& group : in.groups())
+      read_group(in, group + "/", large);
   } catch (const std::exception&) {
   }
 }
@@ -108,18 +117,30 @@ bool Hdf5Reader::survives_reading(const std::filesystem::path& file, bool large)
 
 Hdf5Reader::~Hdf5Reader() = default;
 
-std::vector<std::string> Hdf5Reader::datasets() const {
-  std::vector<std::string> names;
-  const auto visit = [](hid_t group, const char* name, const H5L_info_t*, void* into) -> herr_t {
-    Handle object(H5Oopen(group, name, H5P_DEFAULT), H5Oclose);
-    if (object.ok() && H5Iget_type(object) == H5I_DATASET)
-      static_cast<std::vector<std::string>*>(into)->push_back(name);
+std::vector<std::string> Hdf5Reader::members(const std::string& group, int type) const {
+  struct Found {
+    int type;
+    std::vector<std::string> names;
+  } found{type, {}};
+  const auto visit = [](hid_t in, const char* name, const H5L_info_t*, void* into) -> herr_t {
+    Found& all = *static_cast<Found*>(into);
+    Handle object(H5Oopen(in, name, H5P_DEFAULT), H5Oclose);
+    if (object.ok() && H5Iget_type(object) == all.type) all.names.push_back(name);
     return 0;
   };
-  if (H5Literate(data_->file, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names) < 0)
+  Handle in(H5Gopen2(data_->file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!in.ok() || H5Literate(in, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &found) < 0)
     data_->fail("its list of datasets cannot be read", "the file may be damaged");
-  std::sort(names.begin(), names.end());
-  return names;
+  std::sort(found.names.begin(), found.names.end());
+  return found.names;
+}
+
+std::vector<std::string> Hdf5Reader::datasets(const std::string& group) const {
+  return members(group, H5I_DATASET);
+}
+
+std::vector<std::string> Hdf5Reader::groups() const {
+  return members("/", H5I_GROUP);
 }
 
 bool Hdf5Reader::has(const std::string& dataset) const {

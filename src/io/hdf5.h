@@ -73,7 +73,9 @@ public:
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
-  std::vector<std::string> datasets() const; // of the root group, sorted by name
+  // Of a group (a path from the root), sorted by name; as GROUP/NAME the functions below know them.
+  std::vector<std::string> datasets(const std::string& group = "/") const;
+  std::vector<std::string> groups() const; // of the root group, sorted by name
   bool has(const std::string& dataset) const;
   bool is_text(const std::string& dataset) const;
   std::vector<std::size_t> shape(const std::string& dataset) const;
@@ -97,7 +99,9 @@ public:
 private:
   struct Data;
   struct Unchecked {};
+  std::vector<std::string> members(const std::string& group, int type) const;
   Hdf5Reader(const std::filesystem::path& file, std::string named, Unchecked);
+  static void read_group(const Hdf5Reader& in, const std::string& group, bool large);
   static void read_all(const std::filesystem::path& file, bool large);
   static bool survives_reading(const std::filesystem::path& file, bool large);
   std::unique_ptr<Data> data_;

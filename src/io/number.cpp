@@ -105,4 +105,45 @@ bool read_number(std::string_view text, char decimal, double& value) {
   return !text.empty() && scan_number(text.data(), end, decimal, value) == end;
 }
 
+namespace {
+
+// How many bytes of a sign between groups of digits stand here; 0: none.
+std::size_t sign_length(std::string_view text, char between) {
+  if (text.starts_with(between)) return 1;
+  if (between == '\'' && text.starts_with("\u2019")) return 3;
+  if (between != ' ') return 0;
+  if (text.starts_with("\u00a0")) return 2;
+  if (text.starts_with("\xa0")) return 1; // Latin-1
+  return text.starts_with("\u202f") ? 3 : 0;
+}
+
+} // namespace
+
+bool read_grouped_number(std::string_view text, char decimal, char between, double& value) {
+  std::string plain;
+  if (text.starts_with('-') || text.starts_with('+')) {
+    plain += text.front();
+    text.remove_prefix(1);
+  }
+  std::size_t digits = 0; // of this group
+  bool first = true;
+  for (;;) {
+    const std::size_t sign = sign_length(text, between);
+    if (sign > 0 && (first ? digits < 1 || digits > 3 : digits != 3)) return false;
+    if (sign > 0) {
+      text.remove_prefix(sign);
+      first = false;
+      digits = 0;
+      continue;
+    }
+    if (text.empty() || !is_digit(text.front())) break;
+    plain += text.front();
+    text.remove_prefix(1);
+    ++digits;
+  }
+  if (!first && digits != 3) return false;
+  plain += text;
+  return read_number(plain, decimal, value);
+}
+
 } // namespace frictab::io

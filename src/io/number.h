@@ -13,4 +13,8 @@ const char* scan_number(const char* begin, const char* end, char decimal, double
 // Whether the whole text is one number.
 bool read_number(std::string_view text, char decimal, double& value);
 
+// The same of a number whose digits stand in groups of three: 1.234.567,8 with '.' between them,
+// or ' (also U+2019), or a blank (also U+00A0 and U+202F). Every group must be there.
+bool read_grouped_number(std::string_view text, char decimal, char between, double& value);
+
 } // namespace frictab::io

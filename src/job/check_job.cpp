@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
+#include "expr/expr.h"
 #include "job/key_builder.h"
 #include "job/reader.h"
 #include "models/law.h"
@@ -37,6 +38,11 @@ void check_signs(JobReader& reader) {
     reader.fault(reader.place_of("data.delimiter"),
                  fmt::format("data.delimiter and data.decimal are both \"{}\"", data.decimal),
                  "with decimal commas the columns are separated by \";\" or \"\\t\"");
+  if (data.thousands != 0 && (data.thousands == data.delimiter || data.thousands == data.decimal))
+    reader.fault(reader.place_of("data.thousands"),
+                 fmt::format("data.thousands is \"{}\", as {} is", data.thousands,
+                             data.thousands == data.decimal ? "data.decimal" : "data.delimiter"),
+                 "it is what stands between groups of three digits");
 }
 
 void check_unit(JobReader& reader, const std::string& name, const data::ColumnSource& source,
@@ -52,12 +58,38 @@ void check_unit(JobReader& reader, const std::string& name, const data::ColumnSo
         suggest(source.unit, units_like(target)));
 }
 
+void check_formula(JobReader& reader, const data::ColumnSource& source, const std::string& path) {
+  if (source.formula.empty()) return;
+  try {
+    expr::parse_expr(source.formula);
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      reader.fault(reader.place_of(path + ".formula"),
+                   fmt::format("{}, at character {}", fault.what, fault.place.column), fault.hint);
+  }
+}
+
+void check_pattern(JobReader& reader, const std::string& text, const Place& place,
+                   const std::string& path) {
+  if (text.empty()) return;
+  try {
+    if (Pattern(text, place).names().empty())
+      reader.fault(place, path + " has no named group",
+                   "what becomes a column is written (?<name>...)");
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      reader.faults.push_back(fault);
+  }
+}
+
 void check_column(JobReader& reader, const std::string& section, const std::string& name,
                   data::ColumnSource& source) {
   const std::string path = section + "." + name;
   const Place& place = source.place;
-  const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0);
-  if (source.names.empty() && source.number == 0) source.names = {name};
+  const int ways = !source.times.empty() + (source.area_mm2 > 0) + (source.slope_rows > 0) +
+                   !source.formula.empty();
+  const bool has_column = !source.names.empty() || source.number > 0;
+  if (!has_column) source.names = {name};
   if (name == "experiment") {
     if (ways > 0 || !source.unit.empty())
       reader.fault(place, path + " is a label: it has no unit and is not computed",
@@ -65,13 +97,16 @@ void check_column(JobReader& reader, const std::string& section, const std::stri
     return;
   }
   if (ways > 1)
-    reader.fault(place, path + " has more than one of times, area_mm2 and slope_rows",
+    reader.fault(place, path + " has more than one of times, area_mm2, slope_rows and formula",
                  "keep the one that says what the column is");
+  else if (!source.formula.empty() && has_column)
+    reader.fault(place, path + " has a formula and a column", "keep one of the two");
   else if (source.times == name)
     reader.fault(reader.place_of(path + ".times"), path + ".times names the column itself",
                  "a friction coefficient is multiplied with sigma_n_MPa");
   else
     check_unit(reader, name, source, path);
+  check_formula(reader, source, path);
 }
 
 // `section` is "data", or "data.files[1]".
@@ -86,41 +121,53 @@ void check_mapping(JobReader& reader, const std::string& section, Rules& rules) 
                    "keep one of the two");
 }
 
+// `path` is "data.files[1]" or "data.join".
+void check_rule(JobReader& reader, const std::string& path, data::FileRule& rule) {
+  check_mapping(reader, path, rule);
+  for (const auto& [name, text] : rule.labels)
+    if (data::find_quantity(name))
+      reader.fault(reader.place_of(path + ".labels." + name), name + " is a quantity, no label",
+                   "give it in `constants`");
+  for (const auto& [name, value] : rule.constants) // any name may stand there: is it a typo?
+    if (const std::string near = nearest_name(name, schema::quantity_names());
+        !near.empty() && near != name)
+      reader.fault(
+          reader.place_of(path + ".constants." + name),
+          fmt::format("'{}' in [{}.constants] is no quantity", name, path),
+          fmt::format("did you mean '{}'? A column of your own needs a name less like it", near));
+  rule.from_name_place = reader.place_of(path + ".from_name");
+  check_pattern(reader, rule.from_name, rule.from_name_place, path + ".from_name");
+}
+
 void check_rules(JobReader& reader) {
   std::vector<data::FileRule>& rules = reader.job.data.files;
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const std::string path = fmt::format("data.files[{}]", i + 1);
-    check_mapping(reader, path, rules[i]);
+    check_rule(reader, path, rules[i]);
     if (rules[i].match.empty())
       reader.fault(rules[i].place, path + " has no match", "match = \"*.csv\" says which files");
-    for (const auto& [name, text] : rules[i].labels)
-      if (data::find_quantity(name))
-        reader.fault(reader.place_of(path + ".labels." + name), name + " is a quantity, no label",
-                     "give it in `constants`");
-    for (const auto& [name, value] : rules[i].constants) // any name may stand there: is it a typo?
-      if (const std::string near = nearest_name(name, schema::quantity_names());
-          !near.empty() && near != name)
-        reader.fault(
-            reader.place_of(path + ".constants." + name),
-            fmt::format("'{}' in [{}.constants] is no quantity", name, path),
-            fmt::format("did you mean '{}'? A column of your own needs a name less like it", near));
-    rules[i].from_name_place = reader.place_of(path + ".from_name");
-    if (rules[i].from_name.empty()) continue;
-    try {
-      if (Pattern(rules[i].from_name, rules[i].from_name_place).names().empty())
-        reader.fault(rules[i].from_name_place, path + ".from_name has no named group",
-                     "what becomes a column is written (?<name>...)");
-    } catch (const InputError& error) {
-      for (const Fault& fault : error.faults())
-        reader.faults.push_back(fault);
-    }
   }
+}
+
+void check_beside(JobReader& reader) {
+  data::DataOptions& data = reader.job.data;
+  check_rule(reader, "data.join", data.join.how);
+  const data::FileRule& how = data.join.how;
+  const bool says_how = data.join.offset.value || !how.columns.empty() || !how.constants.empty() ||
+                        !how.labels.empty() || !how.from_name.empty();
+  if (data.join.files.empty() && says_how)
+    reader.fault(data.join.place, "data.join has no files", "files = \"fe/*.csv\" says which");
+  data.wide_place = reader.place_of("data.wide.columns");
+  data.tests_place = reader.place_of("data.tests");
+  if (data.wide.empty()) return;
+  check_pattern(reader, data.wide, data.wide_place, "data.wide.columns");
 }
 
 void check_columns(JobReader& reader) {
   data::DataOptions& data = reader.job.data;
   check_mapping(reader, "data", data);
   check_rules(reader);
+  check_beside(reader);
   for (const data::DropRule& rule : data.drop) {
     const std::string path = "data.drop." + rule.column;
     const bool said = reader.places.count(path + ".below") || reader.places.count(path + ".above");

@@ -86,6 +86,12 @@ template <> struct Kind<char> { // delimiter: 0 = not set
   static std::string show(char v) { return v == 0 ? "" : toml_quoted(std::string(1, v)); }
 };
 
+template <> struct Kind<data::AutoNumber> {
+  static constexpr KeyType type = KeyType::automatic;
+  static data::AutoNumber from(KeyValue& v);
+  static std::string show(const data::AutoNumber& v);
+};
+
 // Enums are words of a job file; which words stands where their keys do.
 template <class T>
 requires std::is_enum_v<T>

@@ -29,6 +29,12 @@ data::ColumnSource& of_all(Job& job, const std::string& name) {
 data::ColumnSource& of_some(Job& job, const std::string& name) {
   return file_rule(job, name).columns[name_of_column(name)];
 }
+data::FileRule& join_rule(Job& job, const std::string&) {
+  return job.data.join.how;
+}
+data::ColumnSource& of_join(Job& job, const std::string& name) {
+  return job.data.join.how.columns[name];
+}
 
 using SourceOf = data::ColumnSource& (*)(Job&, const std::string&);
 
@@ -78,6 +84,13 @@ template <SourceOf source> std::vector<KeyRule> column_keys(const std::string& s
           "the column is a path: |d column/d time| by a straight line through this many rows",
           "not differentiated", "5") |
           at_least(2),
+      named<std::string>(
+          section + ".*.formula",
+          [](Job & job, const std::string& name) -> auto& { return source(job, name).formula; },
+          "computed from other columns, by their names (_ for signs that are no letter or digit): "
+          "quantities in their canonical units, others as the file gives them; pi is known, "
+          "`unit` is that of the result",
+          "a column of the file", "\"rpm*radius_mm*2*pi/60\""),
   };
 }
 
@@ -86,6 +99,9 @@ std::vector<std::string> delimiters() {
 }
 std::vector<std::string> decimals() {
   return {".", ","};
+}
+std::vector<std::string> groupings() {
+  return {".", ",", "'", " "};
 }
 std::vector<std::string> missing_words() { // as data::Missing
   return {"error", "drop"};
@@ -121,6 +137,24 @@ std::vector<KeyRule> file_keys() {
           "data.decimal", [](Job & job) -> auto& { return job.data.decimal; },
           "the decimal sign of numbers") |
           Allowed{"", decimals},
+      key<char>(
+          "data.thousands", [](Job & job) -> auto& { return job.data.thousands; },
+          "what stands between groups of three digits", "nothing", "\"'\"") |
+          Allowed{"", groupings},
+      key<std::string>(
+          "data.sheet", [](Job & job) -> auto& { return job.data.sheet; },
+          "the sheet of a workbook (.xlsx)", "the first one", "\"Messung\""),
+      key<std::string>(
+          "data.tests", [](Job & job) -> auto& { return job.data.tests; },
+          "a file with one row per experiment (humidity, batch, tool) and a column experiment: its "
+          "columns are joined by name",
+          "none", "\"tests.csv\""),
+      key<std::string>(
+          "data.wide.columns", [](Job & job) -> auto& { return job.data.wide; },
+          "a regular expression: columns whose name it fits are one test each; its named groups "
+          "become columns, the group experiment names the test, the group column the column that "
+          "the values go to (else it is called value)",
+          "no such columns", "'OA(?<oa_pct>\\d+)_(?<experiment>.*)'"),
       key<std::size_t>(
           "data.skip_rows", [](Job & job) -> auto& { return job.data.skip_rows; },
           "lines before the header line") |
@@ -171,69 +205,100 @@ std::vector<KeyRule> mapping_keys() {
   };
 }
 
-std::vector<KeyRule> rule_keys() {
+using RuleOf = data::FileRule& (*)(Job&, const std::string&);
+
+// What is special about some files: of a rule, or of data.join.
+template <RuleOf rule> std::vector<KeyRule> rule_keys(const std::string& section) {
   const std::string as_all = "as for all files";
   return {
-      named<std::string>(
-          "data.files.*.match",
-          [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).match; },
-          "which files, with * for any letters: by the file's name, or by the whole name where "
-          "this one holds a /; the first rule that matches a file counts",
-          "an error", "\"pin_*.csv\""),
       named<std::optional<char>>(
-          "data.files.*.delimiter", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).delimiter;
-          },
+          section + ".delimiter",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).delimiter; },
           "what separates the columns", as_all, "\";\"") |
           Allowed{"", delimiters},
       named<std::optional<char>>(
-          "data.files.*.decimal",
-          [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).decimal; },
+          section + ".decimal",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).decimal; },
           "the decimal sign of numbers", as_all, "\",\"") |
           Allowed{"", decimals},
+      named<std::optional<char>>(
+          section + ".thousands",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).thousands; },
+          "what stands between groups of three digits", as_all, "\".\"") |
+          Allowed{"", groupings},
       named<std::optional<std::size_t>>(
-          "data.files.*.skip_rows", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).skip_rows;
-          },
+          section + ".skip_rows",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).skip_rows; },
           "lines before the header line", as_all, "2") |
           at_least(0),
       named<std::optional<std::size_t>>(
-          "data.files.*.skip_footer", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).skip_footer;
-          },
+          section + ".skip_footer",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).skip_footer; },
           "lines after the data", as_all, "1") |
           at_least(0),
       named<std::optional<bool>>(
-          "data.files.*.units_row", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).units_row;
-          },
+          section + ".units_row",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).units_row; },
           "the line below the header holds units", as_all, "true"),
       named<std::string>(
-          "data.files.*.from_name", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).from_name;
-          },
+          section + ".sheet",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).sheet; },
+          "the sheet of a workbook (.xlsx)", as_all, "\"Messung\""),
+      named<std::string>(
+          section + ".from_name",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).from_name; },
           "a regular expression that is found in the file's name with its folder; its named groups "
           "become columns: quantities in their canonical units, numbers, or texts; the group "
           "experiment names the test",
           "nothing is taken from the name", "'(?<material>\\w+)_(?<radius_mm>\\d+)mm'"),
       named<std::string>(
-          "data.files.*.experiment", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).experiment;
-          },
+          section + ".experiment",
+          [](Job & job, const std::string& name) -> auto& { return rule(job, name).experiment; },
           "what an experiment is, as data.experiment", as_all, "\"file\""),
       named<double>(
-          "data.files.*.constants.*", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).constants[name_of_column(name)];
+          section + ".constants.*", [](Job & job, const std::string& name) -> auto& {
+            return rule(job, name).constants[name_of_column(name)];
           },
           "the same value for every row: a quantity in its canonical unit, or a column of another "
           "name",
           "from the file's column", "12.0") |
           constant_problem,
       named<std::string>(
-          "data.files.*.labels.*", [](Job & job, const std::string& name) -> auto& {
-            return file_rule(job, name).labels[name_of_column(name)];
+          section + ".labels.*", [](Job & job, const std::string& name) -> auto& {
+            return rule(job, name).labels[name_of_column(name)];
           },
           "a column of text, the same in every row", "no such column", "\"316SS\""),
+  };
+}
+
+std::vector<KeyRule> match_key() {
+  return {named<std::string>(
+      "data.files.*.match",
+      [](Job & job, const std::string& name) -> auto& { return file_rule(job, name).match; },
+      "which files, with * for any letters: by the file's name, or by the whole name where "
+      "this one holds a /; the first rule that matches a file counts",
+      "an error", "\"pin_*.csv\"")};
+}
+
+std::vector<std::string> clocks() {
+  return {"time_s", "s_mm"};
+}
+
+std::vector<KeyRule> join_keys() {
+  return {
+      key<std::vector<std::string>>(
+          "data.join.files", [](Job & job) -> auto& { return job.data.join.files; },
+          "files, folders or names with *, as data.training; a test is known by its name", "none",
+          "\"fe/*.csv\""),
+      key<std::string>(
+          "data.join.by", [](Job & job) -> auto& { return job.data.join.by; },
+          "the clock that both have; between the rows of these files values are linear, beyond "
+          "their ends a row is left out and counted") |
+          Allowed{"", clocks},
+      key<data::AutoNumber>(
+          "data.join.offset", [](Job & job) -> auto& { return job.data.join.offset; },
+          "what is added to the clock of these files; \"auto\": where F_N_N, else s_mm, of both "
+          "agrees best, for each test"),
   };
 }
 
@@ -243,6 +308,15 @@ data::FileRule& file_rule(Job& job, const std::string& name) {
   const std::size_t number = std::stoul(name);
   if (job.data.files.size() < number) job.data.files.resize(number);
   return job.data.files[number - 1];
+}
+
+data::AutoNumber Kind<data::AutoNumber>::from(KeyValue& v) {
+  if (const double* number = std::get_if<double>(&v)) return {*number};
+  return {};
+}
+
+std::string Kind<data::AutoNumber>::show(const data::AutoNumber& v) {
+  return v.value ? shortest(*v.value) : toml_quoted("auto");
 }
 
 template <> data::Missing Kind<data::Missing>::from(KeyValue& v) {
@@ -301,8 +375,10 @@ std::vector<std::string> constant_names() { // what was measured, and time, cann
 std::vector<KeyRule> data_keys() {
   std::vector<KeyRule> rules = file_keys();
   for (std::vector<KeyRule>& more :
-       std::array{mapping_keys(), column_keys<of_all>("data.columns"), rule_keys(),
-                  column_keys<of_some>("data.files.*.columns")})
+       std::array{mapping_keys(), column_keys<of_all>("data.columns"), match_key(),
+                  rule_keys<file_rule>("data.files.*"),
+                  column_keys<of_some>("data.files.*.columns"), join_keys(),
+                  rule_keys<join_rule>("data.join"), column_keys<of_join>("data.join.columns")})
     for (KeyRule& rule : more)
       rules.push_back(std::move(rule));
   return rules;

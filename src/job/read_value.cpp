@@ -178,6 +178,12 @@ struct ValueReader {
       if (!value || !inside(*value)) return refuse(node);
       return *value;
     }
+    case KeyType::automatic: {
+      if (node.type == Type::text && node.text == "auto") return node.text;
+      const auto value = number(node);
+      if (!value || !inside(*value)) return refuse(node);
+      return *value;
+    }
     case KeyType::numbers:
       return numbers(node);
     case KeyType::range:

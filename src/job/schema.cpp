@@ -18,6 +18,12 @@ Place* data_place(Job& job, const std::string&) {
 Place* column_place(Job& job, const std::string& name) {
   return &job.data.columns[name].place;
 }
+Place* join_place(Job& job, const std::string&) {
+  return &job.data.join.place;
+}
+Place* join_column_place(Job& job, const std::string& name) {
+  return &job.data.join.how.columns[name].place;
+}
 Place* file_place(Job& job, const std::string& name) {
   return &schema::file_rule(job, name).place;
 }
@@ -85,7 +91,8 @@ const std::vector<SectionRule>& section_rules() {
       {"data.drop.*", "limits of one quantity", "", nullptr, drop_place},
       {"data.columns", "canonical name = the file's own, with its unit where it differs",
        "sigma_n_MPa = { column = \"Normal stress\", unit = \"Pa\" }\n"
-       "tau_R_MPa = { column = \"Friction\", times = \"sigma_n_MPa\" }",
+       "tau_R_MPa = { column = \"Friction\", times = \"sigma_n_MPa\" }\n"
+       "v_rel_mm_s = { formula = \"rpm*radius_mm*2*pi/60\" }",
        schema::column_names, nullptr},
       {"data.columns.*",
        "how one canonical column is taken from the file; a text or a number "
@@ -107,6 +114,18 @@ const std::vector<SectionRule>& section_rules() {
       {"data.files.*.constants", "values that are the same for every row of these files", "",
        schema::constant_names, nullptr, "quantity", true},
       {"data.files.*.labels", "texts that are the same for every row of these files", "", no_names,
+       nullptr, "label", true},
+      {"data.wide", "tables with one column per test: they are read as one row per value",
+       "columns = 'OA(?<oa_pct>\\d+)_(?<experiment>.*)'", nullptr, nullptr},
+      {"data.join",
+       "other files of the same tests, with a clock of their own, as their simulations: their "
+       "columns are brought onto the rows of the tests, with the keys of [[data.files]]",
+       "files = \"fe/*.csv\"", nullptr, join_place},
+      {"data.join.columns", "as data.columns, of these files", "", schema::column_names, nullptr},
+      {"data.join.columns.*", "as data.columns", "", nullptr, join_column_place},
+      {"data.join.constants", "values that are the same for every row of these files", "",
+       schema::constant_names, nullptr, "quantity", true},
+      {"data.join.labels", "texts that are the same for every row of these files", "", no_names,
        nullptr, "label", true},
       {"models", "which friction laws", "", nullptr, models_place},
       {"calibration", "how their parameters are found", "", nullptr, nullptr},
@@ -162,6 +181,8 @@ std::string expected(const KeyRule& rule) {
     return with_bounds("a whole number", rule.bounds);
   case KeyType::number:
     return with_bounds("a number", rule.bounds);
+  case KeyType::automatic:
+    return "\"auto\" or " + with_bounds("a number", rule.bounds);
   case KeyType::numbers:
     return with_bounds("a number", rule.bounds) + ", or a list of such numbers";
   case KeyType::range:

@@ -19,8 +19,9 @@ enum class KeyType {
   column, // a text, a list of texts or a column number
   whole,
   number,
-  numbers, // a number or a list of different ones
-  range,   // [from, to]
+  automatic, // "auto" or a number
+  numbers,   // a number or a list of different ones
+  range,     // [from, to]
   flag
 };
 

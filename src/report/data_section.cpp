@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "data/quantity.h"
+#include "report/data_lines.h"
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
@@ -59,8 +60,7 @@ std::string range_of(const data::Dataset& data, const std::string& name) {
 
 } // namespace
 
-void add_data(codegen::TemplateValues& page, const ReportInput& input) {
-  const data::Dataset &t = input.training, &v = input.validation;
+void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const data::Dataset& v) {
   std::vector<codegen::TemplateValues>& rows = page.lists["data"];
   const auto add = [&](const char* what, const std::string& training,
                        const std::string& validation) {
@@ -72,8 +72,13 @@ void add_data(codegen::TemplateValues& page, const ReportInput& input) {
   add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
   add("Derived", lines(t.notes), lines(v.notes));
   add("Implausible", lines(t.implausible), lines(v.implausible));
+  if (!t.unused.empty()) add("Beside the data, in none of them", lines(t.unused), "\u2013");
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
+}
 
+void add_data(codegen::TemplateValues& page, const ReportInput& input) {
+  const data::Dataset &t = input.training, &v = input.validation;
+  add_data_lines(page, t, v);
   std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];
   for (const data::Quantity& quantity : data::quantities()) {
     if (!t.has(quantity.name) && !v.has(quantity.name)) continue;

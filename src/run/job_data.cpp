@@ -58,25 +58,37 @@ void check_export_inputs(const codegen::ExportOptions& exports, const data::Data
   faults.throw_if_any();
 }
 
-JobData with_validation_files(const data::DataOptions& options) {
+// Tests that stand beside the data and are in neither of the two lists.
+std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Dataset& b) {
+  std::vector<std::string> both;
+  for (const std::string& name : a.unused)
+    if (std::find(b.unused.begin(), b.unused.end(), name) != b.unused.end()) both.push_back(name);
+  return both;
+}
+
+JobData with_validation_files(const data::DataOptions& options, FaultList& implausible) {
   JobData data;
   data.training = data::load_dataset(options.training, options);
   data.validation = data::load_dataset(options.validation, options);
   for (data::Dataset* part : {&data.training, &data.validation})
-    data::check_plausibility(*part, options.allow_implausible, options.place);
+    data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
+  data.training.unused = unused_by_both(data.training, data.validation);
+  data.validation.unused.clear();
   data.leak = calibrate::leak_note(data.training, data.validation);
   if (!data.leak.empty()) data.validation.notes.push_back(data.leak);
   return data;
 }
 
-JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed) {
+JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed,
+                            FaultList& implausible) {
   data::Dataset all = data::load_dataset(options.training, options);
-  data::check_plausibility(all, options.allow_implausible, options.place);
+  data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   data::Split split = data::hold_out(all, options.holdout, seed);
   JobData data;
   data.training = std::move(split.training);
   data.validation = std::move(split.validation);
   data.training.implausible = all.implausible;
+  data.training.unused = all.unused;
   data.leak = calibrate::leak_note(data.training, data.validation);
   if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
   return data;
@@ -98,9 +110,17 @@ void check_files(const data::DataOptions& options) {
 } // namespace
 
 JobData load_job_data(const job::Job& job) {
+  FaultList implausible;
+  JobData data = load_job_data(job, implausible);
+  implausible.throw_if_any();
+  return data;
+}
+
+JobData load_job_data(const job::Job& job, FaultList& implausible) {
   check_files(job.data);
-  JobData data = job.data.validation.empty() ? with_held_out_tests(job.data, job.calibration.seed)
-                                             : with_validation_files(job.data);
+  JobData data = job.data.validation.empty()
+                     ? with_held_out_tests(job.data, job.calibration.seed, implausible)
+                     : with_validation_files(job.data, implausible);
   add_oracle(job.data, data);
   check_export_inputs(job.exports, data.training);
   return data;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/error.h"
 #include "data/dataset.h"
 #include "job/job.h"
 
@@ -22,5 +23,8 @@ struct JobData {
 // InputError for files that cannot be used, for data.oracle with measured data, and where
 // [export.inputs] names what is no state, history or column.
 JobData load_job_data(const job::Job& job);
+
+// The same without an error where most rows are implausible: what is then goes to `faults`.
+JobData load_job_data(const job::Job& job, FaultList& implausible);
 
 } // namespace frictab::run

@@ -46,9 +46,9 @@ TEST(JobMessages, NameTheNearestKnownKey) {
   EXPECT_EQ(
       with("zzzzzzzz = 1"),
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
-      "  hint: known: drop, columns, constants, files, training, validation, oracle, holdout, "
-      "delimiter, decimal, skip_rows, skip_footer, units_row, missing, "
-      "allow_implausible, experiment, bystanders");
+      "  hint: known: drop, columns, constants, files, wide, join, training, validation, oracle, "
+      "holdout, delimiter, decimal, thousands, sheet, tests, skip_rows, skip_footer, units_row, "
+      "missing, allow_implausible, experiment, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {
@@ -373,11 +373,11 @@ TEST(JobMessages, SayWhatContradictsItself) {
                  "psi = { times = \"psi\" }"),
             "job.toml:4:17: error: data.columns.psi.times names the column itself\n"
             "  hint: a friction coefficient is multiplied with sigma_n_MPa");
-  EXPECT_EQ(
-      with("[data.columns]\n"
-           "psi = { times = \"s_mm\", area_mm2 = 1 }"),
-      "job.toml:4:7: error: data.columns.psi has more than one of times, area_mm2 and slope_rows\n"
-      "  hint: keep the one that says what the column is");
+  EXPECT_EQ(with("[data.columns]\n"
+                 "psi = { times = \"s_mm\", area_mm2 = 1 }"),
+            "job.toml:4:7: error: data.columns.psi has more than one of times, area_mm2, "
+            "slope_rows and formula\n"
+            "  hint: keep the one that says what the column is");
   EXPECT_EQ(with("[data.columns]\n"
                  "psi = \"A\"\n"
                  "[data.constants]\n"
@@ -500,6 +500,26 @@ TEST(JobMessages, SayThatNothingIsThere) {
                                     "  hint: write below [data]: training = \"training.csv\"");
   EXPECT_EQ(message("data = 3"), "job.toml:1:8: error: data must be a table, not 3\n"
                                  "  hint: write [data]");
+}
+
+TEST(JobMessages, LocateAFormulaAndAPattern) {
+  EXPECT_EQ(with("[data.columns]\npsi = { formula = \"2*(s_mm\" }"),
+            "job.toml:4:19: error: expected ')' in the formula '2*(s_mm', at character 8");
+  EXPECT_EQ(with("[data.columns]\npsi = { column = \"A\", formula = \"2\" }"),
+            "job.toml:4:7: error: data.columns.psi has a formula and a column\n"
+            "  hint: keep one of the two");
+  EXPECT_EQ(with("[data.wide]\ncolumns = 'OA\\d+'"),
+            "job.toml:4:11: error: data.wide.columns has no named group\n"
+            "  hint: what becomes a column is written (?<name>...)");
+  EXPECT_EQ(with("[data.join]\noffset = 0.5"), "job.toml:3:1: error: data.join has no files\n"
+                                               "  hint: files = \"fe/*.csv\" says which");
+  EXPECT_EQ(with("[data.join]\nfiles = \"fe\"\noffset = \"found\""),
+            "job.toml:5:10: error: data.join.offset must be \"auto\" or a number, not the text "
+            "\"found\"\n  hint: what is added to the clock of these files; \"auto\": where F_N_N, "
+            "else s_mm, of both agrees best, for each test; default \"auto\"");
+  EXPECT_EQ(with("thousands = \".\""),
+            "job.toml:3:13: error: data.thousands is \".\", as data.decimal is\n"
+            "  hint: it is what stands between groups of three digits");
 }
 
 } // namespace

@@ -313,7 +313,7 @@ std::string uncommented(const std::string& text) {
 TEST(JobTemplate, StaysAJobWithEveryKeyUncommented) {
   const Job job = parse_job(uncommented(job::job_template()), "job.toml");
   EXPECT_THAT(job.data.validation, ElementsAre("validation.csv"));
-  EXPECT_EQ(job.data.columns.size(), 2u);
+  EXPECT_EQ(job.data.columns.size(), 3u);
   EXPECT_EQ(job.table.axes.at("v_rel_mm_s").nodes, 17u);
   EXPECT_EQ(job.trace.repeatability, 0.03);
 }

@@ -201,6 +201,14 @@ TEST_F(Load, TellsUnitsThatDoNotConvertAndThoseThatDo) {
   EXPECT_THAT(text, HasSubstr("GPa"));
 }
 
+TEST_F(Load, TakesOneRowPerTestWhereEveryTestIsOne) {
+  const Dataset data = read("experiment,sigma_n_MPa,tau_R_MPa\na,1,2\nb,3,4\n");
+  EXPECT_THAT(data.first_row, testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(data.notes, testing::Contains(HasSubstr("one row per test")));
+  EXPECT_THAT(fault("experiment,time_s,sigma_n_MPa,tau_R_MPa\n0,0,1,2\n1,1,3,4\n"),
+              HasSubstr("every row is a test of its own, though there is time_s"));
+}
+
 TEST_F(Load, TellsSingleRowsBackwardTimeAndLoadsOfZero) {
   EXPECT_THAT(fault("experiment,sigma_n_MPa,tau_R_MPa\na,1,2\na,1,2\nb,3,4\n"),
               HasSubstr("a.csv:4: error: experiment 'b' has one row only"));

@@ -147,14 +147,18 @@ TEST(Plausibility, WhatMostRowsFailIsAnErrorUnlessItIsAllowed) {
   Dataset data = campaign();
   scale(data, "psi", 100);
   try {
-    data::check_plausibility(data, {}, {"job.toml", 2, 1});
+    FaultList faults;
+    data::check_plausibility(data, {}, {"job.toml", 2, 1}, faults);
+    faults.throw_if_any();
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("job.toml:2:1: error: psi is above 100 ("));
     EXPECT_THAT(error.what(),
                 HasSubstr("if it is right: data.allow_implausible = [\"surface_expansion\"]"));
   }
-  data::check_plausibility(data, {"surface_expansion"}, {});
+  FaultList faults;
+  data::check_plausibility(data, {"surface_expansion"}, {}, faults);
+  EXPECT_TRUE(faults.empty());
   EXPECT_THAT(data.implausible, testing::ElementsAre(HasSubstr("psi is above 100 (")));
 }
 

@@ -1,0 +1,77 @@
+// frictab data JOB: what was read, test by test, before anything is fitted to it.
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "calibrate/calibration.h"
+#include "cli/command.h"
+#include "core/text.h"
+#include "data/write_dataset.h"
+#include "job/job.h"
+#include "report/data_page.h"
+#include "run/data_summary.h"
+
+namespace frictab::cli::data_command {
+
+namespace {
+
+struct Options {
+  std::string job;
+  std::string write; // csv or hdf5
+};
+
+std::vector<std::string> texts_of(const FaultList& faults) {
+  std::vector<std::string> out;
+  try {
+    faults.throw_if_any();
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      out.push_back(fault.what + "; " + fault.hint);
+  }
+  return out;
+}
+
+// Everything is shown and written, also where most rows are implausible: then that is the error.
+int run(const Options& options, const CommonOptions& common) {
+  job::Job job = job::read_job(options.job, common.set);
+  if (!common.output.empty()) job.directory = common.output;
+  if (common.seed) job.calibration.seed = *common.seed;
+  FaultList implausible;
+  const run::JobData data = run::load_job_data(job, implausible);
+  io::OutputFiles files(job.directory);
+  files.write("data.html",
+              report::data_html({job.file, calibrate::is_synthetic(data.training), data.training,
+                                 data.validation, texts_of(implausible)}));
+  if (options.write == "csv") files.write("data.csv", data::csv_text(run::canonical(data)));
+  if (options.write == "hdf5")
+    data::write_hdf5_columns(run::canonical(data), files.stage("data.h5"));
+  const std::vector<std::string> written = files.paths();
+  files.commit();
+  fmt::print("{}", common.json ? run::data_json(data) : run::data_text(data));
+  std::fflush(stdout); // before the line to stderr
+  note(common, fmt::format("wrote {} to {}", join(written, ", "), job.directory));
+  implausible.throw_if_any();
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("JOB", options->job, "Job file (TOML)")->required();
+  app.add_option("--write", options->write,
+                 "also write the data in canonical names and units: data.csv or data.h5")
+      ->check(CLI::IsMember({"csv", "hdf5"}))
+      ->expected(0, 1)
+      ->default_str("csv");
+  return [options, &common] { return run(*options, common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"data", 2, "Show what was read: each test, what was converted, computed, left out",
+                 declare};
+}};
+
+} // namespace
+
+} // namespace frictab::cli::data_command

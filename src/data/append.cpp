@@ -1,0 +1,66 @@
+// Columns of two datasets end to end.
+#include "data/append.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace frictab::data {
+
+void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults) {
+  for (const std::string& name : more.experiments)
+    if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
+      faults.add({file, 0, 0}, fmt::format("experiment '{}' is in another file as well", name),
+                 "give experiments different names, or join the files");
+  for (const Column& column : more.columns)
+    if (!all.find(column.name))
+      faults.add({file, 0, 0}, fmt::format("column {} is not in {}", column.name, all.sources[0]),
+                 "all files of a list need the same columns; see data.bystanders");
+  for (Column& column : all.columns) {
+    const Column* other = more.find(column.name);
+    if (!other) {
+      faults.add({file, 0, 0},
+                 fmt::format("there is no column {}, which {} has", column.name, all.sources[0]),
+                 "all files of a list need the same columns; see data.bystanders");
+      continue;
+    }
+    if (column.levels.empty() != other->levels.empty()) {
+      faults.add({file, 0, 0},
+                 fmt::format("column {} is text in one file and numbers in another", column.name));
+      continue;
+    }
+    std::vector<std::string> levels = column.levels;
+    levels.insert(levels.end(), other->levels.begin(), other->levels.end());
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    const auto recode = [&](const Column& from, double code) {
+      if (levels.empty()) return code;
+      const std::string& level = from.levels[static_cast<std::size_t>(code)];
+      return static_cast<double>(std::lower_bound(levels.begin(), levels.end(), level) -
+                                 levels.begin());
+    };
+    for (double& value : column.values)
+      value = recode(column, value);
+    for (const double value : other->values)
+      column.values.push_back(recode(*other, value));
+    column.levels = std::move(levels);
+  }
+  const std::size_t offset = all.first_row.back();
+  all.experiments.insert(all.experiments.end(), more.experiments.begin(), more.experiments.end());
+  for (std::size_t e = 1; e < more.first_row.size(); ++e)
+    all.first_row.push_back(offset + more.first_row[e]);
+  for (const Dataset::Dropped& dropped : more.dropped) {
+    const auto same = std::find_if(all.dropped.begin(), all.dropped.end(),
+                                   [&](const auto& there) { return there.rule == dropped.rule; });
+    if (same == all.dropped.end())
+      all.dropped.push_back(dropped);
+    else
+      same->rows += dropped.rows;
+  }
+  all.clocks.insert(all.clocks.end(), more.clocks.begin(), more.clocks.end());
+  for (std::string& note : more.notes)
+    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end())
+      all.notes.push_back(std::move(note));
+}
+
+} // namespace frictab::data

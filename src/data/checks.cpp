@@ -1,0 +1,116 @@
+// Faults of cells, values and experiments.
+#include "data/checks.h"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/quantity.h"
+
+namespace frictab::data {
+
+void tell_cells(Part& part) {
+  if (part.cell_faults.empty()) return;
+  const std::set<std::size_t> kept(part.row.begin(), part.row.end());
+  FaultsByCause causes;
+  for (MappedFile::CellFault& cell : part.cell_faults)
+    if (kept.count(cell.row) > 0) causes.add(cell.cause, std::move(cell.fault));
+  causes.tell(part.faults, "cell");
+  part.cell_faults.clear();
+}
+
+void check_needed(Part& part, const DataOptions& options) {
+  if (!part.find("sigma_n_MPa") && !options.columns.count("sigma_n_MPa"))
+    part.faults.add(part.header(), "there is no column sigma_n_MPa",
+                    "map it in [data.columns], or give it in [data.constants]; the file has: " +
+                        join(part.raw_names(), ", "));
+}
+
+void check_values(Part& part) {
+  FaultsByCause causes;
+  for (const Column& column : part.data.columns) {
+    const Quantity* quantity = find_quantity(column.name);
+    if (!quantity) continue;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+      if (column.name == "F_N_N" && !part.measured_tau && column.values[i] == 0)
+        causes.add("no load",
+                   {part.place(i), "F_N_N is 0: there is no friction coefficient",
+                    "leave rows without load out: data.drop = { F_N_N = { below = 1 } }"});
+      if (!(column.values[i] < quantity->lowest)) continue;
+      std::string hint =
+          fmt::format("a {} cannot be below {}{}", quantity->meaning, quantity->lowest,
+                      quantity->unit == "1" ? "" : " " + quantity->unit);
+      if (quantity->lowest == 0)
+        hint += fmt::format("; leave such rows out with data.drop = {{ {} = {{ below = 0 }} }}",
+                            column.name);
+      causes.add("low " + column.name,
+                 {part.place(i), fmt::format("{} is {}", column.name, column.values[i]), hint});
+    }
+  }
+  causes.tell(part.faults, "row");
+}
+
+void check_computed(Part& part) {
+  if (!part.faults.empty()) return;
+  FaultsByCause causes;
+  for (const Column& column : part.data.columns)
+    for (std::size_t i = 0; find_quantity(column.name) && i < column.values.size(); ++i)
+      if (!std::isfinite(column.values[i]))
+        causes.add(column.name,
+                   {part.place(i), column.name + " cannot be computed here",
+                    "time stands still, a neighbouring row holds no number, or the numbers "
+                    "are too large"});
+  causes.tell(part.faults, "row");
+}
+
+namespace {
+
+// A column that numbers the rows makes every row a test.
+void check_names(Part& part) {
+  const Dataset& data = part.data;
+  const bool named_by_column = data.experiments.size() > 1;
+  if (named_by_column && data.rows() == data.experiments.size() && data.rows() > 1 &&
+      data.has("time_s"))
+    part.faults.add(part.place(0), "every row is a test of its own, though there is time_s",
+                    "is this the right experiment column? Tests of one row each have no time: "
+                    "leave it out");
+}
+
+// A campaign of one row per test is data; one such test among time series is a mistake.
+void check_single_rows(Part& part) {
+  const Dataset& data = part.data;
+  std::vector<std::size_t> single;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    if (data.first_row[e + 1] - data.first_row[e] == 1) single.push_back(e);
+  if (single.empty()) return;
+  if (single.size() == data.experiments.size()) {
+    part.data.notes.emplace_back("one row per test: values of whole tests, not of their course");
+    return;
+  }
+  for (const std::size_t e : single)
+    part.faults.add(part.place(data.first_row[e]),
+                    fmt::format("experiment '{}' has one row only", data.experiments[e]),
+                    "the others of its file are time series; is this the right experiment column?");
+}
+
+} // namespace
+
+void check_experiments(Part& part) {
+  check_names(part);
+  check_single_rows(part);
+  const Dataset& data = part.data;
+  const Column* time = part.find("time_s");
+  for (std::size_t e = 0; time && e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e] + 1; i < data.first_row[e + 1]; ++i)
+      if (time->values[i] < time->values[i - 1]) {
+        part.faults.add(part.place(i),
+                        fmt::format("time_s goes back from {} to {} inside experiment '{}'",
+                                    time->values[i - 1], time->values[i], data.experiments[e]),
+                        "rows are in time order; is this two experiments?");
+        break; // once per experiment
+      }
+}
+
+} // namespace frictab::data

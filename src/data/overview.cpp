@@ -1,0 +1,57 @@
+// Spans and means of each experiment.
+#include "data/overview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "data/quantity.h"
+
+namespace frictab::data {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::pair<double, double> span_of(std::span<const double> values) {
+  std::pair<double, double> span{nan, nan};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    if (!(span.first <= value)) span.first = value;
+    if (!(span.second >= value)) span.second = value;
+  }
+  return span;
+}
+
+// Of a ratio, over the rows where what stands below is positive.
+double mean_ratio(std::span<const double> above, std::span<const double> below) {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (below[i] > 0) {
+      sum += above[i] / below[i];
+      ++n;
+    }
+  return n > 0 ? sum / n : nan;
+}
+
+} // namespace
+
+std::vector<TestOverview> overview(const Dataset& data) {
+  std::vector<TestOverview> tests;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+    const auto of = [&](const std::string& name) { return data.values(name).subspan(first, rows); };
+    TestOverview test{data.experiments[e], rows, {}, nan, {}};
+    for (const Quantity& quantity : quantities())
+      if (data.has(quantity.name))
+        test.spans.emplace_back(quantity.name, span_of(of(quantity.name)));
+    test.mean_mu = mean_ratio(of("tau_R_MPa"), of("sigma_n_MPa"));
+    if (data.has("sigma_f_MPa"))
+      test.mean_of_k = std::numbers::sqrt3 * mean_ratio(of("tau_R_MPa"), of("sigma_f_MPa"));
+    tests.push_back(std::move(test));
+  }
+  return tests;
+}
+
+} // namespace frictab::data

@@ -1,0 +1,87 @@
+// Rows of one file, gathered by experiment and left out.
+#include "data/part.h"
+
+#include <map>
+
+namespace frictab::data {
+
+Column* Part::find(std::string_view name) {
+  for (Column& column : data.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+std::vector<std::string> Part::raw_names() const {
+  std::vector<std::string> names;
+  for (const io::CsvColumn& column : raw.columns)
+    if (!column.name.empty()) names.push_back(column.name);
+  return names;
+}
+
+void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label) {
+  Dataset& data = part.data;
+  const std::size_t rows = part.raw.rows();
+  std::map<std::string, std::size_t> index;
+  std::vector<std::vector<std::size_t>> members;
+  const auto name_of = [&](std::size_t i) -> const std::string& {
+    return mapped.experiment.empty() ? label : mapped.experiment[i];
+  };
+  std::size_t current = 0; // rows of one experiment mostly follow each other
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::string& name = name_of(i);
+    if (i > 0 && name == name_of(i - 1)) {
+      members[current].push_back(i);
+      continue;
+    }
+    const auto [found, is_new] = index.emplace(name, members.size());
+    if (is_new) {
+      members.emplace_back();
+      data.experiments.push_back(name);
+    }
+    current = found->second;
+    members[current].push_back(i);
+  }
+  for (const auto& rows_of_one : members) {
+    part.row.insert(part.row.end(), rows_of_one.begin(), rows_of_one.end());
+    data.first_row.push_back(part.row.size());
+  }
+  for (Column& column : mapped.columns) {
+    Column sorted{column.name, column.unit, std::vector<double>(rows), column.levels};
+    for (std::size_t i = 0; i < rows; ++i)
+      sorted.values[i] = column.values[part.row[i]];
+    data.columns.push_back(std::move(sorted));
+  }
+  data.notes = std::move(mapped.notes);
+  part.cell_faults = std::move(mapped.cell_faults);
+}
+
+void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
+  Dataset& data = part.data;
+  std::vector<std::size_t> first{0};
+  std::vector<std::string> names;
+  std::vector<std::size_t> kept;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      if (keep[i]) kept.push_back(i);
+    if (kept.size() == first.back()) continue; // nothing of it is left
+    names.push_back(data.experiments[e]);
+    first.push_back(kept.size());
+  }
+  if (kept.size() == part.row.size()) return;
+  if (kept.empty() && if_none && part.faults.empty())
+    part.faults.add({part.raw.file, 0, 0}, if_none);
+  for (Column& column : data.columns) {
+    std::vector<double> values;
+    for (const std::size_t i : kept)
+      values.push_back(column.values[i]);
+    column.values = std::move(values);
+  }
+  std::vector<std::size_t> row;
+  for (const std::size_t i : kept)
+    row.push_back(part.row[i]);
+  part.row = std::move(row);
+  data.experiments = std::move(names);
+  data.first_row = std::move(first);
+}
+
+} // namespace frictab::data

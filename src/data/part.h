@@ -1,0 +1,33 @@
+// One file on its way to a campaign.
+#pragma once
+
+#include "data/dataset.h"
+#include "data/mapping.h"
+#include "data/raw.h"
+
+namespace frictab::data {
+
+// A file as a campaign, with the raw row of each of its rows.
+struct Part {
+  Dataset data;
+  io::CsvTable raw;
+  std::vector<std::size_t> row; // raw row
+  bool measured_tau = true;
+  FaultList faults;
+  std::vector<MappedFile::CellFault> cell_faults; // not told yet
+
+  Column* find(std::string_view name);
+  Place header() const { return {raw.file, raw.header_line, 0}; }
+  Place place(std::size_t i) const { return row_place(raw, row[i]); }
+  std::vector<std::string> raw_names() const; // of the file's columns
+};
+
+// Orders rows so that each experiment is contiguous, in order of first appearance. `label` is the
+// experiment of a file that is one.
+void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label);
+
+// The rows whose `keep` is not 0; an experiment without a row goes. Where no row is left, that is a
+// fault, in these words (nullptr: it is none).
+void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none);
+
+} // namespace frictab::data

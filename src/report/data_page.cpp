@@ -1,0 +1,154 @@
+// Small multiples of all tests, and their table.
+#include "report/data_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "codegen/template.h"
+#include "core/text.h"
+#include "data/overview.h"
+#include "data/quantity.h"
+#include "report/data_lines.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab::report {
+
+namespace {
+
+using codegen::TemplateValues;
+using data::Dataset;
+
+// What the strokes run over: the first of these that the data have.
+const data::Quantity* abscissa(const Dataset& data) {
+  for (const char* name : {"s_mm", "time_s"})
+    if (data.has(name)) return data::find_quantity(name);
+  return nullptr;
+}
+
+struct Curve {
+  std::vector<double> x, y;
+};
+
+// Of one test; of long ones the lowest and highest value of 150 pieces, so that spikes are seen.
+Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
+  const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+  const auto tau = data.values("tau_R_MPa").subspan(first, rows);
+  std::vector<double> x(rows);
+  std::iota(x.begin(), x.end(), 1);
+  if (over) {
+    const auto values = data.values(over->name).subspan(first, rows);
+    x.assign(values.begin(), values.end());
+  }
+  Curve curve;
+  constexpr std::size_t pieces = 150;
+  const std::size_t width = rows / pieces + 1;
+  for (std::size_t begin = 0; begin < rows; begin += width) {
+    const auto from = tau.begin() + static_cast<long>(begin);
+    const auto to = tau.begin() + static_cast<long>(std::min(begin + width, rows));
+    const auto [low, high] = std::minmax_element(from, to);
+    for (const auto at : {std::min(low, high), std::max(low, high)}) {
+      curve.x.push_back(x[static_cast<std::size_t>(at - tau.begin())]);
+      curve.y.push_back(*at);
+      if (low == high) break;
+    }
+  }
+  return curve;
+}
+
+svg::Axis axis_over(const DataPage& page, const std::string& name, std::string label) {
+  double low = 0, high = 0;
+  for (const Dataset* data : {&page.training, &page.validation})
+    for (const double value : data->values(name))
+      if (std::isfinite(value)) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+  return svg::nice_axis(low, high, 2, std::move(label));
+}
+
+svg::Axis row_axis(const DataPage& page) {
+  std::size_t most = 1;
+  for (const Dataset* data : {&page.training, &page.validation})
+    for (std::size_t e = 0; e < data->experiments.size(); ++e)
+      most = std::max(most, data->first_row[e + 1] - data->first_row[e]);
+  return svg::nice_axis(0, static_cast<double>(most), 2, "row");
+}
+
+void add_strokes(TemplateValues& values, const DataPage& page) {
+  const data::Quantity* over = abscissa(page.training);
+  const svg::Axis x =
+      over ? axis_over(page, over->name, over->symbol + " in " + over->unit) : row_axis(page);
+  const svg::Axis y = axis_over(page, "tau_R_MPa", "tau_R in MPa");
+  const auto add = [&](const Dataset& data, const char* use, const char* colour) {
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      const Curve curve = curve_of(data, e, over);
+      svg::Plot plot(150, 90, x, y);
+      plot.line(curve.x, curve.y, {colour, 1.2, "", false});
+      const std::string& name = data.experiments[e];
+      const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
+      values.lists["strokes"].push_back(
+          {{{"name", svg::escape(name)},
+            {"use", use},
+            {"plot",
+             plot.text(fmt::format("test {}", name),
+                       fmt::format("tau_R of {} of test {}", count_of(rows, "row"), name))}},
+           {},
+           {}});
+    }
+  };
+  add(page.training, "", "#1d5491");
+  add(page.validation, "validation", "#b45309");
+}
+
+std::string span_text(const std::pair<double, double>& span) {
+  return span.first == span.second
+             ? short_figures(span.first)
+             : short_figures(span.first) + " to " + short_figures(span.second);
+}
+
+void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
+  for (const data::TestOverview& test : data::overview(data)) {
+    TemplateValues row{{{"name", svg::escape(test.experiment)},
+                        {"use", use},
+                        {"rows", thousands(test.rows)},
+                        {"mu", figures(test.mean_mu)},
+                        {"of_k", test.mean_of_k ? figures(*test.mean_of_k) : "\u2013"}},
+                       {},
+                       {}};
+    for (const auto& [name, span] : test.spans)
+      row.text["spans"] += "<td class=\"num\">" + span_text(span) + "</td>";
+    values.lists["tests"].push_back(std::move(row));
+  }
+}
+
+} // namespace
+
+std::string data_html(const DataPage& page) {
+  TemplateValues values;
+  values.text["title"] = svg::escape(shown_path(page.title));
+  values.text["style"] = std::string(codegen::embedded_template("report/style.css"));
+  values.text["size"] =
+      fmt::format("{} of {} tests to train, {} of {} to validate",
+                  count_of(page.training.rows(), "row"), page.training.experiments.size(),
+                  count_of(page.validation.rows(), "row"), page.validation.experiments.size());
+  values.flags["synthetic"] = page.synthetic;
+  for (const std::string& fault : page.faults)
+    values.lists["faults"].push_back({{{"text", svg::escape(fault)}}, {}, {}});
+  values.flags["has_faults"] = !page.faults.empty();
+  for (const data::Quantity& quantity : data::quantities())
+    if (page.training.has(quantity.name))
+      values.text["quantity_names"] +=
+          "<th scope=\"col\" class=\"num\">" + svg::escape(quantity.name) + "</th>";
+  add_strokes(values, page);
+  add_tests(values, page.training, "training");
+  add_tests(values, page.validation, "validation");
+  add_data_lines(values, page.training, page.validation);
+  return codegen::render_template("report/data.html", values);
+}
+
+} // namespace frictab::report
