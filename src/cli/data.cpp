@@ -24,12 +24,8 @@ struct Options {
 
 std::vector<std::string> texts_of(const FaultList& faults) {
   std::vector<std::string> out;
-  try {
-    faults.throw_if_any();
-  } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      out.push_back(fault.what + "; " + fault.hint);
-  }
+  for (const Fault& fault : faults.all())
+    out.push_back(fault.what + "; " + fault.hint);
   return out;
 }
 

@@ -47,6 +47,7 @@ public:
   void add(Place place, std::string what, std::string hint = "");
   bool empty() const { return faults_.empty(); }
   std::size_t size() const { return faults_.size(); }
+  const std::vector<Fault>& all() const { return faults_; }
   void throw_if_any() const;
 
 private:

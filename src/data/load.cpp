@@ -82,21 +82,19 @@ Part load_second_part(const FilePlan& plan) {
   return part;
 }
 
-// The faults of each file by line.
+// The faults of each file by line; those that several files have alike, of the first.
 void throw_faults(const std::vector<Part>& parts) {
-  FaultList faults;
+  FaultsByCause causes;
   for (const Part& part : parts) {
-    try {
-      part.faults.throw_if_any();
-    } catch (const InputError& error) {
-      std::vector<Fault> sorted = error.faults();
-      std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
-        return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
-      });
-      for (const Fault& fault : sorted)
-        faults.add(fault.place, fault.what, fault.hint);
-    }
+    std::vector<Fault> sorted = part.faults.all();
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+      return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+    });
+    for (const Fault& fault : sorted)
+      causes.add(fault.what + fault.hint, fault);
   }
+  FaultList faults;
+  causes.tell(faults, parts.size() > 1 ? "place" : "row");
   faults.throw_if_any();
 }
 

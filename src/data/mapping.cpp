@@ -23,13 +23,6 @@ namespace {
 
 const char* const experiment_column = "experiment";
 
-std::string strip_brackets(std::string unit) {
-  if (unit.size() >= 2 && std::string("[(").find(unit.front()) != std::string::npos &&
-      std::string("])").find(unit.back()) != std::string::npos)
-    unit = unit.substr(1, unit.size() - 2);
-  return unit;
-}
-
 // "nan", "-Inf", "1e999".
 bool is_not_finite(const std::string& text) {
   char* end = nullptr;
@@ -196,7 +189,7 @@ private:
                     const ColumnSource& from) {
     const std::string& header_unit = headers_[std::size_t(&raw - raw_.columns.data())].unit;
     std::string unit = !from.unit.empty()  ? from.unit
-                       : !raw.unit.empty() ? strip_brackets(raw.unit)
+                       : !raw.unit.empty() ? io::without_brackets(raw.unit)
                                            : header_unit;
     std::string wanted = quantity.unit;
     if (!from.times.empty()) wanted = "1";

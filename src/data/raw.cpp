@@ -137,10 +137,6 @@ std::string last_line(std::string text) {
   return text.substr(text.find_last_of('\n') + 1);
 }
 
-bool is_workbook(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string()) == ".xlsx";
-}
-
 // A sheet as CSV, numbers as they are stored, whatever format they are shown in.
 std::string sheet_text(const std::string& path, const std::string& named,
                        const std::string& sheet) {
@@ -177,6 +173,14 @@ std::vector<std::string> wanted_names(const DataOptions& options) {
 
 } // namespace
 
+bool is_workbook(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string()) == ".xlsx";
+}
+
+std::string raw_text(const std::string& path, const std::string& named, const std::string& sheet) {
+  return is_workbook(path) ? sheet_text(path, named, sheet) : io::read_file(path);
+}
+
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {
   if (table.header_line == 0) return {table.file, 0, 0};
   return {table.file, table.line[row], column};
@@ -200,11 +204,12 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
   if (const std::string column = experiment_column_of(options); !column.empty())
     format.text_columns.push_back(column);
   format.wanted = wanted_names(options);
-  if (!is_workbook(path)) return io::parse_csv(io::read_file(path), named, format, faults);
-  format.delimiter = ','; // as xlsx2csv writes
-  format.decimal = '.';
-  format.thousands = 0;
-  return io::parse_csv(sheet_text(path, named, options.sheet), named, format, faults);
+  if (is_workbook(path)) { // as xlsx2csv writes
+    format.delimiter = ',';
+    format.decimal = '.';
+    format.thousands = 0;
+  }
+  return io::parse_csv(raw_text(path, named, options.sheet), named, format, faults);
 }
 
 } // namespace frictab::data

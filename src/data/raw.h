@@ -11,6 +11,11 @@ namespace frictab::data {
 // `what`.
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column = 0);
 
+// The text of a file that is no HDF5; of a workbook (.xlsx) that of a sheet (empty: the first one)
+// as CSV with commas and points.
+std::string raw_text(const std::string& path, const std::string& named, const std::string& sheet);
+bool is_workbook(const std::string& path);
+
 // CSV; a sheet of a workbook (.xlsx); or HDF5 where the file starts like it, with one dataset per
 // column, or one group of such datasets per experiment, whose attributes are columns as well (then
 // `line` counts rows from 1 and header_line is 0).

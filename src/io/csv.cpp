@@ -529,6 +529,13 @@ HeaderName read_header_name(const std::string& text) {
   return {text, ""};
 }
 
+std::string without_brackets(std::string unit) {
+  if (unit.size() >= 2 && std::string("[(").find(unit.front()) != std::string::npos &&
+      std::string("])").find(unit.back()) != std::string::npos)
+    return unit.substr(1, unit.size() - 2);
+  return unit;
+}
+
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n;\t ") == std::string::npos && !text.empty()) return text;
   std::string out = "\"";

@@ -63,6 +63,9 @@ struct HeaderName {
 };
 HeaderName read_header_name(const std::string& text);
 
+// "[kN]" and "(kN)" of a units row as kN.
+std::string without_brackets(std::string unit);
+
 // A text as the cell of a file with commas: quoted where it must be.
 std::string csv_cell(const std::string& text);
 
