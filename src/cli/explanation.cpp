@@ -181,6 +181,12 @@ Explanation about_table_layout() {
       {"AXIS: outside_low, outside_high",
        "optional, what a query beyond that end gets: clamp (as without), error or law",
        {}},
+      {"AXIS: data_low, data_high",
+       "optional: what the data reach on which the law was calibrated",
+       {}},
+      {"AXIS: share_beyond_data",
+       "written for readers: share of the nodes that lie beyond them, 0 to 1",
+       {}},
       {"value: extension",
        "where a side says law: the law's own `value` (never its ln) as an expression of the axes "
        "and constants; a long one goes on in extension_2, extension_3, ...",

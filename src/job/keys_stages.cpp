@@ -32,6 +32,9 @@ std::vector<std::string> interpolations() {
 std::vector<std::string> coordinates() {
   return {"law", "plain"};
 }
+std::vector<std::string> reaches() {
+  return {"data", "table1"};
+}
 std::vector<std::string> spacings() {
   return {"linear", "log"};
 }
@@ -234,6 +237,12 @@ std::vector<KeyRule> table_keys() {
           "what is interpolated, over what: law = logarithms where they make the law straight, "
           "plain = the value over the states themselves (no logarithm per query, more nodes)") |
           Allowed{"", coordinates},
+      key<std::string>(
+          "table.range", [](Job & job) -> auto& { return job.table.range; },
+          "what axes reach where [table.axes] gives no range: data = the training data, table1 = "
+          "Table 1 of the paper as well, where the data cover half of it; nodes beyond the data "
+          "are told by the summary, the table's file and the report") |
+          Allowed{"", reaches},
       key<std::optional<std::size_t>>(
           "table.nodes", [](Job & job) -> auto& { return job.table.nodes; },
           "instead of a table to the tolerance, the closest of at most so many nodes in all",
@@ -247,7 +256,7 @@ std::vector<KeyRule> table_keys() {
       named<std::optional<std::pair<double, double>>>(
           "table.axes.*.range",
           [](Job & job, const std::string& name) -> auto& { return axis(job, name).range; },
-          "ends of the axis in the canonical unit", "chosen by the tool from the data", "[5, 500]"),
+          "ends of the axis in the canonical unit", "what table.range says", "[5, 500]"),
       named<std::optional<std::size_t>>(
           "table.axes.*.nodes",
           [](Job & job, const std::string& name) -> auto& { return axis(job, name).nodes; },

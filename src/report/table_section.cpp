@@ -10,6 +10,7 @@
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
+#include "table/beyond_data.h"
 #include "table/bound.h"
 #include "verify/beyond.h"
 
@@ -54,7 +55,9 @@ std::string forms_of(const ReportInput& input, const table::Table& table) {
 }
 
 TemplateValues axis_row(const table::Table& table, const table::TableAxis& axis) {
-  const std::string why = table.record.input(axis.name).range_from.value_or("");
+  std::string why = table.record.input(axis.name).range_from.value_or("");
+  if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
+    why += (why.empty() ? "" : "; ") + beyond;
   const bool any = !axis.nodes.empty();
   const double none = std::numeric_limits<double>::quiet_NaN();
   return {{{"name", svg::escape(axis.name)},

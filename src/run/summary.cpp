@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "io/json.h"
 #include "report/numbers.h"
+#include "table/beyond_data.h"
 #include "table/bound.h"
 #include "trace/trace_file.h"
 #include "trace/trace_text.h"
@@ -159,6 +160,9 @@ void add_tables(std::string& out, const Pipeline& p) {
                            : ", " + std::string(table::interpolation_name(table.interpolation)));
     if (const std::string edge = codegen::edge_text(table); !edge.empty())
       out += fmt::format("  {:<14} {}\n", "", edge);
+    for (const table::TableAxis& axis : table.axes)
+      if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
+        out += fmt::format("  {:<14} {}: {}\n", "", axis.name, beyond);
     if (table.interpolation == table::Interpolation::linear && table.nodes() > many_nodes)
       out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",
@@ -402,6 +406,18 @@ nlohmann::ordered_json form_json(const verify::FormComparison& c) {
           {"verdict", verify::form_verdict(c)}};
 }
 
+nlohmann::ordered_json table_json(const table::Table& table) {
+  nlohmann::ordered_json j = {
+      {"model", table.model}, {"nodes", table.nodes()}, {"bytes", table.bytes()}};
+  for (const table::TableAxis& axis : table.axes)
+    if (axis.data)
+      j["axes"].push_back({{"name", axis.name},
+                           {"range", {axis.nodes.front(), axis.nodes.back()}},
+                           {"data", {axis.data->first, axis.data->second}},
+                           {"share_beyond_data", table::share_beyond_data(axis)}});
+  return j;
+}
+
 } // namespace
 
 std::string summary_json(const Pipeline& p) {
@@ -412,7 +428,7 @@ std::string summary_json(const Pipeline& p) {
         io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
   for (const table::Table& table : p.tables())
-    tables.push_back({{"model", table.model}, {"nodes", table.nodes()}, {"bytes", table.bytes()}});
+    tables.push_back(table_json(table));
   if (!tables.empty()) j["tables"] = tables;
   if (p.verification())
     j["verification"] = io::parse_json(verify::verification_json(*p.verification()), "verify.json");

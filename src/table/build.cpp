@@ -30,6 +30,7 @@ AxisPlan plan_axis(const models::Law& law, const StateRange& range, const TableO
   plan.axis.name = range.name;
   plan.axis.unit = quantity.unit;
   plan.axis.long_name = quantity.text;
+  plan.axis.data = range.data;
   const auto own = law.log_axes.find(range.name);
   const bool plain = options.coordinates == "plain";
   plan.axis.log =

@@ -43,7 +43,7 @@ States box_points(const std::vector<StateRange>& ranges, std::size_t samples) {
   for (std::size_t i = 0; i < samples; ++i) { // even fill; every second in log coordinates
     halton(i, unit);
     for (std::size_t d = 0; d < dims; ++d) {
-      const auto& [name, low, high, why] = ranges[d];
+      const double low = ranges[d].low, high = ranges[d].high;
       const bool log = i % 2 == 1 && low > 0;
       const double x = log ? std::exp(std::log(low) + unit[d] * (std::log(high) - std::log(low)))
                            : low + unit[d] * (high - low);

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/json.h"
+#include "table/beyond_data.h"
 #include "table/bound.h"
 #include "table/outside.h"
 #include "table/states.h"
@@ -58,6 +59,7 @@ void add_axes(std::string& out, const Table& table) {
     if (axis.below != Outside::clamp || axis.above != Outside::clamp)
       out += fmt::format("; outside: {} below, {} above", outside_name(axis.below),
                          outside_name(axis.above));
+    if (const std::string beyond = beyond_data_text(axis); !beyond.empty()) out += "; " + beyond;
     out += "\n";
   }
   for (const std::string& name : table.inputs())
@@ -110,19 +112,32 @@ std::string info_text(const TableDescription& description, const std::string& fi
   return out;
 }
 
+namespace {
+
+nlohmann::ordered_json axis_json(const TableAxis& axis) {
+  nlohmann::ordered_json j = {{"name", axis.name},
+                              {"unit", axis.unit},
+                              {"long_name", axis.long_name},
+                              {"transform", axis.log ? "log" : "linear"},
+                              {"spacing", spacing_of(axis)},
+                              {"kinks", axis.kinks},
+                              {"outside", {outside_name(axis.below), outside_name(axis.above)}}};
+  if (axis.data) {
+    j["data"] = {axis.data->first, axis.data->second};
+    j["share_beyond_data"] = share_beyond_data(axis);
+  }
+  j["nodes"] = axis.nodes;
+  return j;
+}
+
+} // namespace
+
 std::string info_json(const TableDescription& description, const std::string& file) {
   const Table& table = description.table;
   const TableAttributes attributes = root_attributes(table);
   auto axes = nlohmann::ordered_json::array();
   for (const TableAxis& axis : table.axes)
-    axes.push_back({{"name", axis.name},
-                    {"unit", axis.unit},
-                    {"long_name", axis.long_name},
-                    {"transform", axis.log ? "log" : "linear"},
-                    {"spacing", spacing_of(axis)},
-                    {"kinks", axis.kinks},
-                    {"outside", {outside_name(axis.below), outside_name(axis.above)}},
-                    {"nodes", axis.nodes}});
+    axes.push_back(axis_json(axis));
   nlohmann::ordered_json j = {{"schema", "frictab/table_info/1"},
                               {"file", file},
                               {"model", table.model},

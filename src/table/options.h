@@ -25,6 +25,7 @@ struct TableOptions {
   std::vector<std::string> model{"best"}; // best | names | all
   std::vector<double> quantile{0.5};      // of the experiments: one table each
   double tolerance_MPa = 0.5;
+  std::string range = "data"; // what axes reach: data | table1: Table 1 of the paper as well
   std::optional<Interpolation> interpolation; // absent: linear where that is small, else cubic
   std::string coordinates = "law";            // law: those in which it is straight | plain: none
   std::optional<std::size_t> nodes;           // the closest table of so many nodes ...

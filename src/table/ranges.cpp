@@ -16,7 +16,7 @@ namespace {
 
 StateRange data_range(const std::string& name, std::span<const double> values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {name, *low, *high, "training data"};
+  return {name, *low, *high, "training data", {{*low, *high}}};
 }
 
 void widen_one_value(StateRange& range, double lowest) { // a grid needs two nodes
@@ -33,7 +33,17 @@ double coverage(const StateRange& range, double a, double b, bool log) {
   return (std::min(u(range.high), u(b)) - std::max(u(range.low), u(a))) / (u(b) - u(a));
 }
 
-StateRange default_range(const data::Quantity& quantity, std::span<const double> values) {
+void join_table_1(StateRange& range, const data::Quantity& quantity) {
+  if (!quantity.paper_range) return;
+  const auto [a, b] = *quantity.paper_range;
+  if (coverage(range, a, b, quantity.log_axis) < 0.5) return;
+  range.low = std::min(range.low, a);
+  range.high = std::max(range.high, b);
+  range.why = "Table 1 and training data";
+}
+
+StateRange default_range(const data::Quantity& quantity, std::span<const double> values,
+                         const TableOptions& options) {
   StateRange range = data_range(quantity.name, values);
   if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
     range.low *= 0.5;
@@ -41,14 +51,7 @@ StateRange default_range(const data::Quantity& quantity, std::span<const double>
     range.why = "half to twice the training data";
     return range;
   }
-  if (quantity.paper_range) {
-    const auto [a, b] = *quantity.paper_range;
-    if (coverage(range, a, b, quantity.log_axis) >= 0.5) {
-      range.low = std::min(range.low, a);
-      range.high = std::max(range.high, b);
-      range.why = "Table 1 and training data";
-    }
-  }
+  if (options.range == "table1") join_table_1(range, quantity);
   widen_one_value(range, quantity.lowest);
   return range;
 }
@@ -56,21 +59,26 @@ StateRange default_range(const data::Quantity& quantity, std::span<const double>
 // What an effect brought in: where it was learned, and no further.
 StateRange further_range(const models::Law& law, const std::string& name,
                          std::span<const double> values) {
-  if (const auto levels = law.levels.find(name); levels != law.levels.end())
-    return {name, 0, static_cast<double>(levels->second.size() - 1), "levels of the training data"};
   StateRange range = data_range(name, values);
+  if (const auto levels = law.levels.find(name); levels != law.levels.end()) {
+    range.low = 0;
+    range.high = static_cast<double>(levels->second.size() - 1);
+    range.why = "levels of the training data";
+    return range;
+  }
   widen_one_value(range, data::meaning_of(name).lowest);
   return range;
 }
 
-StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis) {
+StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis,
+                       std::span<const double> values) {
   const auto [low, high] = *axis.range;
   if (low < quantity.lowest)
     throw InputError(
         axis.place,
         fmt::format("the range of {} starts at {}, below {}", quantity.name, low, quantity.lowest),
         "a " + quantity.meaning + " cannot be smaller");
-  return {quantity.name, low, high, "job file"};
+  return {quantity.name, low, high, "job file", data_range(quantity.name, values).data};
 }
 
 } // namespace
@@ -84,9 +92,9 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
     const data::Quantity* quantity = data::find_quantity(name);
     const auto found = options.axes.find(name);
     if (quantity && found != options.axes.end() && found->second.range)
-      ranges.push_back(asked_range(*quantity, found->second));
+      ranges.push_back(asked_range(*quantity, found->second, columns[i]));
     else if (quantity && quantity->state)
-      ranges.push_back(default_range(*quantity, columns[i]));
+      ranges.push_back(default_range(*quantity, columns[i], options));
     else
       ranges.push_back(further_range(*law.model.law, name, columns[i]));
   }

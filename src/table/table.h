@@ -37,6 +37,9 @@ struct TableAxis {
   std::vector<double> kinks = {}; // inner nodes at which a cubic spline may bend; else it is C2
   Outside below = Outside::clamp; // queries under the first node
   Outside above = Outside::clamp; // and over the last
+  // Least and largest in the data that the law was calibrated on; absent: not known. The nodes may
+  // reach further (table/beyond_data.h).
+  std::optional<std::pair<double, double>> data = {};
 
   std::vector<double> coordinates() const; // x, or ln x
   double

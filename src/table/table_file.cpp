@@ -16,6 +16,7 @@
 #include "data/meaning.h"
 #include "data/quantity.h"
 #include "io/number.h"
+#include "table/beyond_data.h"
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
 
@@ -55,9 +56,12 @@ void write_outside(io::Hdf5Writer& out, const TableAxis& axis) { // absent: clam
     out.attribute(axis.name, "outside_high", std::string(outside_name(axis.above)));
 }
 
-} // namespace
-
-namespace {
+void write_data_range(io::Hdf5Writer& out, const TableAxis& axis) { // absent: not known
+  if (!axis.data) return;
+  out.attribute(axis.name, "data_low", axis.data->first);
+  out.attribute(axis.name, "data_high", axis.data->second);
+  out.attribute(axis.name, "share_beyond_data", share_beyond_data(axis));
+}
 
 void write_axes(io::Hdf5Writer& out, const Table& table) {
   for (const TableAxis& axis : table.axes) {
@@ -69,6 +73,7 @@ void write_axes(io::Hdf5Writer& out, const Table& table) {
     if (table.interpolation == Interpolation::cubic && !axis.kinks.empty())
       out.attribute(axis.name, "kinks", numbers_text(axis.kinks));
     write_outside(out, axis);
+    write_data_range(out, axis);
   }
 }
 
@@ -305,6 +310,7 @@ private:
       read_kinks(axis);
       axis.below = read_outside(axis, "outside_low");
       axis.above = read_outside(axis, "outside_high");
+      axis.data = read_data_range(axis);
       table_.axes.push_back(axis);
     }
   }
@@ -348,6 +354,13 @@ private:
   Outside read_outside(const TableAxis& axis, const std::string& side) {
     if (!in_.text_attribute(axis.name, side)) return Outside::clamp;
     return find_outside(text(axis.name, side, {"clamp", "error", "law"})).value_or(Outside::clamp);
+  }
+
+  std::optional<std::pair<double, double>> read_data_range(const TableAxis& axis) const {
+    const auto low = in_.number_attribute(axis.name, "data_low");
+    const auto high = in_.number_attribute(axis.name, "data_high");
+    if (!low || !high) return std::nullopt;
+    return std::pair{*low, *high};
   }
 
   bool is_axis(const std::string& name) const {

@@ -169,8 +169,9 @@ std::string twin_job(const Twin& twin, const std::string& extension, bool oracle
     if (held_out) text += ", \"validation_oracle." + extension + "\"";
     text += "] # the noise-free stress, for the noise floor only\n";
   }
-  text += fmt::format("\n[calibration]\nseed = {}\n\n[output]\ndirectory = \"out\"\n",
-                      twin.options.seed);
+  text += fmt::format("\n[calibration]\nseed = {}\n", twin.options.seed);
+  text += "\n[table]\nrange = \"table1\" # a process goes beyond what a campaign reaches\n";
+  text += "\n[output]\ndirectory = \"out\"\n";
   return text;
 }
 

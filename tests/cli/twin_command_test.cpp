@@ -73,6 +73,7 @@ TEST_F(TwinCommand, WritesCampaignJobAndSettings) {
                          "sigma_f_MPa,tau_R_MPa,run_order,humidity_pct,film_um,Ra_um,tool,origin\n"
                          "E001,0,500,1,50,20,20,0,"));
   EXPECT_THAT(content("job.toml"), HasSubstr("validation = \"validation.csv\""));
+  EXPECT_THAT(content("job.toml"), HasSubstr("\n[table]\nrange = \"table1\""));
   const auto json = test::parse_json(content("twin.json"));
   EXPECT_EQ(json["synthetic"], true);
   EXPECT_EQ(json["schema"], "frictab/twin/1");

@@ -41,7 +41,10 @@ Case with_table(const Model& model, const std::vector<table::StateRange>& ranges
 
 Case of_law(const std::string& name, Interpolation interpolation, double tolerance = 0.5) {
   const Model model = test::plausible_model(*models::find_law(name));
-  return with_table(model, table::state_ranges(AssembledLaw(model), test::sample_data(model), {}),
+  table::TableOptions reach;
+  reach.range = "table1";
+  return with_table(model,
+                    table::state_ranges(AssembledLaw(model), test::sample_data(model), reach),
                     interpolation, tolerance);
 }
 

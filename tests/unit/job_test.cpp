@@ -69,6 +69,7 @@ seed = 1
 model = "best"
 tolerance_MPa = 0.5
 interpolation = "linear"
+range = "table1"
 [table.axes.v_rel_mm_s]
 range = [5, 500]
 nodes = 17
@@ -104,6 +105,7 @@ TEST(Job, AcceptsEveryKeyOfTheContract) {
   EXPECT_EQ(job.data.columns.at("tau_R_MPa").times, "sigma_n_MPa");
   EXPECT_EQ(job.data.constants.at("sigma_f_MPa"), 480.0);
   EXPECT_THAT(job.models.use, ElementsAre("coulomb", "orowan"));
+  EXPECT_EQ(job.table.range, "table1");
   const table::AxisOptions& axis = job.table.axes.at("v_rel_mm_s");
   EXPECT_EQ(axis.range, std::pair(5.0, 500.0));
   EXPECT_EQ(axis.nodes, 17u);
