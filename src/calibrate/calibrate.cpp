@@ -190,7 +190,9 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
     return metrics(data.values("tau_R_MPa"), predicted, data.first_row, input.options.bootstrap,
                    input.options.seed);
   };
-  const std::vector<double> trained = predict(fit.model, input.training);
+  const models::AssembledLaw assembled(fit.model);
+  const auto [columns, trained] = predict_with_columns(assembled, assembled.inputs, input.training);
+  fit.data_range = columns.ranges();
   const std::vector<double> unseen = predict(fit.model, input.validation);
   fit.training = judge(input.training, trained);
   fit.validation = judge(input.validation, unseen);

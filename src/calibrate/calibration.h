@@ -24,7 +24,9 @@
 //   judgement           all these results as plain values; judgement_json, calibration_file as JSON
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrate/band.h"
@@ -48,6 +50,9 @@ struct ModelFit {
   Metrics validation;
   BandCheck band;                       // of model.experiment_gains, on the validation experiments
   std::optional<NetworkRecord> network; // how a neural network was trained
+  // Least and largest of each input in the training data, by name; empty in files of versions that
+  // did not write it.
+  std::map<std::string, std::pair<double, double>> data_range;
 };
 
 // A law that the columns do not allow.

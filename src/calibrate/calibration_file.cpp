@@ -21,6 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* model_schema = "frictab/model/1";
+
 const char* loss_name(Loss loss) {
   switch (loss) {
   case Loss::l2:
@@ -208,6 +210,8 @@ Json fit_json(const ModelFit& fit) {
             {"remarks", fit.remarks},
             {"experiment_gains", fit.model.experiment_gains},
             {"band", band_json(fit.band)}};
+  for (const auto& [name, range] : fit.data_range)
+    j["data_range"][name] = {range.first, range.second};
   if (fit.network) j["training_record"] = network_json(*fit.network);
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
@@ -220,10 +224,20 @@ models::ShearYield parse_shear_yield(const std::string& name, const std::string&
                    "one of mises, tresca, flow_stress");
 }
 
+std::map<std::string, std::pair<double, double>> parse_data_range(const Json& fit) {
+  std::map<std::string, std::pair<double, double>> out;
+  if (!fit.contains("data_range")) return out; // files of 0.1.0
+  const Json& ranges = fit.at("data_range");
+  for (const auto& [name, range] : ranges.items())
+    out[name] = {range.at(0).get<double>(), range.at(1).get<double>()};
+  return out;
+}
+
 ModelFit parse_fit(const Json& j, const std::string& file) {
   ModelFit fit;
   fit.model.law = parse_law(j, file);
   fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
+  fit.data_range = parse_data_range(j);
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
   fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
@@ -307,22 +321,30 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
 }
 
 std::string model_json(const ModelFit& fit, const Calibration& calibration) {
-  Json j = {{"schema", "frictab/model/1"},
+  Json j = {{"schema", model_schema},
             {"tool_version", FRICTAB_VERSION},
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit);
   for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
-                          "experiment_gains", "law"})
+                          "experiment_gains", "data_range", "law"})
     if (body.contains(key)) j[key] = body.at(key);
   return io::json_text(j);
 }
 
-models::Model parse_model(std::string_view text, const std::string& file) {
+ModelFit parse_model_fit(std::string_view text, const std::string& file) {
   const Json j = io::parse_json(text, file);
-  models::Model model;
-  io::read_json(file, "calibrate again", [&] { model = parse_fit(j, file).model; });
-  return model;
+  ModelFit fit;
+  io::read_json(file, "calibrate again", [&] {
+    if (j.contains("schema") && j.at("schema") != model_schema)
+      throw InputError({file, 0, 0}, "is no file of one law", "give models/NAME.json of a run");
+    fit = parse_fit(j, file);
+  });
+  return fit;
+}
+
+models::Model parse_model(std::string_view text, const std::string& file) {
+  return parse_model_fit(text, file).model;
 }
 
 } // namespace frictab::calibrate

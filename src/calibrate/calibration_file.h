@@ -15,6 +15,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file);
 
 // models/<name>.json: one law, complete.
 std::string model_json(const ModelFit& fit, const Calibration& calibration);
+// Model, standard errors and what the data reached; a model file holds no errors of prediction.
+ModelFit parse_model_fit(std::string_view text, const std::string& file);
 models::Model parse_model(std::string_view text, const std::string& file);
 
 } // namespace frictab::calibrate

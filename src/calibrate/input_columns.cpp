@@ -145,6 +145,18 @@ std::vector<std::vector<double>> InputColumns::values() const {
   return copies;
 }
 
+std::map<std::string, std::pair<double, double>> InputColumns::ranges() const {
+  std::map<std::string, std::pair<double, double>> out;
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    for (const double x : (*this)[i]) {
+      if (std::isnan(x)) continue;
+      auto& [low, high] = out.try_emplace(names_[i], x, x).first->second;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  return out;
+}
+
 namespace {
 
 double largest(std::span<const double> values) {

@@ -2,8 +2,10 @@
 // experiment.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/dataset.h"
@@ -38,6 +40,8 @@ public:
   const std::vector<const double*>& pointers() const { return pointers_; }
   std::span<const double> operator[](std::size_t input) const;
   std::vector<std::vector<double>> values() const; // copies
+  // Least and largest of each by name, empty cells left aside; none where all cells are empty.
+  std::map<std::string, std::pair<double, double>> ranges() const;
 
 private:
   const double* find(const models::Law& law, std::size_t input);

@@ -1,4 +1,4 @@
-// What the commands below `frictab table` share.
+// What the commands below `frictab table` share, and others that write one file.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ class Option;
 
 namespace frictab::cli {
 
-// Makes -o the name of one file, which `frictab table` commands write instead of stdout.
+// Makes -o the name of one file, which these commands write instead of stdout.
 void output_is_a_file(CLI::App& app);
 
 // Writes to -o FILE, complete or not at all, or to stdout where there is none. Throws InputError

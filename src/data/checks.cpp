@@ -97,9 +97,11 @@ void check_single_rows(Part& part) {
 
 } // namespace
 
-void check_experiments(Part& part) {
-  check_names(part);
-  check_single_rows(part);
+void check_experiments(Part& part, const DataOptions& options) {
+  if (options.measured) {
+    check_names(part);
+    check_single_rows(part);
+  }
   const Dataset& data = part.data;
   const Column* time = part.find("time_s");
   for (std::size_t e = 0; time && e < data.experiments.size(); ++e)

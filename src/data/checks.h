@@ -19,7 +19,7 @@ void check_values(Part& part);
 // Values that could not be computed though every cell of their row is a number.
 void check_computed(Part& part);
 
-// Time that goes back.
-void check_experiments(Part& part);
+// Time that goes back; tests of one row among others, where they are measured.
+void check_experiments(Part& part, const DataOptions& options);
 
 } // namespace frictab::data

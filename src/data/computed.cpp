@@ -207,11 +207,12 @@ void multiply_coefficients(Part& part, const DataOptions& options) {
   }
 }
 
-void derive_shear_stress(Part& part) {
+void derive_shear_stress(Part& part, const DataOptions& options) {
   if (part.find("tau_R_MPa")) return;
   const Column* friction = part.find("F_R_N");
   const Column* normal = part.find("F_N_N");
   const Column* stress = part.find("sigma_n_MPa");
+  if (!options.measured && (!friction || !normal)) return;
   if (!friction || !normal) {
     part.faults.add(part.header(), "there is neither tau_R_MPa nor the pair F_R_N, F_N_N",
                     "map it in [data.columns]; the file has: " + join(part.raw_names(), ", "));

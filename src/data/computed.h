@@ -22,8 +22,9 @@ bool is_formula_input(const DataOptions& options, const std::string& column);
 // Measured coefficients times the column that the job names.
 void multiply_coefficients(Part& part, const DataOptions& options);
 
-// Eq. 1 of the paper: mu_meas = F_R/F_N, tau_R = mu_meas sigma_N.
-void derive_shear_stress(Part& part);
+// Eq. 1 of the paper: mu_meas = F_R/F_N, tau_R = mu_meas sigma_N. A fault where the data have
+// neither a stress nor the forces and need them (options.measured).
+void derive_shear_stress(Part& part, const DataOptions& options);
 
 // s_mm from v_rel_mm_s and time_s, by the trapezoidal rule.
 void integrate_distance(Part& part);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/quantity.h"
 
 namespace frictab::data {
 
@@ -13,6 +14,7 @@ void drop_rows(Part& part, const DataOptions& options) {
   std::vector<char> keep(part.row.size(), 1);
   for (const DropRule& rule : options.drop) {
     const Column* column = part.find(rule.column);
+    if (!column && !options.measured && is_measured(rule.column)) continue;
     if (!column) {
       part.faults.add(rule.place,
                       fmt::format("data.drop: the data have no column {}", rule.column));

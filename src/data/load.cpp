@@ -42,12 +42,12 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   compute_formulas(part, options);
   multiply_coefficients(part, options);
   check_needed(part, options);
-  derive_shear_stress(part);
+  derive_shear_stress(part, options);
   drop_missing(part, options);
   drop_rows(part, options);
   tell_cells(part);
   check_values(part);
-  check_experiments(part);
+  check_experiments(part, options);
   integrate_distance(part);
   check_computed(part);
 }

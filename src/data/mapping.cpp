@@ -72,14 +72,17 @@ private:
       return options_.constants.count(canonical) ? nullptr : by_name(canonical);
     const ColumnSource& from = mapped->second;
     if (!from.formula.empty()) return nullptr; // computed later
+    const bool may_lack = !options_.measured && is_measured(canonical);
     if (from.number > 0) {
       if (from.number <= raw_.columns.size()) return &raw_.columns[from.number - 1];
+      if (may_lack) return nullptr;
       faults_.add(from.place, fmt::format("{}: column number {} is beyond the {} columns of {}",
                                           canonical, from.number, raw_.columns.size(), raw_.file));
       return nullptr;
     }
     for (const std::string& name : from.names)
       if (const CsvColumn* column = by_name(name)) return column;
+    if (may_lack) return nullptr;
     faults_.add(header(),
                 fmt::format("there is no column '{}' (wanted for {})", join(from.names, "' or '"),
                             canonical),

@@ -83,6 +83,9 @@ struct DataOptions {
   // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
   std::string experiment;
   Missing missing = Missing::error;
+  // false: rows to predict. They need neither a measured stress nor what it is computed from, and
+  // an experiment may be one row.
+  bool measured = true;
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::string tests; // a file with one row per experiment

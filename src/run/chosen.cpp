@@ -5,6 +5,7 @@
 
 #include "calibrate/band.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace frictab::run {
 
@@ -66,6 +67,19 @@ std::vector<const ModelFit*> fits_to_trace(const calibrate::Calibration& calibra
     }
   }
   return chosen;
+}
+
+const ModelFit& fit_named(const calibrate::Calibration& calibration, const std::string& name,
+                          const table::TableOptions& options) {
+  if (name.empty())
+    return *fits_of_entry(calibration, options.model.front(), options.place).front();
+  if (name == "best") return calibration.fits.front();
+  const Fits fits = fits_named(calibration, name);
+  if (!fits.empty()) return *fits.front();
+  std::vector<std::string> known;
+  for (const ModelFit& fit : calibration.fits)
+    known.push_back(fit.model.law->name);
+  throw InputError({}, "law '" + name + "' was not calibrated", suggest(name, known));
 }
 
 std::vector<models::Model> models_to_tabulate(const calibrate::Calibration& calibration,

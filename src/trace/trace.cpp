@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
+#include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
 #include "core/text.h"
@@ -119,7 +120,9 @@ private:
                           ? "generalised least squares under the noise model of the trace"
                           : "least squares, which predicts left-out experiments better here than "
                             "the noise model's weights";
-    const std::vector<double> trained = calibrate::predict(fit.model, in_.training);
+    const models::AssembledLaw law(fit.model);
+    const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in_.training);
+    fit.data_range = columns.ranges();
     const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
     fit.training = errors(in_.training, trained);
     fit.validation =

@@ -1,0 +1,64 @@
+// frictab predict: a calibrated law on rows of data, as CSV.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/table_command.h"
+#include "core/error.h"
+#include "run/predict.h"
+
+namespace frictab::cli::predict_command {
+
+namespace {
+
+struct Options {
+  std::string law;
+  std::string data;
+  std::string model;
+};
+
+run::LawToPredict law_of(const Options& options, const CommonOptions& common) {
+  if (!options.law.ends_with(".json"))
+    return run::law_of_job(job::read_job(options.law, common.set), options.model);
+  if (!options.model.empty())
+    throw InputError({}, "--model NAME is for a job", options.law + " is one law already");
+  return run::law_of_model_file(options.law);
+}
+
+int predict(const Options& options, const CommonOptions& common) {
+  if (common.json && common.output.empty())
+    throw InputError({}, "--json prints the summary where the rows would go",
+                     "name a file for the rows: -o FILE.csv");
+  const run::Prediction prediction = run::predict(law_of(options, common), options.data);
+  write_result(common, [&](std::ostream& out) { run::write_prediction(prediction, out); });
+  if (common.json)
+    fmt::print("{}", run::prediction_json(prediction));
+  else if (!common.quiet)
+    fmt::print(stderr, "{}", run::prediction_text(prediction));
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<Options>();
+  app.add_option(
+         "JOB|MODEL", options->law,
+         "A job that was calibrated: its mapping reads DATA; or models/NAME.json: then DATA "
+         "has canonical columns")
+      ->required();
+  app.add_option("DATA", options->data, "Rows to predict (CSV or HDF5); no stress is needed")
+      ->required();
+  app.add_option("--model", options->model, "Law of the job, instead of the first of table.model")
+      ->type_name("NAME");
+  output_is_a_file(app);
+  return [options, &common] { return predict(*options, common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"predict", 9, "tau_R of a calibrated law for rows of data, with its band",
+                 declare};
+}};
+
+} // namespace
+
+} // namespace frictab::cli::predict_command

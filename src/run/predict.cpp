@@ -1,0 +1,283 @@
+// Reads rows, evaluates the law and its band, and says what lies beyond the data.
+#include "run/predict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <span>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/band.h"
+#include "calibrate/calibration_file.h"
+#include "calibrate/input_columns.h"
+#include "calibrate/metrics.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/load.h"
+#include "data/quantity.h"
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "io/json.h"
+#include "report/numbers.h"
+#include "run/chosen.h"
+#include "run/result_directory.h"
+
+namespace frictab::run {
+
+namespace {
+
+constexpr double band_low = 0.05, band_high = 0.95;
+
+// ---- reading ----
+
+// Only what a traced effect brought in has to be kept beside the quantities.
+bool takes_recorded_columns(const std::vector<std::string>& inputs) {
+  return std::any_of(inputs.begin(), inputs.end(), [](const std::string& name) {
+    return !data::find_quantity(name) && !data::find_derived(name);
+  });
+}
+
+data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string>& inputs,
+                        const std::string& file) {
+  mapping.base = ""; // the file is relative to where the command runs
+  mapping.place = {};
+  mapping.measured = false;
+  mapping.bystanders.reset(); // the job's list is of its own files
+  if (!takes_recorded_columns(inputs)) mapping.bystanders.emplace();
+  return data::load_dataset({file}, mapping);
+}
+
+// "row 3 of 'E1'"
+std::string row_name(const data::Dataset& data, std::size_t row) {
+  const auto next = std::upper_bound(data.first_row.begin(), data.first_row.end(), row) - 1;
+  const auto e = static_cast<std::size_t>(next - data.first_row.begin());
+  return fmt::format("row {} of '{}'", row - data.first_row[e] + 1, data.experiments[e]);
+}
+
+// An empty cell of a recorded column; in a quantity it is a fault of reading.
+void check_cells(const Prediction& p) {
+  FaultList faults;
+  for (std::size_t i = 0; i < p.inputs.size(); ++i)
+    for (std::size_t row = 0; !data::find_derived(p.inputs[i]) && row < p.data.rows(); ++row)
+      if (!std::isfinite(p.states[i][row]))
+        faults.add({p.file, 0, 0},
+                   fmt::format("{} is empty in {}, and {} needs it", p.inputs[i],
+                               row_name(p.data, row), p.model.law->name),
+                   "repair the cell, or leave the row out");
+  faults.throw_if_any();
+}
+
+// Where a formula has no value, as a logarithm below 0.
+void check_stress(const Prediction& p) {
+  FaultList faults;
+  for (std::size_t row = 0; row < p.data.rows(); ++row) {
+    if (std::isfinite(p.tau_MPa[row])) continue;
+    std::vector<std::string> states;
+    for (std::size_t i = 0; i < p.inputs.size(); ++i)
+      states.push_back(fmt::format("{} = {:g}", p.inputs[i], p.states[i][row]));
+    faults.add({p.file, 0, 0},
+               fmt::format("{} gives no stress in {}", p.model.law->name, row_name(p.data, row)),
+               "leave the row out; its states: " + join(states, ", "));
+  }
+  faults.throw_if_any();
+}
+
+// ---- predicting ----
+
+std::vector<double> at_quantile(const models::Model& model, double quantile,
+                                const data::Dataset& data) {
+  return calibrate::predict(calibrate::at_quantile(model, quantile, {}), data);
+}
+
+void add_band(Prediction& p) {
+  const std::vector<double>& gains = p.model.experiment_gains;
+  if (!calibrate::gain_at_quantile(gains, band_low) ||
+      !calibrate::gain_at_quantile(gains, band_high))
+    return;
+  p.band = PredictedBand{at_quantile(p.model, band_low, p.data),
+                         at_quantile(p.model, band_high, p.data)};
+}
+
+void add_residuals(Prediction& p) {
+  if (!p.data.has("tau_R_MPa")) return;
+  const std::span<const double> measured = p.data.values("tau_R_MPa");
+  for (std::size_t row = 0; row < measured.size(); ++row)
+    p.residual_MPa.push_back(measured[row] - p.tau_MPa[row]);
+  p.errors = calibrate::metrics(measured, p.tau_MPa, p.data.first_row, 0, 0);
+}
+
+void add_outside(Prediction& p) {
+  std::vector<char> any(p.data.rows(), 0);
+  for (std::size_t i = 0; i < p.inputs.size(); ++i) {
+    const auto [low, high] = p.data_range.at(p.inputs[i]);
+    p.outside.emplace_back();
+    for (std::size_t row = 0; row < p.data.rows(); ++row)
+      if (p.states[i][row] < low || p.states[i][row] > high) {
+        p.outside.back().push_back(row);
+        any[row] = 1;
+      }
+  }
+  p.rows_outside = static_cast<std::size_t>(std::count(any.begin(), any.end(), 1));
+}
+
+void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::string>& inputs) {
+  for (const std::string& name : inputs)
+    if (!fit.data_range.count(name))
+      throw InputError({},
+                       fmt::format("the file of {} does not say what the data of its calibration "
+                                   "reached along {}",
+                                   fit.model.law->name, name),
+                       "calibrate again with this version");
+}
+
+} // namespace
+
+LawToPredict law_of_job(const job::Job& job, const std::string& name) {
+  const calibrate::Calibration calibration = ResultDirectory(job).calibration();
+  return {fit_named(calibration, name, job.table), job.data};
+}
+
+LawToPredict law_of_model_file(const std::string& file) {
+  return {calibrate::parse_model_fit(io::read_file(file), file), {}};
+}
+
+Prediction predict(const LawToPredict& law, const std::string& file) {
+  const models::AssembledLaw assembled(law.fit.model);
+  check_data_range(law.fit, assembled.inputs);
+  Prediction p;
+  p.model = law.fit.model;
+  p.file = file;
+  p.inputs = assembled.inputs;
+  p.data_range = law.fit.data_range;
+  p.data = load_rows(law.mapping, p.inputs, file);
+  const auto [columns, tau] = calibrate::predict_with_columns(assembled, p.inputs, p.data);
+  p.states = columns.values();
+  p.tau_MPa = tau;
+  check_cells(p);
+  check_stress(p);
+  add_band(p);
+  add_residuals(p);
+  add_outside(p);
+  return p;
+}
+
+// ---- writing ----
+
+namespace {
+
+std::vector<std::string> header_of(const Prediction& p) {
+  std::vector<std::string> names = {"experiment", "row"};
+  for (const std::string& name : p.inputs)
+    names.push_back(io::csv_cell(name));
+  names.push_back("tau_R_MPa");
+  if (p.band) names.insert(names.end(), {"tau_R_q05_MPa", "tau_R_q95_MPa"});
+  if (p.measured()) names.insert(names.end(), {"measured_tau_R_MPa", "residual_MPa"});
+  names.push_back("outside");
+  return names;
+}
+
+// A number, or the level that it stands for.
+std::string state_cell(const Prediction& p, std::size_t input, std::size_t row) {
+  const double x = p.states[input][row];
+  const auto levels = p.model.law->levels.find(p.inputs[input]);
+  if (levels == p.model.law->levels.end()) return shortest(x);
+  return io::csv_cell(levels->second[static_cast<std::size_t>(x)]);
+}
+
+// Per row the names of the inputs that lie outside.
+std::vector<std::string> names_outside(const Prediction& p) {
+  std::vector<std::string> names(p.data.rows());
+  for (std::size_t i = 0; i < p.inputs.size(); ++i)
+    for (const std::size_t row : p.outside[i])
+      names[row] += (names[row].empty() ? "" : " ") + p.inputs[i];
+  return names;
+}
+
+} // namespace
+
+void write_prediction(const Prediction& p, std::ostream& out) {
+  out << join(header_of(p), ",") << '\n';
+  const std::vector<std::string> outside = names_outside(p);
+  std::span<const double> measured;
+  if (p.measured()) measured = p.data.values("tau_R_MPa");
+  for (std::size_t e = 0; e < p.data.experiments.size(); ++e)
+    for (std::size_t row = p.data.first_row[e]; row < p.data.first_row[e + 1]; ++row) {
+      out << io::csv_cell(p.data.experiments[e]) << ',' << row - p.data.first_row[e] + 1;
+      for (std::size_t i = 0; i < p.inputs.size(); ++i)
+        out << ',' << state_cell(p, i, row);
+      out << ',' << shortest(p.tau_MPa[row]);
+      if (p.band)
+        out << ',' << shortest(p.band->low_MPa[row]) << ',' << shortest(p.band->high_MPa[row]);
+      if (p.measured())
+        out << ',' << shortest(measured[row]) << ',' << shortest(p.residual_MPa[row]);
+      out << ',' << outside[row] << '\n';
+    }
+}
+
+namespace {
+
+std::string errors_text(const Prediction& p) {
+  if (!p.errors) return "No measured stress in the data: nothing to compare with\n";
+  return fmt::format("MAE {:.4g} MPa, RMSE {:.4g} MPa, bias {:.4g} MPa (measured - law)\n",
+                     p.errors->mae_MPa, p.errors->rmse_MPa, p.errors->bias_MPa);
+}
+
+std::string band_text(const Prediction& p) {
+  if (p.band)
+    return "Band: 5 % of new experiments lie below tau_R_q05_MPa, 5 % above tau_R_q95_MPa, each as "
+           "a whole; noise within a test comes on top\n";
+  return fmt::format("No band: {} experiments of the calibration do not give 5 % and 95 %\n",
+                     p.model.experiment_gains.size());
+}
+
+std::string outside_text(const Prediction& p) {
+  if (p.rows_outside == 0) return "No row outside the data that the law was calibrated on\n";
+  const double percent =
+      100 * static_cast<double>(p.rows_outside) / static_cast<double>(p.data.rows());
+  std::string text = fmt::format("{} ({:.1f} %) outside the data that the law was calibrated on:\n",
+                                 report::count_of(p.rows_outside, "row"), percent);
+  for (std::size_t i = 0; i < p.inputs.size(); ++i) {
+    if (p.outside[i].empty()) continue;
+    const auto [low, high] = p.data_range.at(p.inputs[i]);
+    text += fmt::format("  {}: {} outside {:.4g} .. {:.4g}\n", p.inputs[i],
+                        report::count_of(p.outside[i].size(), "row"), low, high);
+  }
+  return text;
+}
+
+} // namespace
+
+std::string prediction_text(const Prediction& p) {
+  std::string text =
+      fmt::format("{} on {} of {}: {}\n", p.model.law->name, report::count_of(p.data.rows(), "row"),
+                  report::count_of(p.data.experiments.size(), "experiment"), p.file);
+  for (const auto& dropped : p.data.dropped)
+    text += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
+  return text + errors_text(p) + band_text(p) + outside_text(p);
+}
+
+std::string prediction_json(const Prediction& p) {
+  nlohmann::ordered_json j = {
+      {"schema", "frictab/prediction/1"}, {"tool_version", FRICTAB_VERSION},
+      {"model", p.model.law->name},       {"data", p.file},
+      {"n_rows", p.data.rows()},          {"n_experiments", p.data.experiments.size()},
+      {"band", p.band.has_value()},       {"rows_outside", p.rows_outside}};
+  if (p.errors) {
+    j["mae_MPa"] = p.errors->mae_MPa;
+    j["rmse_MPa"] = p.errors->rmse_MPa;
+    j["bias_MPa"] = p.errors->bias_MPa;
+  }
+  for (std::size_t i = 0; i < p.inputs.size(); ++i) {
+    const auto [low, high] = p.data_range.at(p.inputs[i]);
+    j["inputs"].push_back(
+        {{"name", p.inputs[i]}, {"data", {low, high}}, {"rows_outside", p.outside[i].size()}});
+  }
+  for (const auto& dropped : p.data.dropped)
+    j["left_out"].push_back({{"rule", dropped.rule}, {"rows", dropped.rows}});
+  return io::json_text(j);
+}
+
+} // namespace frictab::run
