@@ -228,8 +228,7 @@ Calibration calibrate(const CalibrationInput& input) {
   calibration.loss = input.options.loss;
   calibration.seed = input.options.seed;
   calibration.synthetic = is_synthetic(input.training) || is_synthetic(input.validation);
-  calibration.data_hash =
-      fmt::format("{:016x}", input.training.hash ^ (input.validation.hash * 0x9e3779b97f4a7c15ULL));
+  calibration.data_hash = data::fingerprint(input.training, input.validation);
   calibration.fits.resize(selection.laws.size());
   Progress progress("calibrating laws", selection.laws.size());
   parallel_for(selection.laws.size(), [&](std::size_t i) {

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration.h"
-#include "cli/command.h"
+#include "cli/job_commands.h"
 #include "core/text.h"
 #include "data/write_dataset.h"
-#include "job/job.h"
 #include "report/data_page.h"
 #include "run/data_summary.h"
 
@@ -31,9 +30,7 @@ std::vector<std::string> texts_of(const FaultList& faults) {
 
 // Everything is shown and written, also where most rows are implausible: then that is the error.
 int run(const Options& options, const CommonOptions& common) {
-  job::Job job = job::read_job(options.job, common.set);
-  if (!common.output.empty()) job.directory = common.output;
-  if (common.seed) job.calibration.seed = *common.seed;
+  const job::Job job = read_job(options.job, common);
   FaultList implausible;
   const run::JobData data = run::load_job_data(job, implausible);
   io::OutputFiles files(job.directory);

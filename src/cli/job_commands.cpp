@@ -9,17 +9,25 @@
 
 namespace frictab::cli {
 
-int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
+job::Job read_job(const std::string& file, const CommonOptions& common) {
   job::Job job = job::read_job(file, common.set);
   if (!common.output.empty()) job.directory = common.output;
   if (common.seed) job.calibration.seed = *common.seed;
-  run::Pipeline pipeline(std::move(job));
-  stages(pipeline);
-  pipeline.commit();
+  return job;
+}
+
+void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common) {
   if (const auto& data = pipeline.data(); data && !data->leak.empty())
     note(common, "warning: " + data->leak);
   for (const std::string& line : pipeline.notes())
     note(common, line);
+}
+
+int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
+  run::Pipeline pipeline(read_job(file, common));
+  stages(pipeline);
+  pipeline.commit();
+  tell_notes(pipeline, common);
   if (common.verbose && pipeline.data())
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);

@@ -7,7 +7,7 @@
 
 #include "calibrate/calibration_file.h"
 #include "cli/combined.h"
-#include "cli/command.h"
+#include "cli/job_commands.h"
 #include "core/error.h"
 #include "data/load.h"
 #include "run/summary.h"
@@ -76,13 +76,13 @@ int verify_together(const Options& options, const CommonOptions& common) {
 }
 
 int verify_job(const Options& options, const CommonOptions& common) {
-  job::Job job = job::read_job(options.job, common.set);
-  if (!common.output.empty()) job.directory = common.output;
+  job::Job job = read_job(options.job, common);
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
   if (options.require_proof) job.verify.require_proof = true;
   run::Pipeline pipeline(std::move(job));
   pipeline.verify();
   pipeline.commit();
+  tell_notes(pipeline, common);
   write_junit(options, *pipeline.verification());
   fmt::print("{}",
              common.json ? run::summary_json(pipeline) : run::drift_text(*pipeline.verification()));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -65,6 +66,10 @@ void fingerprint(Dataset& data) {
   for (const std::size_t row : data.first_row)
     add(&row, sizeof row);
   data.hash = hash;
+}
+
+std::string fingerprint(const Dataset& training, const Dataset& validation) {
+  return fmt::format("{:016x}", training.hash ^ (validation.hash * 0x9e3779b97f4a7c15ULL));
 }
 
 Split hold_out(const Dataset& data, double share, std::uint64_t seed) {

@@ -58,6 +58,9 @@ public:
 // Sets `hash` from names, values and experiments.
 void fingerprint(Dataset& data);
 
+// Of two datasets together: 16 hex digits.
+std::string fingerprint(const Dataset& training, const Dataset& validation);
+
 // Splits off round(share * experiments) whole experiments (at least 1, leaving at least 1), drawn
 // by seed. Throws InputError where there are fewer than 2 experiments.
 struct Split {

@@ -1,6 +1,7 @@
 // The job file (TOML) as plain values, with the place of every key for later messages.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct Job {
   verify::VerifyOptions verify;
   trace::TraceOptions trace;
   std::string directory = "out"; // relative to the job file, already joined with its directory
+  // What file and overrides say below each section head, as text without places and order: by it a
+  // stage knows results that another job has made.
+  std::map<std::string, std::string> sections;
 };
 
 // Reads and checks a job file; `set` holds "key=value" overrides (TOML values, dotted keys). Throws

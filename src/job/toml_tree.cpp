@@ -182,6 +182,30 @@ std::string toml_quoted(std::string_view text) {
   return out + '"';
 }
 
+std::string canonical_text(const TomlNode& node) {
+  using Type = TomlNode::Type;
+  const bool is_table = node.type == Type::table;
+  if (is_table || node.type == Type::array) {
+    std::vector<std::string> items;
+    for (const TomlNode& item : node.items)
+      items.push_back((is_table ? toml_quoted(item.key) + "=" : "") + canonical_text(item));
+    if (is_table) std::sort(items.begin(), items.end());
+    return (is_table ? "{" : "[") + join(items, ",") + (is_table ? "}" : "]");
+  }
+  switch (node.type) {
+  case Type::text:
+    return toml_quoted(node.text);
+  case Type::whole:
+    return std::to_string(node.whole);
+  case Type::number:
+    return shortest(node.number);
+  case Type::flag:
+    return node.flag ? "true" : "false";
+  default:
+    return node.text;
+  }
+}
+
 std::string describe(const TomlNode& node) {
   switch (node.type) {
   case TomlNode::Type::table:

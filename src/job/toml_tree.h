@@ -33,6 +33,9 @@ TomlNode parse_toml(std::string_view text, const std::string& file);
 // counts the overrides from 1: places say "--set 1". Throws InputError.
 void apply_override(TomlNode& root, const std::string& assignment, std::size_t number);
 
+// All keys and values as text, tables sorted by key: the same of values that are the same.
+std::string canonical_text(const TomlNode& node);
+
 // "the text "x"", "1.5", "a table": how messages call a value.
 std::string describe(const TomlNode& node);
 

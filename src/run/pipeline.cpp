@@ -30,14 +30,38 @@ using table::Table;
 
 namespace fs = std::filesystem;
 
-Pipeline::Pipeline(job::Job job) : job_(std::move(job)), earlier_(job_), output_(job_.directory) {}
+Pipeline::Pipeline(job::Job job)
+    : job_(std::move(job)), earlier_(job_), stages_(job_, job_.directory), output_(job_.directory) {
+}
+
+// ---- what the stages are made of ----
+
+std::string Pipeline::data_key() const {
+  return data_ ? data::fingerprint(data_->training, data_->validation) : "";
+}
+
+void Pipeline::check_fresh(const std::string& stage, const std::string& files) const {
+  const std::string why = stages_.stale(stage, data_key());
+  if (why.empty()) return;
+  throw InputError({(fs::path(job_.directory) / files).string(), 0, 0}, "is stale: " + why,
+                   fmt::format("`frictab {} {}` makes it anew, `frictab run` everything; `frictab "
+                               "status` shows all stages",
+                               stage, job_.file));
+}
 
 void Pipeline::load_data() {
   if (!data_) data_ = load_job_data(job_);
 }
 
 void Pipeline::load_calibration() {
-  if (!calibration_) calibration_ = earlier_.calibration();
+  if (calibration_) return;
+  if (!earlier_.has_calibration()) {
+    notes_.push_back("there was no calibration: the laws were calibrated first");
+    calibrate();
+    return;
+  }
+  check_fresh("calibrate", "calibration.json");
+  calibration_ = earlier_.calibration();
 }
 
 namespace {
@@ -69,6 +93,12 @@ void keep_named(std::vector<Table>& tables, const table::TableOptions& options) 
 
 void Pipeline::load_tables() {
   if (!tables_.empty()) return;
+  if (!earlier_.has_tables()) {
+    notes_.push_back("there were no tables: they were made first");
+    tabulate();
+    return;
+  }
+  check_fresh("tabulate", "tables");
   tables_ = earlier_.tables(job_.table.memory_limit_MiB);
   keep_named(tables_, job_.table);
 }
@@ -85,6 +115,7 @@ void Pipeline::calibrate() {
     output_.remove_old(file);
   output_.remove_old("trace.json"); // of another calibration
   write_calibration();
+  stages_.record("calibrate", data_key());
 }
 
 void Pipeline::write_calibration() {
@@ -117,6 +148,7 @@ void Pipeline::trace() {
   add_traced_laws();
   laws_.clear();
   output_.write("trace.json", trace::trace_json(traces_, calibration_->synthetic));
+  stages_.record("trace", data_key());
 }
 
 void Pipeline::add_traced_laws() {
@@ -224,6 +256,7 @@ void Pipeline::tabulate() {
   // As a later stage reads them: by name.
   std::sort(tables_.begin(), tables_.end(),
             [](const Table& a, const Table& b) { return a.model < b.model; });
+  stages_.record("tabulate", data_key());
 }
 
 // ---- generate ----
@@ -283,7 +316,8 @@ void Pipeline::generate() {
       notes_.push_back(fmt::format("[export.{0}.inputs] is not used: {0} is not among "
                                    "export.targets",
                                    target));
-  if (tables_.empty() && !targets.empty()) {
+  if (tables_.empty() && !targets.empty() && earlier_.has_tables()) {
+    check_fresh("tabulate", "tables");
     std::vector<Table> described = earlier_.table_descriptions(); // before anything large is read
     keep_named(described, job_.table);
     for (const Table& table : described)
@@ -311,6 +345,7 @@ void Pipeline::generate() {
       }
     }
   faults.throw_if_any();
+  stages_.record("export", data_key());
 }
 
 void Pipeline::generate_one(const codegen::Exporter& exporter,
@@ -364,11 +399,22 @@ std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, co
   return sources;
 }
 
+void Pipeline::load_sources() {
+  if (!sources_.empty() || job_.exports.targets.empty()) return;
+  if (stages_.has("export"))
+    check_fresh("export", "export");
+  else if (earlier_.source_files().empty()) {
+    notes_.push_back("there were no routines: they were written first");
+    generate();
+  }
+}
+
 void Pipeline::verify() {
   load_data();
   load_calibration();
   load_tables();
   const double allowed = drift_allowed();
+  load_sources();
   verification_ = verify::Verification{allowed, {}, job_.verify.require_proof};
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {
@@ -387,6 +433,7 @@ void Pipeline::verify() {
   }
   output_.write("verify.json", verify::verification_json(*verification_));
   output_.write("verify.xml", verify::verification_junit(*verification_));
+  stages_.record("verify", data_key());
 }
 
 void Pipeline::compare_forms() {
@@ -404,7 +451,15 @@ void Pipeline::report() {
   load_data();
   load_calibration();
   load_tables();
-  if (!verification_) verification_ = earlier_.verification().value_or(verify::Verification{});
+  if (!verification_) {
+    const std::string why = stages_.stale("verify", data_key());
+    if (why.empty())
+      verification_ = earlier_.verification().value_or(verify::Verification{});
+    else {
+      notes_.push_back("verify.json is not in the report: " + why);
+      verification_ = verify::Verification{};
+    }
+  }
   if (traces_.empty() && !new_calibration_) traces_ = earlier_.traces();
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
@@ -428,6 +483,7 @@ void Pipeline::report() {
 }
 
 void Pipeline::commit() {
+  output_.write("stages.json", stages_.json());
   output_.commit();
 }
 

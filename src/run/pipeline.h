@@ -14,6 +14,7 @@
 #include "models/assembled_law.h"
 #include "run/job_data.h"
 #include "run/result_directory.h"
+#include "run/stages.h"
 #include "table/table.h"
 #include "trace/trace.h"
 #include "verify/forms.h"
@@ -54,10 +55,14 @@ public:
   std::vector<std::string> files() const { return output_.paths(); }
 
 private:
-  // Where no stage of this run has made them, from the job's files or an earlier run.
+  // Where no stage of this run has made them, from the job's files or an earlier run. What is not
+  // there is made first; what was made from other data or another job is an InputError.
   void load_data();
   void load_calibration();
   void load_tables();
+  void load_sources();
+  void check_fresh(const std::string& stage, const std::string& files) const;
+  std::string data_key() const; // empty where the data were not read
 
   void write_calibration();
   void add_traced_laws();
@@ -80,6 +85,7 @@ private:
 
   job::Job job_;
   ResultDirectory earlier_;
+  Stages stages_;
   io::OutputFiles output_;
   std::optional<JobData> data_;
   std::optional<calibrate::Calibration> calibration_;

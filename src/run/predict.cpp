@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <ostream>
 #include <span>
 
@@ -42,6 +43,12 @@ bool takes_recorded_columns(const std::vector<std::string>& inputs) {
 
 data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string>& inputs,
                         const std::string& file) {
+  const auto of_job = [&](std::string& name) {
+    if (!name.empty()) name = (std::filesystem::path(mapping.base) / name).string();
+  };
+  of_job(mapping.tests);
+  for (std::string& name : mapping.join.files)
+    of_job(name);
   mapping.base = ""; // the file is relative to where the command runs
   mapping.place = {};
   mapping.measured = false;

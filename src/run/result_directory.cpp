@@ -44,16 +44,30 @@ calibrate::Calibration ResultDirectory::calibration() const {
   return calibrate::parse_calibration(io::read_file(file), file.string());
 }
 
-std::vector<fs::path> ResultDirectory::all_tables() const {
+std::vector<fs::path> ResultDirectory::table_paths() const {
   const fs::path directory = directory_ / "tables";
   std::vector<fs::path> files;
   if (fs::is_directory(directory))
     for (const auto& entry : fs::directory_iterator(directory))
-      if (entry.path().extension() == ".h5") files.push_back(entry.path());
-  if (files.empty())
-    throw InputError({directory.string(), 0, 0}, "there are no tables yet",
-                     "run `frictab tabulate " + job_ + "` first");
+      if (entry.path().extension() == ".h5" && entry.path().filename().string().front() != '.')
+        files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool ResultDirectory::has_calibration() const {
+  return fs::exists(directory_ / "calibration.json");
+}
+
+bool ResultDirectory::has_tables() const {
+  return !table_paths().empty();
+}
+
+std::vector<fs::path> ResultDirectory::all_tables() const {
+  std::vector<fs::path> files = table_paths();
+  if (files.empty())
+    throw InputError({(directory_ / "tables").string(), 0, 0}, "there are no tables yet",
+                     "run `frictab tabulate " + job_ + "` first");
   return files;
 }
 

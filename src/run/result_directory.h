@@ -22,6 +22,8 @@ public:
 
   // Results. Those that a stage cannot do without throw InputError where they are missing, with the
   // command that makes them; the others are empty.
+  bool has_calibration() const;
+  bool has_tables() const;
   calibrate::Calibration calibration() const;
   std::vector<table::Table>
   tables(double memory_limit_MiB) const;                // by name; larger ones stay on disk
@@ -39,7 +41,8 @@ public:
   std::vector<std::string> source_files() const; // those that recipes list
 
 private:
-  std::vector<std::filesystem::path> all_tables() const;
+  std::vector<std::filesystem::path> table_paths() const;
+  std::vector<std::filesystem::path> all_tables() const; // at least one
   std::vector<std::string> table_names() const;
 
   std::filesystem::path directory_;

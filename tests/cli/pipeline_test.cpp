@@ -365,15 +365,6 @@ TEST_F(MainJob, LeftoversOfAKilledRunAreCleanedUp) {
   EXPECT_FALSE(fs::exists(directory.path("out/.frictab-99999999")));
 }
 
-TEST_F(MainJob, StageWithoutWhatItNeedsSaysWhichStageToRunFirst) {
-  const auto result = run_frictab({"export", job});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("there are no tables yet\n  hint: run `frictab tabulate "),
-            std::string::npos)
-      << result.err;
-  EXPECT_FALSE(fs::exists(directory.path("out"))) << "nothing half-made";
-}
-
 TEST_F(MainJob, TypoInTheJobFileIsOneLineWithItsPlaceAndAHint) {
   const std::string file = directory.write("typo.toml", "[data]\ntraining = \"data/training.csv\"\n"
                                                         "[table]\ntolerence_MPa = 0.1\n");

@@ -1,0 +1,82 @@
+// frictab status JOB: what is there, what is stale, what the next command is.
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/job_commands.h"
+#include "io/json.h"
+#include "run/job_data.h"
+#include "run/stages.h"
+
+namespace frictab::cli::status_command {
+
+namespace {
+
+struct StageStatus {
+  std::string name, state, why; // done | stale | missing
+};
+
+std::vector<StageStatus> status_of(const job::Job& job) {
+  const run::JobData data = run::load_job_data(job);
+  const run::Stages stages(job, job.directory);
+  const std::string key = data::fingerprint(data.training, data.validation);
+  std::vector<StageStatus> out;
+  for (const std::string& name : run::stage_names()) {
+    StageStatus status{name, "missing", ""};
+    if (stages.has(name)) {
+      status.why = stages.stale(name, key);
+      status.state = status.why.empty() ? "done" : "stale";
+      for (const StageStatus& before : out)
+        if (status.why.empty() && before.state == "stale") {
+          status.state = "stale";
+          status.why = fmt::format("`{}` is stale", before.name);
+        }
+    }
+    out.push_back(status);
+  }
+  return out;
+}
+
+// Several stages to be run are a run. Tracing that was never asked for is no gap.
+std::string next_command(const std::vector<StageStatus>& all, const std::string& job) {
+  std::vector<std::string> open;
+  for (const StageStatus& one : all)
+    if (one.state == "stale" || (one.state == "missing" && one.name != "trace"))
+      open.push_back(one.name);
+  if (open.empty()) return "";
+  return fmt::format("frictab {} {}", open.size() == 1 ? open.front() : "run", job);
+}
+
+int run(const std::string& file, const CommonOptions& common) {
+  const job::Job job = read_job(file, common);
+  const std::vector<StageStatus> all = status_of(job);
+  const std::string next = next_command(all, file);
+  if (common.json) {
+    nlohmann::ordered_json json = {{"directory", job.directory}, {"stages", {}}, {"next", next}};
+    for (const StageStatus& one : all)
+      json["stages"].push_back({{"stage", one.name}, {"state", one.state}, {"why", one.why}});
+    fmt::print("{}", io::json_text(json));
+    return 0;
+  }
+  for (const StageStatus& one : all)
+    fmt::print("{:<10} {}{}\n", one.name, one.state, one.why.empty() ? "" : ": " + one.why);
+  fmt::print("{}\n", next.empty() ? "nothing is left to do" : "next: " + next);
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
+  const auto file = std::make_shared<std::string>();
+  app.add_option("JOB", *file, "Job file (TOML)")->required();
+  return [file, &common] { return run(*file, common); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"status", 9, "What is there of a job, what is stale, what comes next", declare};
+}};
+
+} // namespace
+
+} // namespace frictab::cli::status_command

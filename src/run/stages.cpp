@@ -1,0 +1,127 @@
+// Fingerprints of stages.
+#include "run/stages.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "core/text.h"
+#include "io/atomic_file.h"
+#include "io/json.h"
+
+namespace frictab::run {
+
+namespace {
+
+struct Stage {
+  const char* name;
+  std::vector<std::string> sections; // of the job, that it depends on
+};
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> all = {{"calibrate", {"models", "calibration"}},
+                                         {"trace", {"trace"}},
+                                         {"tabulate", {"table"}},
+                                         {"export", {"export"}},
+                                         {"verify", {"verify"}}};
+  return all;
+}
+
+std::string hash_of(const std::string& text) {
+  return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
+}
+
+const Stage& stage_named(const std::string& name) {
+  return *std::find_if(stages().begin(), stages().end(),
+                       [&](const Stage& stage) { return name == stage.name; });
+}
+
+std::string sections_text(const Stage& stage) {
+  std::vector<std::string> heads;
+  for (const std::string& section : stage.sections)
+    heads.push_back("[" + section + "]");
+  return join(heads, " or ");
+}
+
+} // namespace
+
+const std::vector<std::string>& stage_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const Stage& stage : stages())
+      out.emplace_back(stage.name);
+    return out;
+  }();
+  return names;
+}
+
+Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : job_(job) {
+  const auto file = directory / "stages.json";
+  if (!std::filesystem::exists(file)) return;
+  const auto json = io::parse_json(io::read_file(file), file.string());
+  io::read_json(file.string(), "remove it, then `frictab run`", [&] {
+    for (const auto& [name, inputs] : json.at("stages").items())
+      made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("from"), inputs.at("version")};
+  });
+}
+
+std::string Stages::key(const std::string& stage) const {
+  const StageInputs& made = made_.at(stage);
+  return hash_of(made.data + made.job + made.from + made.version);
+}
+
+// The last stage before it whose results it goes on from: tracing need not have run.
+std::string Stages::before(const std::string& stage) const {
+  const auto& names = stage_names();
+  auto at = std::find(names.begin(), names.end(), stage);
+  while (at != names.begin())
+    if (--at; made_.count(*at) > 0) return *at;
+  return "";
+}
+
+StageInputs Stages::now(const std::string& stage, const std::string& data) const {
+  std::string job;
+  for (const std::string& section : stage_named(stage).sections)
+    if (const auto found = job_.sections.find(section); found != job_.sections.end())
+      job += section + found->second;
+  const bool first = stage == stage_names().front();
+  if (first) job += fmt::format("seed {}", job_.calibration.seed);
+  const std::string last = before(stage);
+  return {first ? data : "", hash_of(job), last.empty() ? "" : key(last), FRICTAB_VERSION};
+}
+
+void Stages::record(const std::string& stage, const std::string& data) {
+  made_[stage] = now(stage, data);
+  if (stage == "calibrate") made_.erase("trace");
+}
+
+std::string Stages::stale(const std::string& stage, const std::string& data) const {
+  const auto found = made_.find(stage);
+  if (found == made_.end()) return "";
+  const StageInputs &made = found->second, wanted = now(stage, data);
+  if (made.version != wanted.version)
+    return fmt::format("made by frictab {}, this is {}", made.version, wanted.version);
+  if (!data.empty() && made.data != wanted.data) return "the data have changed since";
+  if (made.job != wanted.job)
+    return sections_text(stage_named(stage)) + " of the job has changed since";
+  if (made.from != wanted.from) return fmt::format("made before the last `{}`", before(stage));
+  return "";
+}
+
+std::string Stages::json() const {
+  nlohmann::ordered_json out = {{"schema", "frictab/stages/1"},
+                                {"tool_version", FRICTAB_VERSION},
+                                {"stages", nlohmann::ordered_json::object()}};
+  for (const std::string& name : stage_names())
+    if (const auto found = made_.find(name); found != made_.end())
+      out["stages"][name] = {{"data", found->second.data},
+                             {"job", found->second.job},
+                             {"from", found->second.from},
+                             {"version", found->second.version}};
+  return io::json_text(out);
+}
+
+} // namespace frictab::run

@@ -1,0 +1,52 @@
+// stages.json: what the results in an output directory were made from, stage by stage. A stage that
+// goes on from them knows by it whether they are of this job and these data.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "job/job.h"
+
+namespace frictab::run {
+
+// What one stage's results depend on, as hashes (16 hex digits).
+struct StageInputs {
+  std::string data;    // of the first: values and names of the data
+  std::string job;     // the stage's sections of the job
+  std::string from;    // the stage before; empty for the first
+  std::string version; // of frictab
+};
+
+// In the order of a run.
+const std::vector<std::string>& stage_names();
+
+class Stages {
+public:
+  // As stages.json of the directory says; nothing where there is none. Throws InputError where it
+  // is damaged.
+  Stages(const job::Job& job, const std::filesystem::path& directory);
+
+  // A stage has run on data of this fingerprint. Calibration drops what tracing had added.
+  void record(const std::string& stage, const std::string& data);
+
+  bool has(const std::string& stage) const { return made_.count(stage) > 0; }
+  // In words, how what a stage was made from differs from what it would be made from now: "[table]
+  // of the job has changed since"; empty where it does not, or nothing is known of it. `data`
+  // empty: they were not read, and are not compared.
+  std::string stale(const std::string& stage, const std::string& data) const;
+
+  std::string json() const;
+
+private:
+  StageInputs now(const std::string& stage, const std::string& data) const;
+  std::string key(const std::string& stage) const; // of its recorded inputs
+  std::string before(const std::string& stage) const;
+
+  const job::Job& job_;
+  std::map<std::string, StageInputs> made_;
+};
+
+} // namespace frictab::run
