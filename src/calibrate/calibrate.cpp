@@ -229,6 +229,7 @@ Calibration calibrate(const CalibrationInput& input) {
   calibration.seed = input.options.seed;
   calibration.synthetic = is_synthetic(input.training) || is_synthetic(input.validation);
   calibration.data_hash = data::fingerprint(input.training, input.validation);
+  calibration.validation_experiments = input.validation.experiments;
   calibration.fits.resize(selection.laws.size());
   Progress progress("calibrating laws", selection.laws.size());
   parallel_for(selection.laws.size(), [&](std::size_t i) {

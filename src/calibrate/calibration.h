@@ -16,6 +16,7 @@
 //     sandwich          standard errors by experiment
 //     resampling        errors per experiment, whole experiments resampled
 //     metrics           MAE, RMSE, bias with intervals
+//     experiment_errors the same for single experiments
 //     comparison        which law is better than which
 //     noise_floor       what no law can go below, with replicates (repeated tests)
 //     band              how experiments lie around a law, and laws at their quantiles
@@ -67,10 +68,11 @@ struct Calibration {
   std::vector<LeftOut> left_out;
   Loss loss = Loss::l2;
   std::uint64_t seed = 1;
-  bool synthetic = false;               // the data say they are
-  std::string data_hash;                // 16 hex digits, training and validation
-  Comparisons comparisons;              // of all pairs, on the validation experiments
-  std::vector<NoiseFloor> noise_floors; // the most trustworthy first
+  bool synthetic = false;                          // the data say they are
+  std::string data_hash;                           // 16 hex digits, training and validation
+  std::vector<std::string> validation_experiments; // by name, as filed
+  Comparisons comparisons;                         // of all pairs, on the validation experiments
+  std::vector<NoiseFloor> noise_floors;            // the most trustworthy first
   Conditional conditional;
 };
 

@@ -285,6 +285,7 @@ std::string calibration_json(const Calibration& calibration) {
                         {"synthetic_data", calibration.synthetic},
                         {"loss", loss_name(calibration.loss)},
                         {"seed", calibration.seed},
+                        {"validation_experiments", calibration.validation_experiments},
                         {"noise_floor", noise_floors_json(calibration.noise_floors)},
                         {"models", models},
                         {"left_out", left_out_json(calibration.left_out)},
@@ -300,6 +301,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
     calibration.synthetic = j.at("synthetic_data");
     calibration.seed = j.at("seed");
     calibration.loss = parse_loss(j.at("loss").get<std::string>());
+    calibration.validation_experiments =
+        j.at("validation_experiments").get<std::vector<std::string>>();
     for (const Json& one : j.at("left_out"))
       calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
     calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));

@@ -5,6 +5,7 @@
 
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "core/text.h"
 #include "report/numbers.h"
 
 namespace frictab::report {
@@ -92,6 +93,9 @@ void add_all_errors(std::string& out, const calibrate::Calibration& calibration,
   for (const calibrate::ModelFit& fit : calibration.fits)
     out += fmt::format("| {} | {} | {} |\n", markdown_cell(fit.model.law->name),
                        errors(fit.validation, decimals), errors(fit.training, decimals));
+  if (!calibration.validation_experiments.empty())
+    out += "\nValidation experiments: " +
+           markdown_cell(join(calibration.validation_experiments, ", ")) + ".\n";
   add_floors(out, calibration, decimals);
 }
 

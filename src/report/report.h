@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
+#include "calibrate/experiment_errors.h"
 #include "table/table.h"
 #include "trace/trace.h"
 #include "verify/forms.h"
@@ -24,6 +25,7 @@ struct ReportInput {
   std::vector<verify::FormComparison> forms =
       {};                                // per table, sizes only: times differ from run to run
   std::vector<trace::Trace> traces = {}; // empty: nothing was traced
+  std::vector<calibrate::ErrorsOfLaw> by_experiment = {}; // per calibration.fits entry
 };
 
 // One self-contained page that opens offline: ranking, measured against predicted and residual

@@ -200,9 +200,23 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
       stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash), path);
 }
 
+void Plot::dots(std::span<const double> x, std::span<const double> y,
+                std::span<const std::string> text, double size, std::string_view colour) {
+  body_ += fmt::format("\n<g fill=\"{}\">", colour);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::isfinite(x[i]) && std::isfinite(y[i]))
+      body_ +=
+          fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"><title>{}</title></circle>",
+                      pixel(pixel_x(x[i])), pixel(pixel_y(y[i])), pixel(size), escape(text[i]));
+  body_ += "</g>";
+}
+
 void Plot::label(double x, double y, std::string_view text, std::string_view colour) {
-  body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"end\" style=\"fill:{}\">{}</text>",
-                       pixel(pixel_x(x) - 3), pixel(pixel_y(y) - 3), colour, escape(text));
+  constexpr double letter = 6; // about the width of one
+  const bool fits = pixel_x(x) > letter * static_cast<double>(text.size());
+  body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" style=\"fill:{}\">{}</text>",
+                       pixel(pixel_x(x) + (fits ? -3 : 3)), pixel(pixel_y(y) - 3),
+                       fits ? "end" : "start", colour, escape(text));
 }
 
 std::string Plot::axes() const {

@@ -71,7 +71,13 @@ public:
   // finite interrupt the line.
   void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
 
-  // A short text that ends at a point of the drawing area, above it.
+  // Discs of radius `size`; each shows its text under the pointer. x, y and text have the same
+  // length.
+  void dots(std::span<const double> x, std::span<const double> y, std::span<const std::string> text,
+            double size, std::string_view colour);
+
+  // A short text that ends at a point of the drawing area, above it;
+  // one that would not fit there starts at the point.
   void label(double x, double y, std::string_view text, std::string_view colour);
 
   // A figure with <title> and <desc> for those who cannot see it.

@@ -122,7 +122,8 @@ void Pipeline::write_calibration() {
   output_.write("calibration.json", calibrate::calibration_json(*calibration_));
   output_.write("benchmark.md", report::benchmark_md(*calibration_));
   output_.write("errors_by_experiment.csv",
-                calibrate::errors_by_experiment(*calibration_, data_->training, data_->validation));
+                calibrate::errors_csv(calibrate::errors_by_experiment(
+                    *calibration_, data_->training, data_->validation)));
   for (const ModelFit& fit : calibration_->fits)
     output_.write("models/" + fit.model.law->name + ".json",
                   calibrate::model_json(fit, *calibration_));
@@ -469,16 +470,18 @@ void Pipeline::report() {
     sizes.push_back(verify::form_sizes(law_of(table), table));
   std::vector<std::string> written = output_.paths();
   written.push_back("report.html");
-  const report::ReportInput input{fs::path(job_.file).filename().string(),
-                                  *calibration_,
-                                  data_->training,
-                                  data_->validation,
-                                  std::move(predicted),
-                                  tables_,
-                                  *verification_,
-                                  std::move(written),
-                                  std::move(sizes),
-                                  traces_};
+  const report::ReportInput input{
+      fs::path(job_.file).filename().string(),
+      *calibration_,
+      data_->training,
+      data_->validation,
+      std::move(predicted),
+      tables_,
+      *verification_,
+      std::move(written),
+      std::move(sizes),
+      traces_,
+      calibrate::errors_by_experiment(*calibration_, data_->training, data_->validation)};
   output_.write("report.html", report::report_html(input));
 }
 

@@ -57,6 +57,11 @@ TEST_F(Judgement, SummaryHoldsTheFloorOfTheOracleAndWhoIsBest) {
   const auto twin = test::parse_json(directory.read("data/twin.json"));
   EXPECT_NEAR(floor.at("mae_MPa").get<double>(),
               twin.at("validation").at("errors").at("oracle").at("mae_MPa").get<double>(), 1e-9);
+  EXPECT_EQ(calibration().at("validation_experiments").size(), 12U);
+  EXPECT_THAT(directory.read("data/out/benchmark.md"),
+              HasSubstr("\nValidation experiments: " +
+                        calibration().at("validation_experiments").at(0).get<std::string>() +
+                        ", "));
   const auto pair = calibration().at("comparisons").at("pairs").at(0);
   EXPECT_EQ(pair.at("law"), "log_coulomb");
   EXPECT_EQ(pair.at("verdict"), "better");

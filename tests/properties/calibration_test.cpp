@@ -301,7 +301,8 @@ TEST(ExperimentErrors, AddUpToThoseOfTheRankingAndNameTheOutlier) {
   CalibrationInput input{training, validation, {}, {}};
   input.models.use = {"coulomb", "coulomb_0.04"};
   const Calibration calibration = calibrate::calibrate(input);
-  std::istringstream lines(calibrate::errors_by_experiment(calibration, training, validation));
+  std::istringstream lines(
+      calibrate::errors_csv(calibrate::errors_by_experiment(calibration, training, validation)));
   std::string line, furthest;
   std::getline(lines, line);
   EXPECT_EQ(line, "law,experiment,held_out,n,mae_MPa,rmse_MPa,bias_MPa,gain");

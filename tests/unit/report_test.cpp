@@ -163,6 +163,32 @@ TEST(Report, LinksToNoPlotThatIsNotThere) {
 }
 
 // Cases that a page must survive; each must still be well-formed.
+std::vector<calibrate::ErrorsOfLaw> errors_of(std::size_t tests) {
+  calibrate::ErrorsOfLaw law{"coulomb", {}};
+  for (std::size_t e = 0; e < tests; ++e) {
+    const double mae = e == tests / 2 ? 40 : 5 + static_cast<double>(e % 7);
+    law.experiments.push_back({"pin <" + std::to_string(e) + ">", e % 4 == 0, 100, mae, mae, 1, 1});
+  }
+  return {law};
+}
+
+TEST(Report, ShowsTheErrorOfEveryTestAndNamesTheOutlier) {
+  const ReportSample sample = report_sample(1, 3, 50);
+  for (const std::size_t tests : {12, 111}) {
+    report::ReportInput input = sample.input();
+    input.by_experiment = errors_of(tests);
+    const std::string page = report_html(input);
+    EXPECT_EQ(xml_fault(page), "");
+    std::size_t dots = 0;
+    for (std::size_t at = page.find("<circle"); at != page.npos; at = page.find("<circle", at + 1))
+      ++dots;
+    EXPECT_EQ(dots, tests);
+    const std::string outlier = "pin &lt;" + std::to_string(tests / 2) + "&gt;";
+    EXPECT_THAT(page, HasSubstr("style=\"fill:#111\">" + outlier + "</text>"));
+    EXPECT_THAT(page, HasSubstr("<p>Worst: " + outlier + ": 40.0"));
+  }
+}
+
 TEST(Report, SurvivesEmptyInput) {
   const ReportSample nothing;
   const std::string page = report_html(nothing.input());
@@ -223,6 +249,7 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
   orowan.band = {0.8, 1.2599, 27, 30};
   c.fits = {orowan, fixed};
   c.left_out = {{"wzl", "v_rel_mm_s"}};
+  c.validation_experiments = {"E3", "E|7"};
   EXPECT_EQ(
       benchmark_md(c),
       "# Friction laws on experiments they were not calibrated on\n"
@@ -255,6 +282,8 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "| coulomb_0.08 | 26.30 (21.60 to 31.60) | 30.20 (25.00 to 35.00) | \u221224.80 (\u2013) | "
       "28.50 (25.00 to 31.00) | 31.00 (28.00 to 34.00) | \u221220.00 (\u221222.00 to \u221218.00) "
       "|\n"
+      "\n"
+      "Validation experiments: E3, E\\|7.\n"
       "\n"
       "What is left where a law of the state is exact: noise floor unknown: no repeated tests, and "
       "experiments too short to see their scatter; repeat some tests at the same set levels to "

@@ -1,0 +1,126 @@
+// The error of each test for the best laws: which test is the outlier?
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "report/numbers.h"
+#include "report/published.h"
+#include "report/sections.h"
+#include "report/svg.h"
+
+namespace frictab::report {
+
+namespace {
+
+using calibrate::ExperimentError;
+
+constexpr std::size_t shown_laws = 3, named_tests = 3;
+constexpr double width = 760, height = 130;
+const std::string held_out_colour = "#c2410c", trained_colour = "#86b0d6";
+
+// The best laws; constants of the literature would squeeze all others.
+std::vector<std::size_t> laws_to_show(const ReportInput& input) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < input.by_experiment.size() && shown.size() < shown_laws; ++i)
+    if (i == 0 || kind_of(*input.calibration.fits[i].model.law) != LawKind::literature)
+      shown.push_back(i);
+  return shown;
+}
+
+// Numbers of the tests with the largest errors, the worst first.
+std::vector<std::size_t> worst_of(const std::vector<ExperimentError>& tests) {
+  std::vector<std::size_t> order;
+  for (std::size_t e = 0; e < tests.size(); ++e)
+    if (std::isfinite(tests[e].mae_MPa)) order.push_back(e);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tests[a].mae_MPa > tests[b].mae_MPa;
+  });
+  order.resize(std::min(order.size(), named_tests));
+  return order;
+}
+
+std::string said(const ExperimentError& test, int decimals) {
+  return fmt::format("{}: {} MPa, bias {}, {}", test.experiment, fixed(test.mae_MPa, decimals),
+                     fixed(test.bias_MPa, decimals), test.held_out ? "held out" : "trained on");
+}
+
+void add_dots(svg::Plot& plot, const std::vector<ExperimentError>& tests, bool held_out,
+              int decimals) {
+  std::vector<double> x, y;
+  std::vector<std::string> text;
+  for (std::size_t e = 0; e < tests.size(); ++e) {
+    if (tests[e].held_out != held_out) continue;
+    x.push_back(static_cast<double>(e + 1));
+    y.push_back(tests[e].mae_MPa);
+    text.push_back(said(tests[e], decimals));
+  }
+  plot.dots(x, y, text, tests.size() > 40 ? 2.5 : 4, held_out ? held_out_colour : trained_colour);
+}
+
+svg::Axis axis_of_errors(const ReportInput& input, const std::vector<std::size_t>& shown) {
+  double most = 0;
+  for (const std::size_t law : shown)
+    for (const ExperimentError& test : input.by_experiment[law].experiments)
+      if (std::isfinite(test.mae_MPa)) most = std::max(most, test.mae_MPa);
+  return svg::nice_axis(0, 1.1 * most, 4, "MAE / MPa"); // room for names
+}
+
+// Names one above the other would not be read.
+void add_names(svg::Plot& plot, const std::vector<ExperimentError>& tests,
+               const std::vector<std::size_t>& worst) {
+  const double apart = 0.15 * static_cast<double>(tests.size());
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const auto x = static_cast<double>(worst[i]);
+    const bool free =
+        std::none_of(worst.begin(), worst.begin() + static_cast<long>(i), [&](std::size_t other) {
+          return std::abs(x - static_cast<double>(other)) < apart;
+        });
+    if (free) plot.label(x + 1, tests[worst[i]].mae_MPa, tests[worst[i]].experiment, "#111");
+  }
+}
+
+codegen::TemplateValues figure_of(const ReportInput& input, std::size_t law,
+                                  const svg::Axis& errors) {
+  const std::vector<ExperimentError>& tests = input.by_experiment[law].experiments;
+  const int decimals = error_decimals(input.calibration);
+  const double mae = input.calibration.fits[law].validation.mae_MPa;
+  svg::Plot plot(width, height,
+                 svg::nice_axis(0, static_cast<double>(tests.size() + 1), 10, "test"), errors);
+  const std::vector<double> ends{0, static_cast<double>(2 * tests.size() + 20)}, line{mae, mae};
+  plot.line(ends, line, {"#111", 1, "4 3", false});
+  for (const bool held_out : {false, true})
+    add_dots(plot, tests, held_out, decimals);
+  const std::vector<std::size_t> worst = worst_of(tests);
+  add_names(plot, tests, worst);
+  std::vector<std::string> named;
+  for (const std::size_t e : worst)
+    named.push_back(said(tests[e], decimals));
+  const std::string name = input.by_experiment[law].law;
+  return {{{"name", svg::escape(name)},
+           {"worst", svg::escape("Worst: " + join(named, "; ") + ".")},
+           {"plot",
+            plot.text(name + ": mean absolute error of each test", "Worst: " + join(named, "; "))}},
+          {},
+          {}};
+}
+
+} // namespace
+
+void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& input) {
+  const std::vector<std::size_t> shown = laws_to_show(input);
+  page.flags["has_experiment_errors"] = !shown.empty();
+  page.text["by_experiment_link"] = shown.empty() ? "" : "<a href=\"#experiments\">By test</a> ";
+  page.text["experiment_colours"] =
+      fmt::format("<span style=\"color:{}\">&#9679;</span> held out, <span style=\"color:{}\">"
+                  "&#9679;</span> trained on.",
+                  held_out_colour, trained_colour);
+  page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
+  const svg::Axis errors = axis_of_errors(input, shown);
+  std::vector<codegen::TemplateValues>& figures = page.lists["experiment_errors"];
+  for (const std::size_t law : shown)
+    figures.push_back(figure_of(input, law, errors));
+}
+
+} // namespace frictab::report
