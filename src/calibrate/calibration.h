@@ -12,12 +12,15 @@
 //     median            least absolute deviations of one parameter, exactly
 //     network           training of the neural network: ensemble and weight decay
 //     network_fit       one of its nets
+//     fit_law           any law, by its own way
 //   how well it is known, and how well it does
 //     sandwich          standard errors by experiment
 //     resampling        errors per experiment, whole experiments resampled
 //     metrics           MAE, RMSE, bias with intervals
 //     experiment_errors the same for single experiments
+//     cross_validation  experiments predicted by laws fitted without them
 //     comparison        which law is better than which
+//     choice            what the best law's error owes to its having been chosen
 //     noise_floor       what no law can go below, with replicates (repeated tests)
 //     band              how experiments lie around a law, and laws at their quantiles
 //     conditional       one gain per experiment from its own first millimetres
@@ -49,7 +52,10 @@ struct ModelFit {
   std::vector<std::string> remarks; // a bound that was hit, a parameter the data do not determine
   Metrics training;
   Metrics validation;
-  BandCheck band;                       // of model.experiment_gains, on the validation experiments
+  BandCheck band; // of model.experiment_gains, on the validation experiments
+  // Where each experiment was left out: its error by the law fitted without it, as filed.
+  std::vector<ExperimentError> unseen;
+  std::vector<models::Model> without;   // that law, per experiment; kept out of files
   std::optional<NetworkRecord> network; // how a neural network was trained
   // Least and largest of each input in the training data, by name; empty in files of versions that
   // did not write it.
@@ -65,6 +71,7 @@ struct LeftOut {
 
 struct Calibration {
   std::vector<ModelFit> fits; // ranked by validation MAE
+  JudgedBy judged_by = JudgedBy::validation_files;
   std::vector<LeftOut> left_out;
   Loss loss = Loss::l2;
   std::uint64_t seed = 1;
@@ -72,15 +79,18 @@ struct Calibration {
   std::string data_hash;                           // 16 hex digits, training and validation
   std::vector<std::string> validation_experiments; // by name, as filed
   Comparisons comparisons;                         // of all pairs, on the validation experiments
-  std::vector<NoiseFloor> noise_floors;            // the most trustworthy first
+  Choice choice;                        // what choosing the best of them does to its error
+  std::vector<NoiseFloor> noise_floors; // the most trustworthy first
   Conditional conditional;
 };
 
 struct CalibrationInput {
   const data::Dataset& training;
-  const data::Dataset& validation;
+  const data::Dataset& validation; // leave_one_out: the same data as training
   ModelOptions models;
   CalibrationOptions options;
+  JudgedBy judged_by = JudgedBy::validation_files;
+  const data::Dataset* undivided = nullptr; // held_out: both together, to draw the split again
 };
 
 // The job's conventions, with the shear limit off where the data have no flow stress.

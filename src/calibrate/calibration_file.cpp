@@ -204,6 +204,7 @@ Json fit_json(const ModelFit& fit) {
             {"std_error_method", fit.std_error_method},
             {"training", metrics_json(fit.training)},
             {"validation", metrics_json(fit.validation)},
+            {"by_experiment_left_out", unseen_json(fit.unseen)},
             {"wall_time_below_s", whole_seconds_above(fit.seconds)},
             {"evaluations", fit.evaluations},
             {"termination", fit.termination},
@@ -285,11 +286,13 @@ std::string calibration_json(const Calibration& calibration) {
                         {"synthetic_data", calibration.synthetic},
                         {"loss", loss_name(calibration.loss)},
                         {"seed", calibration.seed},
+                        {"judged_by", judged_by_name(calibration.judged_by)},
                         {"validation_experiments", calibration.validation_experiments},
                         {"noise_floor", noise_floors_json(calibration.noise_floors)},
                         {"models", models},
                         {"left_out", left_out_json(calibration.left_out)},
                         {"comparisons", comparisons_json(calibration.comparisons)},
+                        {"choice", choice_json(calibration.choice)},
                         {"conditional", conditional_json(calibration.conditional)}});
 }
 
@@ -306,6 +309,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
     for (const Json& one : j.at("left_out"))
       calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
     calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));
+    calibration.judged_by = parse_judged_by(j.at("judged_by"));
+    calibration.choice = parse_choice(j.at("choice"));
     calibration.comparisons = parse_comparisons(j.at("comparisons"));
     calibration.conditional = parse_conditional(j.at("conditional"));
     for (const Json& one : j.at("models")) {
@@ -317,6 +322,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       fit.training = parse_metrics(one.at("training"));
       fit.validation = parse_metrics(one.at("validation"));
       fit.band = parse_band(one.at("band"));
+      fit.unseen =
+          parse_unseen(one.at("by_experiment_left_out"), calibration.validation_experiments);
       calibration.fits.push_back(std::move(fit));
     }
   });

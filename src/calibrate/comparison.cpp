@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration.h"
+#include "calibrate/choice.h"
+#include "calibrate/experiment_errors.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -215,13 +217,16 @@ std::string family_sentence(const Comparisons& comparisons) {
 
 void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   std::vector<LawErrors> laws(calibration.fits.size());
-  const data::Dataset& data = input.validation;
   parallel_for(laws.size(), [&](std::size_t i) {
-    const models::Model& model = calibration.fits[i].model;
-    laws[i] = {model.law->name,
-               error_sums(data.values("tau_R_MPa"), predict(model, data), data.first_row)};
+    const ModelFit& fit = calibration.fits[i];
+    laws[i] = {fit.model.law->name, unseen_sums(fit, input.validation)};
   });
   calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
+  const Choice before = std::move(calibration.choice);
+  calibration.choice = choose_again(laws, input.options.bootstrap, input.options.seed);
+  if (!before.splits) return;
+  calibration.choice.best_in = before.best_in; // traced laws are not fitted to other splits
+  calibration.choice.splits = true;
 }
 
 } // namespace frictab::calibrate

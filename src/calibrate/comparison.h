@@ -36,7 +36,8 @@ std::vector<std::string> as_good_as_first(const Comparisons& comparisons);
 std::string pairwise_sentence(const Comparisons& comparisons);
 std::string family_sentence(const Comparisons& comparisons);
 
-// Fills calibration.comparisons for its ranked laws on the validation experiments.
+// Fills calibration.comparisons and calibration.choice for its ranked laws on the validation
+// experiments; shares of other splits stay as they are.
 void add_comparisons(Calibration& calibration, const CalibrationInput& input);
 
 } // namespace frictab::calibrate

@@ -2,12 +2,14 @@
 #include "calibrate/conditional.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "calibrate/comparison.h"
+#include "calibrate/cross_validation.h"
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -71,16 +73,41 @@ std::vector<double> shear_limit(const models::Model& model, const Dataset& data)
   return limit;
 }
 
-ConditionalFit fit_of(const models::Model& model, const CalibrationInput& input, double x_mm) {
-  const GainPrior prior = gain_prior(input.training, predict(model, input.training), x_mm);
-  const Dataset& data = input.validation;
+GainPrior prior_of(const models::Model& model, const Dataset& training, double x_mm) {
+  return gain_prior(training, predict(model, training), x_mm);
+}
+
+// With and without the gain, on the rests of the experiments of `data`.
+void add_rests(std::vector<LawErrors>& both, const models::Model& model, const GainPrior& prior,
+               const Dataset& data, double x_mm) {
   const std::vector<double> plain = predict(model, data);
   const Rest rest =
       rest_of(data, plain,
               conditioned_predictions(data, plain, shear_limit(model, data), prior, x_mm), x_mm);
-  const std::vector<LawErrors> both = {
-      {"conditional", error_sums(rest.measured, rest.gained, rest.first_row)},
-      {"unconditional", error_sums(rest.measured, rest.plain, rest.first_row)}};
+  for (const auto& [law, predicted] :
+       {std::pair{&both[0], &rest.gained}, {&both[1], &rest.plain}}) {
+    const auto sums = error_sums(rest.measured, *predicted, rest.first_row);
+    law->sums.insert(law->sums.end(), sums.begin(), sums.end());
+  }
+}
+
+// Each experiment by the law fitted without it, and what the others say of its gain.
+void add_left_out_rests(std::vector<LawErrors>& both, const ModelFit& fit, const Dataset& data,
+                        double x_mm) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const GainPrior prior = prior_of(fit.without[e], without_experiment(data, e), x_mm);
+    add_rests(both, fit.without[e], prior, data.subset(std::array{e}), x_mm);
+  }
+}
+
+ConditionalFit fit_of(const ModelFit& judged, const CalibrationInput& input, double x_mm) {
+  const models::Model& model = judged.model;
+  const GainPrior prior = prior_of(model, input.training, x_mm);
+  std::vector<LawErrors> both = {{"conditional", {}}, {"unconditional", {}}};
+  if (input.judged_by == JudgedBy::leave_one_out)
+    add_left_out_rests(both, judged, input.training, x_mm);
+  else
+    add_rests(both, model, prior, input.validation, x_mm);
   const std::size_t resamples = input.options.bootstrap;
   const std::uint64_t seed = input.options.seed;
   ConditionalFit fit;
@@ -227,7 +254,7 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
       gain_prior(input.training, input.training.values("tau_R_MPa"), c.condition_on_mm).usual_rows);
   c.laws.resize(calibration.fits.size());
   parallel_for(c.laws.size(), [&](std::size_t i) {
-    c.laws[i] = fit_of(calibration.fits[i].model, input, c.condition_on_mm);
+    c.laws[i] = fit_of(calibration.fits[i], input, c.condition_on_mm);
   });
   std::stable_sort(c.laws.begin(), c.laws.end(),
                    [](const ConditionalFit& a, const ConditionalFit& b) {

@@ -12,33 +12,58 @@
 
 namespace frictab::calibrate {
 
-namespace {
-
-void add_experiments(ErrorsOfLaw& law, const models::Model& model, const data::Dataset& data,
-                     bool held_out) {
+std::vector<ExperimentError> experiment_errors(const models::Model& model,
+                                               const data::Dataset& data, bool held_out) {
   const std::span<const double> measured = data.values("tau_R_MPa");
   const std::vector<double> predicted = predict(model, data);
   const std::vector<ErrorSums> sums = error_sums(measured, predicted, data.first_row);
   const std::vector<double> gains = experiment_gains(measured, predicted, data.first_row);
-  for (std::size_t e = 0; e < sums.size(); ++e) {
-    const ErrorSums& one = sums[e];
-    law.experiments.push_back({data.experiments[e], held_out, static_cast<std::size_t>(one.rows),
-                               one.absolute / one.rows, std::sqrt(one.square / one.rows),
-                               one.residual / one.rows, gains[e]});
-  }
+  std::vector<ExperimentError> errors;
+  for (std::size_t e = 0; e < sums.size(); ++e)
+    errors.push_back(error_of(data.experiments[e], held_out, sums[e], gains[e]));
+  return errors;
 }
 
-} // namespace
+ExperimentError error_of(const std::string& experiment, bool held_out, const ErrorSums& sums,
+                         double gain) {
+  return {experiment,
+          held_out,
+          static_cast<std::size_t>(sums.rows),
+          sums.absolute / sums.rows,
+          std::sqrt(sums.square / sums.rows),
+          sums.residual / sums.rows,
+          gain};
+}
+
+std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
+  std::vector<ErrorSums> sums;
+  for (const ExperimentError& one : errors) {
+    const auto rows = static_cast<double>(one.n_rows);
+    sums.push_back(
+        {rows * one.mae_MPa, rows * one.rmse_MPa * one.rmse_MPa, rows * one.bias_MPa, rows});
+  }
+  return sums;
+}
+
+std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
+  if (!fit.unseen.empty()) return sums_of(fit.unseen);
+  return error_sums(validation.values("tau_R_MPa"), predict(fit.model, validation),
+                    validation.first_row);
+}
 
 std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,
                                               const data::Dataset& training,
                                               const data::Dataset& validation) {
   std::vector<ErrorsOfLaw> laws(calibration.fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
-    const models::Model& model = calibration.fits[i].model;
-    laws[i].law = model.law->name;
-    add_experiments(laws[i], model, training, false);
-    add_experiments(laws[i], model, validation, true);
+    const ModelFit& fit = calibration.fits[i];
+    std::vector<ExperimentError> unseen = fit.unseen;
+    laws[i].law = fit.model.law->name;
+    if (unseen.empty()) {
+      laws[i].experiments = experiment_errors(fit.model, training, false);
+      unseen = experiment_errors(fit.model, validation, true);
+    }
+    laws[i].experiments.insert(laws[i].experiments.end(), unseen.begin(), unseen.end());
   });
   return laws;
 }

@@ -5,23 +5,26 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
+#include "calibrate/resampling.h"
 
 namespace frictab::calibrate {
 
-struct ExperimentError {
-  std::string experiment;
-  bool held_out = false;
-  std::size_t n_rows = 0;
-  double mae_MPa = 0;
-  double rmse_MPa = 0;
-  double bias_MPa = 0; // mean of measured minus predicted, as in the ranking
-  double gain = 0;     // factor of the law that fits this test best; NaN: it predicts no stress
-};
-
 struct ErrorsOfLaw {
   std::string law;
-  std::vector<ExperimentError> experiments; // as filed, training first
+  std::vector<ExperimentError> experiments; // as filed, training first; left out: each once
 };
+
+ExperimentError error_of(const std::string& experiment, bool held_out, const ErrorSums& sums,
+                         double gain);
+// Of every experiment in `data`; `held_out` is what they are called.
+std::vector<ExperimentError> experiment_errors(const models::Model& model,
+                                               const data::Dataset& data, bool held_out);
+
+// Back to sums over rows.
+std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors);
+
+// Of the law on the validation experiments; fit.unseen where there is one.
+std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation);
 
 // Laws as ranked.
 std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,

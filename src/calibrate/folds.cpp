@@ -45,16 +45,17 @@ std::string leak_note(const data::Dataset& training, const data::Dataset& valida
   std::vector<std::string> names;
   for (const data::Column& column : validation.columns)
     if (column.levels.empty() && training.has(column.name)) names.push_back(column.name);
-  std::set<std::string> known;
+  std::multiset<std::string> known;
   for (std::size_t e = 0; e < training.experiments.size(); ++e)
     known.insert(rows_of(training, e, names));
+  const std::size_t itself = &training == &validation ? 1 : 0;
   std::size_t shared = 0;
   for (std::size_t e = 0; e < validation.experiments.size(); ++e)
-    shared += known.count(rows_of(validation, e, names));
+    shared += known.count(rows_of(validation, e, names)) > itself;
   if (shared == 0 || names.empty()) return "";
-  return fmt::format("{} of {} validation experiments have the rows of a training experiment: "
+  return fmt::format("{} of {} validation experiments have the rows of {} experiment: "
                      "errors on them are not errors of prediction",
-                     shared, validation.experiments.size());
+                     shared, validation.experiments.size(), itself ? "another" : "a training");
 }
 
 } // namespace frictab::calibrate

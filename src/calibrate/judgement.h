@@ -27,6 +27,22 @@ struct Metrics {
   std::size_t n_experiments = 0;
 };
 
+// What the errors of prediction were taken on. leave_one_out: every experiment, by the law fitted
+// to all others; held_out: a share that was drawn; validation_files: files of their own.
+enum class JudgedBy { leave_one_out, held_out, validation_files };
+const char* judged_by_name(JudgedBy judged_by); // "leave_one_out"
+
+// One law on one experiment.
+struct ExperimentError {
+  std::string experiment;
+  bool held_out = false; // the law was fitted without it
+  std::size_t n_rows = 0;
+  double mae_MPa = 0;
+  double rmse_MPa = 0;
+  double bias_MPa = 0; // mean of measured minus predicted
+  double gain = 0;     // factor of the law that fits this test best; NaN: it predicts no stress
+};
+
 // How far two errors on the same experiments are apart.
 struct Difference {
   double value_MPa = 0;
@@ -53,10 +69,25 @@ struct Comparisons {
   std::size_t resamples = 0;
 };
 
+// The first law of a ranking is first also by luck: its error on the tests that ranked it is too
+// small on average.
+struct Choice {
+  std::string law;
+  double mae_MPa = 0;          // of the tests that chose it
+  double expected_mae_MPa = 0; // of new tests, by a law that is chosen like this
+  struct Share {
+    std::string law;
+    double share = 0; // of the draws in which it is the best
+  };
+  std::vector<Share> best_in; // by rank
+  std::size_t draws = 0;      // 0: not known, with less than 2 laws, 2 tests or a resample
+  bool splits = false;        // best_in: of splits of all tests, else of resampled tests
+};
+
 // How much error is left where a law of the state is exact.
 struct NoiseFloor {
   std::string method; // oracle | replicates | within_experiments
-  std::string part;   // validation | training
+  std::string part;   // validation | training | all
   double mae_MPa = 0;
   double rmse_MPa = 0;
   Interval mae_interval;

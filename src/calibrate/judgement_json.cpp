@@ -109,6 +109,75 @@ Metrics parse_metrics(const Json& j) {
           j.at("n_experiments")};
 }
 
+const char* judged_by_name(JudgedBy judged_by) {
+  switch (judged_by) {
+  case JudgedBy::leave_one_out:
+    return "leave_one_out";
+  case JudgedBy::held_out:
+    return "held_out";
+  case JudgedBy::validation_files:
+    break;
+  }
+  return "validation_files";
+}
+
+JudgedBy parse_judged_by(const std::string& name) {
+  for (const JudgedBy one : {JudgedBy::leave_one_out, JudgedBy::held_out})
+    if (name == judged_by_name(one)) return one;
+  return JudgedBy::validation_files;
+}
+
+Json unseen_json(const std::vector<ExperimentError>& errors) {
+  if (errors.empty()) return nullptr;
+  Json j = {{"n_rows", {}}, {"mae_MPa", {}}, {"rmse_MPa", {}}, {"bias_MPa", {}}, {"gain", {}}};
+  for (const ExperimentError& one : errors) {
+    j["n_rows"].push_back(one.n_rows);
+    j["mae_MPa"].push_back(one.mae_MPa);
+    j["rmse_MPa"].push_back(one.rmse_MPa);
+    j["bias_MPa"].push_back(one.bias_MPa);
+    j["gain"].push_back(one.gain);
+  }
+  return j;
+}
+
+std::vector<ExperimentError> parse_unseen(const Json& j,
+                                          const std::vector<std::string>& experiments) {
+  std::vector<ExperimentError> errors;
+  for (std::size_t e = 0; !j.is_null() && e < experiments.size(); ++e)
+    errors.push_back({experiments[e], true, j.at("n_rows").at(e),
+                      number_or_nan(j.at("mae_MPa").at(e)), number_or_nan(j.at("rmse_MPa").at(e)),
+                      number_or_nan(j.at("bias_MPa").at(e)), number_or_nan(j.at("gain").at(e))});
+  return errors;
+}
+
+Json choice_json(const Choice& c) {
+  if (c.draws == 0) return nullptr;
+  Json shares = Json::array();
+  for (const Choice::Share& one : c.best_in)
+    shares.push_back({{"name", one.law}, {"share", one.share}});
+  return {{"meaning", "the best law's error is of the tests that chose it; expected_mae_MPa: the "
+                      "best of resampled tests, on the tests that are not in the resample"},
+          {"law", c.law},
+          {"mae_MPa", c.mae_MPa},
+          {"expected_mae_MPa", c.expected_mae_MPa},
+          {"draws", c.draws},
+          {"drawn", c.splits ? "splits" : "resampled_tests"},
+          {"best_in", shares}};
+}
+
+Choice parse_choice(const Json& j) {
+  Choice c;
+  if (j.is_null()) return c;
+  c.law = j.at("law");
+  c.mae_MPa = number_or_nan(j.at("mae_MPa"));
+  c.expected_mae_MPa = number_or_nan(j.at("expected_mae_MPa"));
+  c.draws = j.at("draws");
+  c.splits = j.at("drawn") == "splits";
+  for (const Json& one : j.at("best_in"))
+    c.best_in.push_back({one.at("name"), number_or_nan(one.at("share"))});
+  return c;
+}
+
 Json comparisons_json(const Comparisons& c) {
   Json pairs = Json::array(), laws = Json::array();
   for (const Comparison& pair : c.pairs)

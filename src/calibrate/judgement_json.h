@@ -13,6 +13,17 @@ double number_or_nan(const nlohmann::ordered_json& value);
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
 Metrics parse_metrics(const nlohmann::ordered_json& j);
 
+JudgedBy parse_judged_by(const std::string& name);
+
+// Arrays over the experiments; null where none was left out. The names stand elsewhere.
+nlohmann::ordered_json unseen_json(const std::vector<ExperimentError>& errors);
+std::vector<ExperimentError> parse_unseen(const nlohmann::ordered_json& j,
+                                          const std::vector<std::string>& experiments);
+
+// null where nothing was drawn.
+nlohmann::ordered_json choice_json(const Choice& choice);
+Choice parse_choice(const nlohmann::ordered_json& j);
+
 nlohmann::ordered_json comparisons_json(const Comparisons& comparisons);
 Comparisons parse_comparisons(const nlohmann::ordered_json& j);
 

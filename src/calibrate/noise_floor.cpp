@@ -173,10 +173,12 @@ std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t re
 }
 
 void add_noise_floors(Calibration& calibration, const CalibrationInput& input) {
+  std::vector<std::pair<const data::Dataset*, const char*>> parts = {
+      {&input.validation, "validation"}, {&input.training, "training"}};
+  if (input.judged_by == JudgedBy::leave_one_out) parts = {{&input.training, "all"}};
   for (auto* method : {oracle_floor, replicate_floor, within_floor}) {
     std::vector<NoiseFloor> both;
-    for (const auto& [data, part] :
-         {std::pair{&input.validation, "validation"}, std::pair{&input.training, "training"}})
+    for (const auto& [data, part] : parts)
       if (auto floor = method(*data, input.options.bootstrap, input.options.seed)) {
         floor->part = part;
         both.push_back(*floor);

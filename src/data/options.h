@@ -65,9 +65,9 @@ struct JoinOptions {
 
 struct DataOptions {
   std::vector<std::string> training;
-  std::vector<std::string> validation; // empty: `holdout` of the experiments is held out
+  std::vector<std::string> validation; // empty: some experiments are held out, or each in turn
   std::vector<std::string> oracle;     // synthetic data: files of the noise-free stress
-  double holdout = 0.25;               // share of EXPERIMENTS
+  std::optional<double> holdout;       // share of EXPERIMENTS; absent: by their number
   char delimiter = 0;                  // 0: found from the header line (, ; tab | or blanks)
   char decimal = '.';
   char thousands = 0;          // between groups of three digits; 0: nothing

@@ -118,16 +118,17 @@ std::vector<KeyRule> file_keys() {
       key<std::vector<std::string>>(
           "data.validation", [](Job & job) -> auto& { return job.data.validation; },
           "file or files to validate on, as data.training, never used to calibrate",
-          "the share data.holdout of the experiments is held out", "\"validation.csv\""),
+          "see data.holdout", "\"validation.csv\""),
       key<std::vector<std::string>>(
           "data.oracle", [](Job & job) -> auto& { return job.data.oracle; },
           "SYNTHETIC data only: file or files with experiment, row and tau_oracle_MPa as `frictab "
           "twin --oracle` writes them; the noise floor is then known exactly. Never used to "
           "calibrate",
           "the noise floor is estimated", "\"validation_oracle.csv\""),
-      key<double>(
+      key<std::optional<double>>(
           "data.holdout", [](Job & job) -> auto& { return job.data.holdout; },
-          "share of the EXPERIMENTS that is held out where data.validation is absent") |
+          "share of the EXPERIMENTS that is held out where data.validation is absent",
+          "below 30 experiments each is left out in turn, of more 0.25 are held out", "0.25") |
           between(0, 1),
       key<char>(
           "data.delimiter", [](Job & job) -> auto& { return job.data.delimiter; },

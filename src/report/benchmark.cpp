@@ -60,19 +60,19 @@ std::string benchmark_md(const calibrate::Calibration& calibration) {
   if (calibration.fits.empty()) {
     out += "No law was calibrated.\n";
   } else {
-    const calibrate::Metrics& v = calibration.fits.front().validation;
     const calibrate::Metrics& t = calibration.fits.front().training;
     out += fmt::format(
         "Errors of tau_R in MPa, residual = measured \u2212 predicted. Calibrated on {} of {}, "
-        "validated on {} of {}. Intervals: 95 %, by resampling whole experiments.\n\n"
+        "{}. Intervals: 95 %, by resampling whole experiments.\n\n"
         "| | law | MAE | 95 % interval | RMSE | bias | training MAE | parameters \u00B1 standard "
         "error | remarks |\n|--:|---|--:|---|--:|--:|--:|---|---|\n",
         count_of(t.n_rows, "row"), count_of(t.n_experiments, "experiment"),
-        count_of(v.n_rows, "row"), count_of(v.n_experiments, "experiment"));
+        judged_text(calibration));
     const int decimals = error_decimals(calibration);
     for (std::size_t i = 0; i < calibration.fits.size(); ++i)
       out += row(calibration.fits[i], i + 1, decimals);
     out += floor_row(calibration, decimals);
+    add_choice(out, calibration.choice, decimals);
   }
   if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
   for (const calibrate::LeftOut& left : calibration.left_out)

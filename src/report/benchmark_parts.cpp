@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
 #include "core/text.h"
@@ -82,6 +83,13 @@ std::string floor_row(const calibrate::Calibration& calibration, int decimals) {
                      f.lower_bound ? "\\> " : "", fixed(f.mae_MPa, decimals),
                      interval_text(f.mae_interval, decimals), fixed(f.rmse_MPa, decimals),
                      calibrate::noise_floor_name(f), calibrate::noise_floor_limits(f));
+}
+
+void add_choice(std::string& out, const calibrate::Choice& choice, int decimals) {
+  if (choice.draws == 0) return;
+  out += fmt::format("\nThe best law was chosen by the tests that give its error: {}; {}.\n",
+                     calibrate::expectation_sentence(choice, decimals),
+                     calibrate::share_sentence(choice));
 }
 
 void add_all_errors(std::string& out, const calibrate::Calibration& calibration, int decimals) {

@@ -13,6 +13,9 @@ std::string markdown_cell(const std::string& text);
 // The noise floor as a row of the ranking table (9 columns).
 std::string floor_row(const calibrate::Calibration& calibration, int decimals);
 
+// What the best law's error owes to its having been chosen by it.
+void add_choice(std::string& out, const calibrate::Choice& choice, int decimals);
+
 void add_all_errors(std::string& out, const calibrate::Calibration& calibration, int decimals);
 void add_band(std::string& out, const calibrate::Calibration& calibration);
 void add_comparison(std::string& out, const calibrate::Calibration& calibration, int decimals);

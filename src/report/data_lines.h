@@ -6,8 +6,9 @@
 
 namespace frictab::report {
 
-// The list "data": files, tests, rows, what was left out, derived, implausible.
+// The list "data": files, tests, rows, what was left out, derived, implausible. `each`: the
+// training tests validate, each left out in turn, and `validation` is empty.
 void add_data_lines(codegen::TemplateValues& page, const data::Dataset& training,
-                    const data::Dataset& validation);
+                    const data::Dataset& validation, bool each);
 
 } // namespace frictab::report

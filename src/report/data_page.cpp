@@ -147,7 +147,7 @@ std::string data_html(const DataPage& page) {
   add_strokes(values, page);
   add_tests(values, page.training, "training");
   add_tests(values, page.validation, "validation");
-  add_data_lines(values, page.training, page.validation);
+  add_data_lines(values, page.training, page.validation, page.validation.rows() == 0);
   return codegen::render_template("report/data.html", values);
 }
 

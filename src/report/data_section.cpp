@@ -60,15 +60,18 @@ std::string range_of(const data::Dataset& data, const std::string& name) {
 
 } // namespace
 
-void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const data::Dataset& v) {
+void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const data::Dataset& v,
+                    bool each) {
+  const auto of_validation = [&](const std::string& text) { return each ? "\u2013" : text; };
   std::vector<codegen::TemplateValues>& rows = page.lists["data"];
   const auto add = [&](const char* what, const std::string& training,
                        const std::string& validation) {
     rows.push_back({{{"what", what}, {"training", training}, {"validation", validation}}, {}, {}});
   };
-  add("Files", lines(files_of(t)), lines(files_of(v)));
-  add("Experiments", thousands(t.experiments.size()), thousands(v.experiments.size()));
-  add("Rows", thousands(t.rows()), thousands(v.rows()));
+  add("Files", lines(files_of(t)), each ? "the same, each left out in turn" : lines(files_of(v)));
+  add("Experiments", thousands(t.experiments.size()),
+      of_validation(thousands(v.experiments.size())));
+  add("Rows", thousands(t.rows()), of_validation(thousands(v.rows())));
   add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
   add("Derived", lines(t.notes), lines(v.notes));
   add("Implausible", lines(t.implausible), lines(v.implausible));
@@ -77,8 +80,9 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
 }
 
 void add_data(codegen::TemplateValues& page, const ReportInput& input) {
-  const data::Dataset &t = input.training, &v = input.validation;
-  add_data_lines(page, t, v);
+  const bool each = input.calibration.judged_by == calibrate::JudgedBy::leave_one_out;
+  const data::Dataset none, &t = input.training, &v = each ? none : input.validation;
+  add_data_lines(page, t, v, each);
   std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];
   for (const data::Quantity& quantity : data::quantities()) {
     if (!t.has(quantity.name) && !v.has(quantity.name)) continue;

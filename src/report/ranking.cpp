@@ -191,11 +191,14 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   page.flags["has_laws"] = has_laws;
   page.text["made_by"] = method_text(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
+  const bool each = calibration.judged_by == calibrate::JudgedBy::leave_one_out;
+  page.text["plotted_rows"] = each ? "All rows, by the laws as they are delivered, fitted to these "
+                                     "rows as well; the errors above are of tests left out"
+                                   : "Validation rows";
   if (has_laws) {
     const calibrate::Metrics& v = calibration.fits.front().validation;
     const svg::Axis axis = bar_axis(calibration);
-    page.text["validation_size"] =
-        count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
+    page.text["validation_size"] = judged_text(calibration);
     page.text["bar_scale"] = svg::bar_scale(axis, bar_width, bar_height);
     if (!calibration.noise_floors.empty())
       page.lists["floor_rows"].push_back(floor_row(calibration, axis));

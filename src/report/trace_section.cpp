@@ -125,9 +125,10 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   std::sort(sorted.begin(), sorted.end());
   const svg::Axis y_axis =
       svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
-  return residual_plot({x, r0}, x_axis, y_axis, "residual before, unseen experiments") +
-         curve_plot(effect, x_axis) +
-         residual_plot({x, r1}, x_axis, y_axis, "residual after, unseen experiments");
+  const bool each = input.calibration.judged_by == calibrate::JudgedBy::leave_one_out;
+  const std::string on = each ? ", all experiments" : ", unseen experiments";
+  return residual_plot({x, r0}, x_axis, y_axis, "residual before" + on) +
+         curve_plot(effect, x_axis) + residual_plot({x, r1}, x_axis, y_axis, "residual after" + on);
 }
 
 TemplateValues error_row(const std::string& what, const trace::TraceErrors& errors, int decimals) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
 #include "core/text.h"
@@ -25,11 +26,24 @@ const calibrate::ModelFit* best_of_literature(const calibrate::Calibration& cali
 std::string best_sentence(const calibrate::Calibration& calibration) {
   const calibrate::ModelFit& best = calibration.fits.front();
   const calibrate::Metrics& v = best.validation;
-  return fmt::format("On {} that no law was calibrated on, <strong>{}</strong> predicts "
+  const std::string on = count_of(v.n_experiments, "experiment");
+  const bool each = calibration.judged_by == calibrate::JudgedBy::leave_one_out;
+  return fmt::format("On {}, <strong>{}</strong> predicts "
                      "\u03C4<sub>R</sub> best: it is off by <strong>{} MPa</strong> on average "
                      "(mean absolute error; 95 % interval {} to {} MPa).",
-                     count_of(v.n_experiments, "experiment"), svg::escape(best.model.law->name),
-                     figures(v.mae_MPa), figures(v.mae_interval.low), figures(v.mae_interval.high));
+                     each ? on + ", each predicted by laws fitted without it"
+                          : on + " that no law was calibrated on",
+                     svg::escape(best.model.law->name), figures(v.mae_MPa),
+                     figures(v.mae_interval.low), figures(v.mae_interval.high));
+}
+
+std::string choice_sentences(const calibrate::Calibration& calibration) {
+  const calibrate::Choice& choice = calibration.choice;
+  if (choice.draws == 0) return "";
+  return fmt::format(
+      " Chosen by these very tests: {}; {}.",
+      svg::escape(calibrate::expectation_sentence(choice, error_decimals(calibration))),
+      svg::escape(calibrate::share_sentence(choice)));
 }
 
 std::string comparison_sentences(const calibrate::Calibration& calibration) {
@@ -98,8 +112,9 @@ std::string group_sentence(const Group& group, const std::string& noun) {
 std::string verdict(const ReportInput& input) {
   const calibrate::Calibration& calibration = input.calibration;
   if (calibration.fits.empty()) return "No law was calibrated.";
-  return best_sentence(calibration) + comparison_sentences(calibration) +
-         floor_sentence(calibration) + literature_sentence(calibration);
+  return best_sentence(calibration) + choice_sentences(calibration) +
+         comparison_sentences(calibration) + floor_sentence(calibration) +
+         literature_sentence(calibration);
 }
 
 void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) {

@@ -22,8 +22,9 @@ namespace frictab::run {
 
 namespace {
 
-// Below so many, the tests that the tool holds out itself are needed for tracing as well.
+// Below so many, a share of them is too few to rank laws by, and too many to fit without.
 constexpr std::size_t few_experiments = 30;
+constexpr double usual_share = 0.25;
 
 void add_oracle(const data::DataOptions& options, JobData& data) {
   if (options.oracle.empty()) return;
@@ -79,19 +80,39 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
   return data;
 }
 
-JobData with_held_out_tests(const data::DataOptions& options, std::uint64_t seed,
-                            FaultList& implausible) {
-  data::Dataset all = data::load_dataset(options.training, options);
-  data::check_plausibility(all, options.allow_implausible, options.place, implausible);
-  data::Split split = data::hold_out(all, options.holdout, seed);
+JobData with_each_left_out(data::Dataset all) {
+  data::require_two_experiments(all);
   JobData data;
+  data.judged_by = calibrate::JudgedBy::leave_one_out;
+  data.validation = all.subset({});
+  data.validation.dropped.clear();
+  data.validation.notes.clear();
+  data.leak = calibrate::leak_note(all, all);
+  data.training = std::move(all);
+  return data;
+}
+
+JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed) {
+  data::Split split = data::hold_out(all, share, seed);
+  JobData data;
+  data.judged_by = calibrate::JudgedBy::held_out;
   data.training = std::move(split.training);
   data.validation = std::move(split.validation);
   data.training.implausible = all.implausible;
   data.training.unused = all.unused;
   data.leak = calibrate::leak_note(data.training, data.validation);
-  if (all.experiments.size() < few_experiments) data.undivided = std::move(all);
+  data.undivided = std::move(all);
   return data;
+}
+
+// The key holds out of few tests as well: someone may want a share that nothing has seen.
+JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
+                                 FaultList& implausible) {
+  data::Dataset all = data::load_dataset(options.training, options);
+  data::check_plausibility(all, options.allow_implausible, options.place, implausible);
+  if (!options.holdout && all.experiments.size() < few_experiments)
+    return with_each_left_out(std::move(all));
+  return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);
 }
 
 // What globs and rules of both lists say together.
@@ -109,6 +130,15 @@ void check_files(const data::DataOptions& options) {
 
 } // namespace
 
+const data::Dataset& JobData::judged() const {
+  return judged_by == calibrate::JudgedBy::leave_one_out ? training : validation;
+}
+
+calibrate::CalibrationInput JobData::calibration_input(const job::Job& job) const {
+  return {training,        judged(),  job.models,
+          job.calibration, judged_by, undivided ? &*undivided : nullptr};
+}
+
 JobData load_job_data(const job::Job& job) {
   FaultList implausible;
   JobData data = load_job_data(job, implausible);
@@ -119,7 +149,7 @@ JobData load_job_data(const job::Job& job) {
 JobData load_job_data(const job::Job& job, FaultList& implausible) {
   check_files(job.data);
   JobData data = job.data.validation.empty()
-                     ? with_held_out_tests(job.data, job.calibration.seed, implausible)
+                     ? without_validation_files(job.data, job.calibration.seed, implausible)
                      : with_validation_files(job.data, implausible);
   add_oracle(job.data, data);
   check_export_inputs(job.exports, data.training);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "calibrate/calibration.h"
 #include "core/error.h"
 #include "data/dataset.h"
 #include "job/job.h"
@@ -12,14 +13,18 @@ namespace frictab::run {
 
 struct JobData {
   data::Dataset training;
-  data::Dataset validation;
-  // Training and validation together, where the tool itself held out a few of few tests: tracing
-  // needs them all, and judges by leaving tests out itself.
-  std::optional<data::Dataset> undivided;
-  std::string leak; // calibrate::leak_note of the two
+  data::Dataset validation; // no rows where each test is left out in turn
+  calibrate::JudgedBy judged_by = calibrate::JudgedBy::validation_files;
+  std::optional<data::Dataset> undivided; // both together, where the tool held some out
+  std::string leak;                       // calibrate::leak_note
+
+  // The tests that errors of prediction are taken on.
+  const data::Dataset& judged() const;
+  calibrate::CalibrationInput calibration_input(const job::Job& job) const;
 };
 
-// Reads the files of [data]. Without validation files some experiments are held out. Throws
+// Reads the files of [data]. Without validation files a share of the experiments is held out where
+// there are 30 or the job gives data.holdout; of fewer, each is left out in turn. Throws
 // InputError for files that cannot be used, for data.oracle with measured data, and where
 // [export.inputs] names what is no state, history or column.
 JobData load_job_data(const job::Job& job);

@@ -107,8 +107,7 @@ void Pipeline::load_tables() {
 
 void Pipeline::calibrate() {
   load_data();
-  calibration_ =
-      calibrate::calibrate({data_->training, data_->validation, job_.models, job_.calibration});
+  calibration_ = calibrate::calibrate(data_->calibration_input(job_));
   new_calibration_ = true;
   laws_.clear();
   for (const std::string& file : earlier_.model_files())
@@ -121,9 +120,8 @@ void Pipeline::calibrate() {
 void Pipeline::write_calibration() {
   output_.write("calibration.json", calibrate::calibration_json(*calibration_));
   output_.write("benchmark.md", report::benchmark_md(*calibration_));
-  output_.write("errors_by_experiment.csv",
-                calibrate::errors_csv(calibrate::errors_by_experiment(
-                    *calibration_, data_->training, data_->validation)));
+  output_.write("errors_by_experiment.csv", calibrate::errors_csv(calibrate::errors_by_experiment(
+                                                *calibration_, data_->training, data_->judged())));
   for (const ModelFit& fit : calibration_->fits)
     output_.write("models/" + fit.model.law->name + ".json",
                   calibrate::model_json(fit, *calibration_));
@@ -142,9 +140,8 @@ void Pipeline::trace() {
   if (fits.empty())
     throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
                      "\"best\", or a name from the ranking");
-  const data::Dataset& searched = data_->undivided ? *data_->undivided : data_->training;
   for (const ModelFit* fit : fits)
-    traces_.push_back(trace::trace({searched, data_->validation, *fit, job_.trace,
+    traces_.push_back(trace::trace({data_->training, data_->validation, *fit, job_.trace,
                                     job_.calibration.bootstrap, job_.calibration.seed}));
   add_traced_laws();
   laws_.clear();
@@ -152,18 +149,35 @@ void Pipeline::trace() {
   stages_.record("trace", data_key());
 }
 
+namespace {
+
+// A trace sorts experiments by name.
+std::vector<calibrate::ExperimentError>
+in_order_of(const std::vector<std::string>& names,
+            const std::vector<calibrate::ExperimentError>& errors) {
+  std::vector<calibrate::ExperimentError> sorted;
+  for (const std::string& name : names)
+    for (const calibrate::ExperimentError& one : errors)
+      if (one.experiment == name) sorted.push_back(one);
+  return sorted;
+}
+
+} // namespace
+
 void Pipeline::add_traced_laws() {
   std::vector<ModelFit> nested; // judged on other tests than the laws they came from
   for (const trace::Trace& trace : traces_) {
     if (!trace.extended.model.law) continue;
-    (trace.unseen == "validation" ? calibration_->fits : nested).push_back(trace.extended);
+    ModelFit fit = trace.extended;
+    const bool same_tests = trace.unseen == "validation" || !fit.unseen.empty();
+    fit.unseen = in_order_of(calibration_->validation_experiments, fit.unseen);
+    (same_tests ? calibration_->fits : nested).push_back(std::move(fit));
   }
   std::stable_sort(calibration_->fits.begin(), calibration_->fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
-  calibrate::add_comparisons(*calibration_,
-                             {data_->training, data_->validation, job_.models, job_.calibration});
+  calibrate::add_comparisons(*calibration_, data_->calibration_input(job_));
   for (ModelFit& fit : nested) { // in front of their law, which they are better than
     const auto base = std::find_if(
         calibration_->fits.begin(), calibration_->fits.end(),
@@ -215,7 +229,7 @@ Table Pipeline::sample_table(const models::AssembledLaw& law) {
 // The drift a user can rely on, measured before the file is written.
 void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
   const verify::VerifyInput input{
-      law, table, "the new table", &data_->validation, drift_allowed(), job_.verify.samples};
+      law, table, "the new table", &data_->judged(), drift_allowed(), job_.verify.samples};
   const verify::DriftRecord& drift = compared_[table.model] = verify::verify(input, {}).front();
   const bool to_tolerance = !job_.table.nodes && !job_.table.max_bytes;
   if (!drift.passed && to_tolerance)
@@ -424,7 +438,7 @@ void Pipeline::verify() {
     const verify::VerifyInput input{law_of(table),
                                     table,
                                     job_.directory + "/tables/" + table.model + ".h5",
-                                    &data_->validation,
+                                    &data_->judged(),
                                     allowed,
                                     job_.verify.samples,
                                     known == compared_.end() ? nullptr : &known->second};
@@ -464,7 +478,7 @@ void Pipeline::report() {
   if (traces_.empty() && !new_calibration_) traces_ = earlier_.traces();
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
-    predicted.push_back(calibrate::predict(fit.model, data_->validation));
+    predicted.push_back(calibrate::predict(fit.model, data_->judged()));
   std::vector<verify::FormComparison> sizes;
   for (const Table& table : tables_)
     sizes.push_back(verify::form_sizes(law_of(table), table));
@@ -474,14 +488,14 @@ void Pipeline::report() {
       fs::path(job_.file).filename().string(),
       *calibration_,
       data_->training,
-      data_->validation,
+      data_->judged(),
       std::move(predicted),
       tables_,
       *verification_,
       std::move(written),
       std::move(sizes),
       traces_,
-      calibrate::errors_by_experiment(*calibration_, data_->training, data_->validation)};
+      calibrate::errors_by_experiment(*calibration_, data_->training, data_->judged())};
   output_.write("report.html", report::report_html(input));
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
 #include "codegen/table_text.h"
@@ -33,8 +34,11 @@ void add_data(std::string& out, const Pipeline& p) {
     return fmt::format("{} rows of {} experiments", thousands(d.rows()), d.experiments.size());
   };
   const bool synthetic = calibrate::is_synthetic(training);
-  out += fmt::format("Data: {} to train, {} to validate{}\n", describe(training),
-                     describe(validation), synthetic ? " - SYNTHETIC data" : "");
+  const bool each = p.data()->judged_by == calibrate::JudgedBy::leave_one_out;
+  out += fmt::format("Data: {}{}{}\n", describe(training),
+                     each ? ", each experiment judged by laws fitted without it"
+                          : " to train, " + describe(validation) + " to validate",
+                     synthetic ? " - SYNTHETIC data" : "");
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
@@ -96,6 +100,12 @@ void add_floor(std::string& out, const calibrate::Calibration& calibration, int 
   if (!advice.empty()) out += fmt::format("  the noise floor is not known: {}\n", advice);
 }
 
+void add_choice(std::string& out, const calibrate::Choice& choice, int decimals) {
+  if (choice.draws == 0) return;
+  out += fmt::format("  {}\n  {}\n", calibrate::expectation_sentence(choice, decimals),
+                     calibrate::share_sentence(choice));
+}
+
 void add_comparison(std::string& out, const calibrate::Comparisons& comparisons) {
   if (comparisons.laws.size() < 2) return;
   out += fmt::format("  {}\n  {}\n", calibrate::pairwise_sentence(comparisons),
@@ -136,6 +146,7 @@ void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
   }
   add_floor(out, calibration, decimals);
   add_comparison(out, calibration.comparisons);
+  add_choice(out, calibration.choice, decimals);
   for (const calibrate::ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);

@@ -10,6 +10,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include "calibrate/comparison.h"
+#include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
 #include "trace/design.h"
 
@@ -79,6 +80,9 @@ private:
 
   bool by_validation() const { return in_.validation.experiments.size() >= enough_validation; }
 
+  // Nothing was found, and calibration has left out each test of the law as it is.
+  bool no_validation() const { return in_.validation.experiments.empty(); }
+
   std::vector<calibrate::ErrorSums> on_validation(const Rival& rival) const {
     return calibrate::error_sums(in_.validation.values("tau_R_MPa"),
                                  calibrate::predict(s_.model_of(rival), in_.validation),
@@ -123,15 +127,20 @@ private:
   // On the validation tests, or on left-out ones.
   void compare_errors() {
     const bool nested = !by_validation() && d_.nested.folds > 0;
-    if (nested) t_.unseen = "nested_cross_validation";
+    if (nested)
+      t_.unseen = "nested_cross_validation";
+    else if (no_validation())
+      t_.unseen = "leave_one_out";
     const auto unseen = [&](const Rival& rival, std::size_t effects) {
-      return nested ? d_.nested.sums[weights_][effects] : on_validation(rival);
+      if (nested) return d_.nested.sums[weights_][effects];
+      return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
     };
     const std::vector<calibrate::ErrorSums> with = unseen(d_.rival, d_.findings.size()),
                                             without = unseen(d_.baseline, 0);
     t_.before = {errors(in_.training, d_.baseline),
                  calibrate::metrics(without, in_.bootstrap, in_.seed)};
     t_.after = t_.before;
+    d_.unseen = with;
     t_.improvement = {};
     if (d_.findings.empty()) return;
     t_.after = {errors(in_.training, d_.rival), calibrate::metrics(with, in_.bootstrap, in_.seed)};

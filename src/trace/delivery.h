@@ -13,7 +13,8 @@ struct Delivery {
   std::vector<double> gain_MPa;      // of each, MAE on the unseen tests without it minus with it
   Rival baseline;                    // without
   NestedErrors nested;               // folds = 0: nothing was found
-  bool contradicted = false;         // a finding that is not delivered: by the validation tests
+  std::vector<calibrate::ErrorSums> unseen; // of the rival, per unseen test
+  bool contradicted = false; // a finding that is not delivered: by the validation tests
 };
 
 // With fewer validation tests than this, "unseen" are the training tests left out in turn.

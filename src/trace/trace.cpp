@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
+#include "calibrate/experiment_errors.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
@@ -106,6 +107,23 @@ private:
                               in_.seed);
   }
 
+  // On the validation tests; where there are none, on training tests left out in turn.
+  void judge(Trace& trace) const {
+    calibrate::ModelFit& fit = trace.extended;
+    fit.validation = trace.after.validation;
+    if (in_.validation.experiments.empty()) {
+      fit.band = calibrate::check_band(fit.model, {}, in_.validation);
+      if (delivery_.nested.folds == 0) fit.unseen = in_.fit.unseen;
+      for (std::size_t e = 0; fit.unseen.size() < experiments(); ++e)
+        fit.unseen.push_back(
+            calibrate::error_of(in_.training.experiments[e], true, delivery_.unseen[e], no_value));
+      return;
+    }
+    const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
+    if (trace.unseen == "validation") fit.validation = errors(in_.validation, unseen);
+    fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
+  }
+
   // The law that is handed on; none where nothing was added and nothing taken out.
   void add_law(Trace& trace) {
     const Rival& rival = delivery_.rival;
@@ -123,15 +141,12 @@ private:
     const models::AssembledLaw law(fit.model);
     const auto [columns, trained] = calibrate::predict_with_columns(law, law.inputs, in_.training);
     fit.data_range = columns.ranges();
-    const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
     fit.training = errors(in_.training, trained);
-    fit.validation =
-        trace.unseen == "validation" ? errors(in_.validation, unseen) : trace.after.validation;
     fit.model.experiment_gains = calibrate::gains_of_new_experiments(
         calibrate::experiment_gains(in_.training.values("tau_R_MPa"), trained,
                                     in_.training.first_row),
         fit.model.parameters.size());
-    fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
+    judge(trace);
     trace.extended_model = fit.model.name();
     if (rival.effects.empty()) trace.after = {fit.training, fit.validation};
   }

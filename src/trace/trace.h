@@ -170,7 +170,7 @@ struct Trace {
   TraceErrors as_calibrated; // by the calibration stage; validation tests, whatever `unseen` says
   TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
-  std::string unseen = "validation"; // | nested_cross_validation
+  std::string unseen = "validation"; // | nested_cross_validation | leave_one_out: nothing was found
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
   NestedCheck nested;
   ValidationShift validation_shift;
@@ -198,7 +198,7 @@ struct Trace {
 
 struct TraceInput {
   const data::Dataset& training;
-  const data::Dataset& validation;
+  const data::Dataset& validation; // without rows: fit.unseen has the errors of tests left out
   const calibrate::ModelFit& fit;
   const TraceOptions& options;
   std::size_t bootstrap = 1000;

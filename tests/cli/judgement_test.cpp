@@ -95,6 +95,42 @@ TEST_F(Judgement, MeasuredDataHaveNoOracle) {
                               "for measured data, repeated tests give the noise floor\n");
 }
 
+TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
+  design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=0";
+  const std::string out = calibrate({"--no-bystanders"}, {two_laws});
+  ASSERT_EQ(exit_code, 0) << error;
+  EXPECT_THAT(out,
+              testing::StartsWith("Data: 640 rows of 16 experiments, each experiment judged by "
+                                  "laws fitted without it - SYNTHETIC data\n"));
+  EXPECT_THAT(out, testing::ContainsRegex(
+                       "  on new tests expect [0-9.]+ MPa of a law chosen like this; [0-9.]+ is of "
+                       "the tests that chose log_coulomb\n"
+                       "  of 1,000 resamples of the tests 100 % choose log_coulomb\n"));
+  const auto json = calibration();
+  EXPECT_EQ(json.at("judged_by"), "leave_one_out");
+  EXPECT_EQ(json.at("validation_experiments").size(), 16U);
+  EXPECT_EQ(json.at("models").at(0).at("validation").at("n_experiments"), 16);
+  EXPECT_EQ(json.at("models").at(0).at("by_experiment_left_out").at("mae_MPa").size(), 16U);
+  EXPECT_THAT(
+      directory.read("data/out/benchmark.md"),
+      HasSubstr("validated on 640 rows of 16 experiments, each left out in turn: the errors "
+                "of an experiment are those of the law fitted to all the others. "));
+  EXPECT_THAT(directory.read("data/out/errors_by_experiment.csv"),
+              Not(HasSubstr("log_coulomb,E001,0,")));
+}
+
+TEST_F(Judgement, OfFewTestsAShareIsHeldOutWhereTheJobSaysSo) {
+  design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=0";
+  const std::string out = calibrate({"--no-bystanders"}, {two_laws, "data.holdout=0.25"});
+  EXPECT_THAT(out, HasSubstr("480 rows of 12 experiments to train, 160 rows of 4 experiments to "
+                             "validate"));
+  EXPECT_THAT(out, HasSubstr("  of 1,000 other splits of all tests 100 % choose log_coulomb\n"));
+  const auto json = calibration();
+  EXPECT_EQ(json.at("judged_by"), "held_out");
+  EXPECT_TRUE(json.at("models").at(0).at("by_experiment_left_out").is_null());
+  EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr(", held out by seed 3. "));
+}
+
 TEST_F(Judgement, ConditionalUseStandsApartFromTheRanking) {
   const std::string out = calibrate({}, {two_laws, "calibration.condition_on_mm=2"});
   ASSERT_EQ(exit_code, 0) << error;

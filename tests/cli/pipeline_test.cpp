@@ -409,6 +409,23 @@ TEST(CommandLine, VersionIsPrinted) {
   EXPECT_EQ(run_frictab({"--version"}).out, "frictab " FRICTAB_VERSION "\n");
 }
 
+TEST_F(MainJob, WithoutValidationFilesGoesThroughAllStagesAloneAsInOneRun) {
+  const std::string file = directory.write(
+      "few.toml", "[data]\ntraining = \"data/training.csv\"\n[export]\ntargets = [\"c\"]\n"
+                  "[models]\nuse = [\"coulomb\", \"shear\", \"neural_network\"]\n");
+  const std::string whole = directory.path("whole"), parts = directory.path("parts");
+  ASSERT_EQ(run_frictab({"run", file, "-j1", "-o", whole}).exit_code, 0);
+  for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"}) {
+    const auto result = run_frictab({stage, file, "-j2", "-o", parts});
+    ASSERT_EQ(result.exit_code, 0) << stage << result.err;
+  }
+  const auto one = files_below(whole), two = files_below(parts);
+  for (const char* name : {"calibration.json", "benchmark.md", "errors_by_experiment.csv"})
+    EXPECT_TRUE(one.at(name) == two.at(name)) << name;
+  EXPECT_NE(one.at("report.html").find("Each test is predicted by the law fitted to all others"),
+            std::string::npos);
+}
+
 TEST_F(MainJob, VerboseSaysWhatWasDerivedFromTheData) {
   const std::string file =
       directory.write("derived.toml", "[data]\ntraining = \"data/training.csv\"\nholdout = 0.25\n");

@@ -108,8 +108,7 @@ TEST(JobMessages, SayWhatTypeIsWanted) {
             "  hint: a text stands in quotes");
   EXPECT_EQ(with("holdout = 2026-01-01"),
             "job.toml:3:11: error: data.holdout must be a number > 0 and < 1, not a date or time\n"
-            "  hint: share of the EXPERIMENTS that is held out where data.validation is absent; "
-            "default 0.25");
+            "  hint: share of the EXPERIMENTS that is held out where data.validation is absent");
   EXPECT_EQ(with("[data.columns]\n"
                  "psi = { column = 0 }"),
             "job.toml:4:18: error: data.columns.psi.column must be a text, a list of texts or a "
@@ -139,8 +138,7 @@ TEST(JobMessages, SayWhatTypeIsWanted) {
 TEST(JobMessages, SayTheBounds) {
   EXPECT_EQ(with("holdout = 1"),
             "job.toml:3:11: error: data.holdout must be a number > 0 and < 1, not 1\n"
-            "  hint: share of the EXPERIMENTS that is held out where data.validation is absent; "
-            "default 0.25");
+            "  hint: share of the EXPERIMENTS that is held out where data.validation is absent");
   EXPECT_EQ(with("[table]\n"
                  "tolerance_MPa = 0"),
             "job.toml:4:17: error: table.tolerance_MPa must be a number > 0, not 0\n"

@@ -1,0 +1,134 @@
+// The choice of a law made again, on other tests.
+#include "calibrate/choice.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "core/text.h"
+
+namespace frictab::calibrate {
+
+namespace {
+
+using Laws = std::span<const LawErrors>;
+
+// MAE on experiments counted `times` each; 0 without any.
+double mae_of(const LawErrors& law, std::span<const double> times) {
+  double sum = 0, rows = 0;
+  for (std::size_t e = 0; e < law.sums.size(); ++e) {
+    sum += times[e] * law.sums[e].absolute;
+    rows += times[e] * law.sums[e].rows;
+  }
+  return rows > 0 ? sum / rows : 0;
+}
+
+// The first of equals, as in the ranking.
+std::size_t best_of(Laws laws, std::span<const double> times) {
+  std::vector<double> mae;
+  for (const LawErrors& law : laws)
+    mae.push_back(mae_of(law, times));
+  return static_cast<std::size_t>(std::min_element(mae.begin(), mae.end()) - mae.begin());
+}
+
+std::vector<Choice::Share> shares_of(Laws laws, const std::vector<std::size_t>& wins) {
+  const auto draws = static_cast<double>(std::accumulate(wins.begin(), wins.end(), 0UL));
+  std::vector<Choice::Share> shares;
+  for (std::size_t l = 0; l < laws.size(); ++l)
+    shares.push_back({laws[l].law, static_cast<double>(wins[l]) / draws});
+  return shares;
+}
+
+// Of single experiments: errors of the laws that won without them.
+class LeftOutErrors {
+public:
+  explicit LeftOutErrors(std::size_t experiments) : absolute_(experiments), draws_(experiments) {}
+
+  void add(const LawErrors& winner, std::span<const double> times) {
+    for (std::size_t e = 0; e < times.size(); ++e) {
+      if (times[e] > 0) continue;
+      absolute_[e] += winner.sums[e].absolute;
+      ++draws_[e];
+    }
+  }
+
+  double mae(const std::vector<ErrorSums>& any) const {
+    double sum = 0, rows = 0;
+    for (std::size_t e = 0; e < draws_.size(); ++e) {
+      if (draws_[e] == 0) continue;
+      sum += absolute_[e] / draws_[e];
+      rows += any[e].rows;
+    }
+    return sum / rows;
+  }
+
+private:
+  std::vector<double> absolute_, draws_;
+};
+
+} // namespace
+
+Choice choose_again(Laws laws, std::size_t resamples, std::uint64_t seed) {
+  Choice choice;
+  if (laws.size() < 2 || laws.front().sums.size() < 2 || resamples == 0) return choice;
+  const std::size_t experiments = laws.front().sums.size();
+  std::vector<double> times(experiments, 1.0);
+  choice.law = laws.front().law;
+  choice.mae_MPa = mae_of(laws.front(), times);
+  LeftOutErrors left_out(experiments);
+  std::vector<std::size_t> wins(laws.size());
+  for (std::size_t b = 0; b < resamples; ++b) {
+    resample(seed, b, times);
+    const std::size_t winner = best_of(laws, times);
+    left_out.add(laws[winner], times);
+    ++wins[winner];
+  }
+  choice.expected_mae_MPa = left_out.mae(laws.front().sums);
+  choice.best_in = shares_of(laws, wins);
+  choice.draws = resamples;
+  return choice;
+}
+
+void add_split_shares(Choice& choice, Laws laws, std::size_t held, std::uint64_t seed) {
+  constexpr std::uint64_t stream = 0x73706c6974; // "split"
+  const std::size_t experiments = laws.front().sums.size();
+  std::vector<std::size_t> wins(laws.size()), order(experiments);
+  for (std::size_t b = 0; b < choice.draws; ++b) {
+    std::iota(order.begin(), order.end(), 0);
+    Random random(seed, stream + (b << 40));
+    random.shuffle(std::span<std::size_t>(order));
+    std::vector<double> times(experiments);
+    for (std::size_t i = 0; i < held; ++i)
+      times[order[i]] = 1;
+    ++wins[best_of(laws, times)];
+  }
+  choice.best_in = shares_of(laws, wins);
+  choice.splits = true;
+}
+
+std::string expectation_sentence(const Choice& choice, int decimals) {
+  if (choice.draws == 0) return "";
+  return fmt::format("on new tests expect {:.{}f} MPa of a law chosen like this; {:.{}f} is of the "
+                     "tests that chose {}",
+                     choice.expected_mae_MPa, decimals, choice.mae_MPa, decimals, choice.law);
+}
+
+std::string share_sentence(const Choice& choice) {
+  constexpr std::size_t most = 4;
+  std::vector<Choice::Share> shares = choice.best_in;
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::vector<std::string> named;
+  for (const Choice::Share& one : shares)
+    if (one.share >= 0.005 && named.size() < most)
+      named.push_back(
+          fmt::format("{:.0f} % {}{}", 100 * one.share, named.empty() ? "choose " : "", one.law));
+  if (named.empty()) return "";
+  return fmt::format("of {} {} {}", thousands(choice.draws),
+                     choice.splits ? "other splits of all tests" : "resamples of the tests",
+                     join(named, ", "));
+}
+
+} // namespace frictab::calibrate

@@ -1,0 +1,141 @@
+// Constants, means, fits and the network, as one.
+#include "calibrate/fit_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "calibrate/law_problem.h"
+#include "core/text.h"
+
+namespace frictab::calibrate {
+
+using data::Dataset;
+using models::Calibrated;
+
+namespace {
+
+// The paper's calibration: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k, with
+// the standard error of a mean of experiments.
+void fit_means(ModelFit& fit, const Dataset& data) {
+  const auto tau = data.values("tau_R_MPa");
+  for (const models::Parameter& parameter : fit.model.law->parameters) {
+    const bool is_mu = parameter.name == "mu";
+    const auto per = data.values(is_mu ? "sigma_n_MPa" : "sigma_f_MPa");
+    const double factor = is_mu ? 1 : fit.model.conventions.k_over_sigma_f;
+    double sum = 0, rows = 0;
+    std::vector<std::pair<double, double>> parts; // per experiment: sum, rows
+    std::size_t unloaded = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+      double part = 0, count = 0;
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+        if (!(per[i] > 0)) {
+          ++unloaded;
+          continue;
+        }
+        part += tau[i] / (factor * per[i]);
+        ++count;
+      }
+      parts.emplace_back(part, count);
+      sum += part;
+      rows += count;
+    }
+    const double mean = sum / rows;
+    double variance = 0;
+    for (const auto& [part, count] : parts)
+      variance += std::pow(part - mean * count, 2);
+    const double experiments = static_cast<double>(parts.size());
+    fit.model.parameters.push_back(mean);
+    fit.std_error.push_back(experiments > 1
+                                ? std::sqrt(variance * experiments / (experiments - 1)) / rows
+                                : std::numeric_limits<double>::quiet_NaN());
+    if (unloaded > 0)
+      fit.remarks.push_back(fmt::format("{} rows without load are not in the mean of {}",
+                                        thousands(unloaded), parameter.name));
+  }
+  fit.termination = "closed form";
+  fit.std_error_method = "cluster by experiment";
+  fit.evaluations = 1;
+}
+
+void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
+  for (const std::string& name : models::inputs(*fit.model.law, fit.model.conventions)) {
+    const auto values = data.values(name);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    if (*low == *high && std::any_of(fit.std_error.begin(), fit.std_error.end(),
+                                     [](double e) { return std::isnan(e); }))
+      fit.remarks.push_back(fmt::format(
+          "{} is {} in every row: experiments at other values would settle it", name, *low));
+  }
+}
+
+void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+  const LawProblem problem(*fit.model.law, fit.model.conventions, data);
+  LawFit found = problem.fit(options.loss, options.huber_delta_MPa);
+  problem.add_uncertainty(found, options.loss, options.huber_delta_MPa, data.first_row);
+  fit.model.parameters = std::move(found.result.parameters);
+  fit.termination = std::move(found.result.termination);
+  fit.evaluations = found.result.evaluations;
+  fit.std_error = std::move(found.uncertainty.std_error);
+  fit.remarks = std::move(found.uncertainty.remarks);
+  fit.std_error_method = "cluster sandwich by experiment";
+  remark_constant_inputs(fit, data);
+}
+
+void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+  TrainedNetwork trained = train_network(*fit.model.law, data, fit.model.conventions, options.seed);
+  const NetworkRecord& record = trained.record;
+  fit.model.law = models::unregistered_law(std::move(trained.law));
+  fit.model.parameters = {trained.mu0};
+  fit.std_error = {std::numeric_limits<double>::quiet_NaN()};
+  fit.std_error_method =
+      fmt::format("none for weights; the members of the ensemble differ by {:.2g} "
+                  "MPa (standard deviation)",
+                  record.spread_MPa);
+  fit.evaluations = record.iterations;
+  fit.termination = fmt::format("trained: {} nets, decay {} of {}", record.nets, record.decay,
+                                record.decays.size());
+  if (options.loss != Loss::l2)
+    fit.remarks.push_back("trained on squared residuals, whatever calibration.loss says");
+  if (record.dropped > 0)
+    fit.remarks.push_back(fmt::format("{} of {} nets failed and are not in the ensemble",
+                                      record.dropped, record.dropped + record.members));
+  fit.model.experiment_gains = gains_of_new_experiments(std::move(trained.held_out_gains), 0);
+  fit.network = record;
+}
+
+} // namespace
+
+ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
+                 const Dataset& data, const CalibrationOptions& options) {
+  ModelFit fit;
+  fit.model.law = models::registered_law(law);
+  fit.model.conventions = conventions;
+  switch (law.calibrated) {
+  case Calibrated::fixed:
+    for (const models::Parameter& parameter : law.parameters)
+      fit.model.parameters.push_back(parameter.start);
+    fit.std_error.assign(law.parameters.size(), 0.0);
+    fit.std_error_method = "fixed";
+    fit.termination = "not calibrated";
+    break;
+  case Calibrated::mean:
+    fit_means(fit, data);
+    break;
+  case Calibrated::fit:
+    fit_parameters(fit, data, options);
+    break;
+  case Calibrated::train:
+    fit_ensemble(fit, data, options);
+    break;
+  }
+  if (law.calibrated != Calibrated::train)
+    fit.model.experiment_gains = gains_of_new_experiments(
+        experiment_gains(data.values("tau_R_MPa"), predict(fit.model, data), data.first_row),
+        law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
+  return fit;
+}
+
+} // namespace frictab::calibrate
