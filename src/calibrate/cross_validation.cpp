@@ -31,6 +31,15 @@ BandCheck band_of(const models::Model& model, const Dataset& data) {
   return check;
 }
 
+BandCheck pooled(const std::vector<BandCheck>& folds) {
+  BandCheck all;
+  for (const BandCheck& one : folds) {
+    all.inside += one.inside;
+    all.experiments += one.experiments;
+  }
+  return all;
+}
+
 } // namespace
 
 Dataset without_experiment(const Dataset& data, std::size_t experiment) {
@@ -62,13 +71,8 @@ CrossValidation cross_validate(std::span<const models::Law* const> laws,
     }
     progress.tick();
   });
-  for (const std::vector<BandCheck>& of_law : bands) {
-    BandCheck& all = cross.bands.emplace_back();
-    for (const BandCheck& one : of_law) {
-      all.inside += one.inside;
-      all.experiments += one.experiments;
-    }
-  }
+  for (const std::vector<BandCheck>& of_law : bands)
+    cross.bands.push_back(pooled(of_law));
   return cross;
 }
 

@@ -17,7 +17,7 @@ namespace {
 using calibrate::ExperimentError;
 
 constexpr std::size_t shown_laws = 3, named_tests = 3;
-constexpr double width = 760, height = 130;
+constexpr double figure_width = 760, figure_height = 130;
 const std::string held_out_colour = "#c2410c", trained_colour = "#86b0d6";
 
 // The best laws; constants of the literature would squeeze all others.
@@ -86,7 +86,7 @@ codegen::TemplateValues figure_of(const ReportInput& input, std::size_t law,
   const std::vector<ExperimentError>& tests = input.by_experiment[law].experiments;
   const int decimals = error_decimals(input.calibration);
   const double mae = input.calibration.fits[law].validation.mae_MPa;
-  svg::Plot plot(width, height,
+  svg::Plot plot(figure_width, figure_height,
                  svg::nice_axis(0, static_cast<double>(tests.size() + 1), 10, "test"), errors);
   const std::vector<double> ends{0, static_cast<double>(2 * tests.size() + 20)}, line{mae, mae};
   plot.line(ends, line, {"#111", 1, "4 3", false});
