@@ -126,16 +126,22 @@ void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
   }
 }
 
+std::string size_text(const DataPage& page) {
+  const std::string training = fmt::format("{} of {}", count_of(page.training.rows(), "row"),
+                                           count_of(page.training.experiments.size(), "test"));
+  if (page.validation.rows() == 0) return training + ", each left out in turn to judge the laws";
+  return fmt::format("{} to train, {} of {} to validate", training,
+                     count_of(page.validation.rows(), "row"),
+                     count_of(page.validation.experiments.size(), "test"));
+}
+
 } // namespace
 
 std::string data_html(const DataPage& page) {
   TemplateValues values;
   values.text["title"] = svg::escape(shown_path(page.title));
   values.text["style"] = std::string(codegen::embedded_template("report/style.css"));
-  values.text["size"] =
-      fmt::format("{} of {} tests to train, {} of {} to validate",
-                  count_of(page.training.rows(), "row"), page.training.experiments.size(),
-                  count_of(page.validation.rows(), "row"), page.validation.experiments.size());
+  values.text["size"] = size_text(page);
   values.flags["synthetic"] = page.synthetic;
   for (const std::string& fault : page.faults)
     values.lists["faults"].push_back({{{"text", svg::escape(fault)}}, {}, {}});

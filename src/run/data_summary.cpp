@@ -93,6 +93,15 @@ std::string clock_text(const data::ClockOffset& clock) {
                      clock.offset, clock.std_error, clock.correlation);
 }
 
+std::string size_text(const JobData& data) {
+  const Dataset &t = data.training, &v = data.validation;
+  const std::string judged = v.rows() == 0 ? ", each left out in turn to judge the laws"
+                                           : fmt::format(" to train, {} of {} to validate",
+                                                         thousands(v.rows()), v.experiments.size());
+  return fmt::format("{} rows of {} tests{}{}\n", thousands(t.rows()), t.experiments.size(), judged,
+                     calibrate::is_synthetic(t) ? " - SYNTHETIC data" : "");
+}
+
 std::vector<std::string> bystanders(const Dataset& data) {
   std::vector<std::string> names;
   for (const data::Column& column : data.columns)
@@ -137,11 +146,7 @@ std::string data_text(const JobData& data) {
   add_lines(out, "in none of the data", data.training.unused);
   if (const auto names = bystanders(data.training); !names.empty())
     out += "other columns: " + join(names, ", ") + "\n";
-  out += fmt::format("{} rows of {} tests to train, {} of {} to validate{}\n",
-                     thousands(data.training.rows()), data.training.experiments.size(),
-                     thousands(data.validation.rows()), data.validation.experiments.size(),
-                     calibrate::is_synthetic(data.training) ? " - SYNTHETIC data" : "");
-  return out;
+  return out + size_text(data);
 }
 
 std::string data_json(const JobData& data) {

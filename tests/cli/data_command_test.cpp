@@ -112,7 +112,7 @@ TEST_F(DataCommand, ShowsImplausibleDataAndFails) {
   const CommandResult result = run_frictab({"data", "job.toml"}, directory.path());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("job.toml:2:12: error: sigma_n_MPa is"));
-  EXPECT_THAT(result.out, HasSubstr("2 rows of 1 tests to train"));
+  EXPECT_THAT(result.out, HasSubstr("4 rows of 2 tests, each left out in turn to judge the laws"));
   EXPECT_THAT(directory.read("out/data.html"), HasSubstr("No rig measures this."));
 }
 
