@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -36,6 +37,8 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
     part.columns.push_back({column.name, column.unit, {}, column.levels});
   for (const std::size_t e : keep) {
     part.experiments.push_back(experiments[e]);
+    std::copy_if(clocks.begin(), clocks.end(), std::back_inserter(part.clocks),
+                 [&](const ClockOffset& clock) { return clock.experiment == experiments[e]; });
     const auto first = static_cast<long>(first_row[e]), end = static_cast<long>(first_row[e + 1]);
     part.first_row.push_back(part.first_row.back() + first_row[e + 1] - first_row[e]);
     if (!oracle_MPa.empty())

@@ -20,7 +20,7 @@ struct Column {
 struct ClockOffset {
   std::string experiment;
   double offset = 0;      // added to the second clock it gives the first
-  double std_error = 0;   // jackknife over 8 pieces of the common span
+  double std_error = 0;   // from pieces of the common span, and from every other row of the second
   double correlation = 0; // of the two series at this offset
 };
 

@@ -55,8 +55,10 @@ public:
     highest = t1_.back() - t2_.front() - least_span_;
   }
 
-  // Without the rows of one piece of 8, where it is not 8; 0 where too little is shared.
-  double correlation(double offset, std::size_t without = pieces, std::size_t stride = 1) const {
+  // Without the rows of one piece of 8, where it is not 8; 0 where too little is shared. `rows`:
+  // how many it is of.
+  double correlation(double offset, std::size_t without = pieces, std::size_t stride = 1,
+                     double* rows = nullptr) const {
     Position at(t2_);
     double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0, syy = 0; // running means and products
     double begin = nan, end = nan;
@@ -75,7 +77,16 @@ public:
       sxy += dx * (y - my);
     }
     const bool enough = n >= 4 && end - begin >= 0.99 * least_span_ && sxx > 0 && syy > 0;
+    if (rows) *rows = n;
     return enough ? sxy / std::sqrt(sxx * syy) : 0;
+  }
+
+  // Likelihood ratio of a straight line between the two series: the same correlation over more
+  // shared rows says more.
+  double evidence(double offset, std::size_t stride) const {
+    double rows = 0;
+    const double r = correlation(offset, pieces, stride, &rows);
+    return r > 0 ? -0.5 * rows * std::log1p(-std::min(r * r, 1 - 1e-12)) : 0;
   }
 
   // Golden section between two offsets.
@@ -107,6 +118,37 @@ private:
   const std::vector<double>&t1_, &x_, &t2_, &y_;
   double least_span_;
 };
+
+// Over pieces of the common span: what noise, however it is correlated, leaves open.
+double jackknife(const Agreement& agreement, double low, double high, double offset) {
+  double sum = 0, squares = 0;
+  constexpr double n = Agreement::pieces;
+  for (std::size_t piece = 0; piece < Agreement::pieces; ++piece) {
+    const double moved = agreement.best_between(low, high, piece) - offset;
+    sum += moved;
+    squares += moved * moved;
+  }
+  return std::sqrt(std::max(0.0, (n - 1) / n * (squares - sum * sum / n)));
+}
+
+// How far the offset moves without every other row of the second set: what straight lines between
+// its rows may cost.
+double thinning_error(const std::vector<double>& t_first, const std::vector<double>& x,
+                      const std::vector<double>& t_second, const std::vector<double>& y, double low,
+                      double high, double offset) {
+  double most = 0;
+  for (const std::size_t begin : {0, 1}) {
+    std::vector<double> t, thin;
+    for (std::size_t i = begin; i < t_second.size(); i += 2) {
+      t.push_back(t_second[i]);
+      thin.push_back(y[i]);
+    }
+    if (t.size() < 4) continue;
+    const Agreement agreement(t_first, x, t, thin);
+    most = std::max(most, std::abs(agreement.best_between(low, high) - offset));
+  }
+  return most;
+}
 
 // ---- the join ----
 
@@ -262,23 +304,19 @@ ClockOffset find_offset(const std::vector<double>& t_first, const std::vector<do
   constexpr int steps = 2000;
   const std::size_t stride = t_first.size() / 1000 + 1;
   const double step = (agreement.highest - agreement.lowest) / steps;
+  double most = 0;
   for (int i = 0; i <= steps; ++i) {
-    const double offset = agreement.lowest + i * step;
-    const double r = agreement.correlation(offset, Agreement::pieces, stride);
-    if (r > found.correlation) found = {"", offset, 0, r};
+    const double offset = agreement.lowest + i * step,
+                 evidence = agreement.evidence(offset, stride);
+    if (evidence > most) found.offset = offset;
+    most = std::max(most, evidence);
   }
-  if (found.correlation == 0) return found;
+  if (most == 0) return found;
   const double low = found.offset - 2 * step, high = found.offset + 2 * step;
   found.offset = agreement.best_between(low, high);
   found.correlation = agreement.correlation(found.offset);
-  double sum = 0, squares = 0;
-  constexpr double n = Agreement::pieces;
-  for (std::size_t piece = 0; piece < Agreement::pieces; ++piece) {
-    const double moved = agreement.best_between(low, high, piece) - found.offset;
-    sum += moved;
-    squares += moved * moved;
-  }
-  found.std_error = std::sqrt(std::max(0.0, (n - 1) / n * (squares - sum * sum / n)));
+  found.std_error = std::hypot(jackknife(agreement, low, high, found.offset),
+                               thinning_error(t_first, x, t_second, y, low, high, found.offset));
   return found;
 }
 

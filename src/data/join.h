@@ -13,9 +13,9 @@
 namespace frictab::data {
 
 // The offset at which y(t_second + offset) follows x(t_first) best: where the correlation of the
-// rows of x with y between its own rows is highest, among offsets at which the two share at least
-// half of the shorter one. Clocks ascend; shapes: one value per row. Both need at least 4 rows that
-// are not all the same, else the correlation is 0.
+// rows of x with y between its own rows says most (likelihood ratio of a straight line), among
+// offsets at which the two share at least half of the shorter one. Clocks ascend; shapes: one value
+// per row. Both need at least 4 rows that are not all the same, else the correlation is 0.
 ClockOffset find_offset(const std::vector<double>& t_first, const std::vector<double>& x,
                         const std::vector<double>& t_second, const std::vector<double>& y);
 
