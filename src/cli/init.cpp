@@ -1,5 +1,6 @@
 // frictab init DIR: a documented job file to start from; --from FILES: one made from the files.
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -52,39 +53,67 @@ int init_empty(const Options& options, const CommonOptions& common) {
   return 0;
 }
 
-// Names as the job file's directory sees them: one glob where it finds these files and no others.
+// As the job file's directory sees it, which need not be there yet.
+std::string relative_to(const fs::path& file, const std::string& directory) {
+  return fs::relative(fs::absolute(file), fs::absolute(directory)).string();
+}
+
+// Whether these globs find these files and no others.
+bool find_exactly(const std::vector<std::string>& globs, std::vector<std::string> files) {
+  std::sort(files.begin(), files.end());
+  try {
+    std::vector<std::string> found = data::find_files(globs, "", {});
+    std::sort(found.begin(), found.end());
+    return found == files;
+  } catch (const InputError&) { // none
+    return false;
+  }
+}
+
+// One glob, or one for each folder, where these find the files and no others; else the files. None
+// finds what a run writes below the job file's directory.
 std::vector<std::string> training_names(const std::vector<std::string>& files,
                                         const std::string& directory) {
-  const fs::path first = files.front();
-  const std::string any = "*" + first.extension().string();
-  std::vector<std::string> sorted = files;
-  std::sort(sorted.begin(), sorted.end());
-  const auto finds_them = [&](const std::string& glob) {
-    try {
-      return data::find_files({glob}, directory, {}) == sorted;
-    } catch (const InputError&) { // none
-      return false;
-    }
-  };
-  for (const fs::path& glob :
-       {first.parent_path() / any, first.parent_path().parent_path() / "*" / any})
-    if (files.size() > 1 && finds_them(glob.string())) return {glob.string()};
-  return files;
+  const std::string any = "*" + fs::path(files.front()).extension().string();
+  std::vector<std::string> folders;
+  for (const std::string& file : files)
+    if (const std::string glob = (fs::path(file).parent_path() / any).string();
+        std::find(folders.begin(), folders.end(), glob) == folders.end())
+      folders.push_back(glob);
+  const fs::path above = fs::path(folders.front()).parent_path().parent_path();
+  const std::string of_all = (above / "*" / any).string();
+  std::vector<std::string> names = files;
+  if (files.size() > folders.size() && find_exactly(folders, files)) names = folders;
+  if (folders.size() > 1 && find_exactly({of_all}, files) &&
+      relative_to(of_all, directory) != (fs::path("*") / any).string())
+    names = {of_all};
+  for (std::string& name : names)
+    name = relative_to(name, directory);
+  return names;
+}
+
+// A job in DIR about the files, which messages call as the user does.
+job::GuessedJob guess_from(const std::vector<std::string>& files, const std::string& directory) {
+  std::vector<data::GuessedFile> guesses;
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    guesses.push_back(data::guess_file(file, file));
+    names.push_back(relative_to(file, directory));
+    guesses.back().file = names.back();
+  }
+  return job::guessed_job(guesses, data::guess_names(names), training_names(files, directory));
 }
 
 int init_from(const Options& options, const CommonOptions& common) {
   const std::string directory = options.directory.empty() ? "." : options.directory;
   std::vector<std::string> files;
   for (const std::string& file : data::find_files(options.from, "", {{}, 0, 0}))
-    files.push_back(fs::relative(file, directory).string());
-  std::vector<data::GuessedFile> guesses;
-  for (const std::string& file : files)
-    guesses.push_back(data::guess_file((fs::path(directory) / file).string(), file));
-  const job::GuessedJob guessed =
-      job::guessed_job(guesses, data::guess_names(files), training_names(files, directory));
+    files.push_back(fs::path(file).lexically_normal().string());
+  const job::GuessedJob guessed = guess_from(files, directory);
   write_job(directory, common.force, guessed.text);
   const std::string file = (fs::path(directory) / "job.toml").lexically_normal().string();
   fmt::print("{}\n", file);
+  std::fflush(stdout); // before the lines to stderr
   for (const std::string& question : guessed.questions)
     note(common, "to be answered in it: " + question);
   note(common, fmt::format("next: frictab data {0} (shows what is read), frictab run {0}", file));

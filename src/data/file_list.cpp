@@ -208,9 +208,29 @@ std::string note_of(const FileRule& rule, std::size_t files,
                      parts.empty() ? "nothing special" : join(parts, "; "));
 }
 
-std::string stem_of(const std::string& file, bool with_folder) {
+// What a file may be called, from short to long: its name, with its folder, with all folders.
+constexpr std::size_t label_forms = 3;
+
+std::string label_of(const std::string& file, std::size_t form) {
   const fs::path path(file);
-  return (with_folder ? path.parent_path() / path.stem() : path.stem()).generic_string();
+  const fs::path folders[label_forms] = {{}, path.parent_path().filename(), path.parent_path()};
+  return (folders[form] / path.stem()).generic_string();
+}
+
+// The shortest that no other file has.
+std::vector<std::string> labels_of(const std::vector<std::string>& files) {
+  std::map<std::string, std::size_t> count[label_forms];
+  for (const std::string& file : files)
+    for (std::size_t form = 0; form < label_forms; ++form)
+      ++count[form][label_of(file, form)];
+  std::vector<std::string> labels;
+  for (const std::string& file : files) {
+    std::size_t form = 0;
+    while (form + 1 < label_forms && count[form][label_of(file, form)] > 1)
+      ++form;
+    labels.push_back(label_of(file, form));
+  }
+  return labels;
 }
 
 } // namespace
@@ -236,17 +256,15 @@ std::vector<std::string> find_files(const std::vector<std::string>& named, const
 
 FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options) {
   FilePlans plans;
-  std::map<std::string, std::size_t> stems;
-  for (const std::string& file : files)
-    ++stems[stem_of(file, false)];
+  const std::vector<std::string> labels = labels_of(files);
   DataOptions one = options; // of one file: without the lists of all
   one.training.clear();
   one.validation.clear();
   one.files.clear();
   std::vector<std::size_t> rules;
-  for (const std::string& file : files) {
-    plans.files.push_back({file, stem_of(file, stems[stem_of(file, false)] > 1), one});
-    rules.push_back(rule_of(file, options));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    plans.files.push_back({files[i], labels[i], one});
+    rules.push_back(rule_of(files[i], options));
     if (rules.back() < options.files.size())
       apply(options.files[rules.back()], plans.files.back().options);
   }

@@ -27,9 +27,9 @@ struct FilePlans {
   std::vector<std::string> notes; // what each rule changed
 };
 
-// Labels are the files' names without folder and extension; with the folder where two are alike.
-// Named groups of `from_name` become columns: of numbers where every file's is one. Throws
-// InputError where a name does not fit the pattern of its rule.
+// Labels are the files' names without folder and extension; with their folder where two are alike,
+// with all folders where these are as well. Named groups of `from_name` become columns: of numbers
+// where every file's is one. Throws InputError where a name does not fit the pattern of its rule.
 FilePlans plan_files(const std::vector<std::string>& files, const DataOptions& options);
 
 // Throws InputError where a rule is the first match of none of these files.

@@ -170,6 +170,8 @@ class Dialects {
 public:
   explicit Dialects(std::string_view text, const std::string& named, bool workbook)
       : text_(text), named_(named) {
+    if (text.find_first_not_of(" \t\r\n") == text.npos)
+      throw InputError({named, 0, 0}, "the file is empty");
     constexpr std::size_t longest_preamble = 60;
     for (const char decimal : {'.', ','})
       for (const bool units_row : {false, true})
@@ -186,13 +188,15 @@ public:
       format.thousands = between;
       if (between != best.decimal) attempt(format);
     }
+    any_decimal = best.thousands == 0 && reads_as_well(best.decimal == '.' ? ',' : '.');
     if (!(most_ > 0))
       throw InputError({named, 0, 0}, "no table of numbers under a line of names was found",
                        "frictab init DIR writes a job with every key, to be filled in by hand");
   }
 
   io::CsvFormat best;
-  io::CsvTable table; // by the best
+  io::CsvTable table;       // by the best
+  bool any_decimal = false; // it has whole numbers alone
 
 private:
   void attempt(const io::CsvFormat& format) {
@@ -205,6 +209,18 @@ private:
       best = format;
       table = std::move(tried);
     } catch (const InputError&) { // not so
+    }
+  }
+
+  bool reads_as_well(char decimal) const {
+    io::CsvFormat format = best;
+    format.decimal = decimal;
+    try {
+      FaultList faults;
+      const io::CsvTable tried = io::parse_csv(text_, named_, format, faults);
+      return worth(tried, faults.size(), format) >= most_;
+    } catch (const InputError&) {
+      return false;
     }
   }
 
@@ -239,6 +255,23 @@ std::vector<GuessedColumn> columns_of(const io::CsvTable& table) {
   return columns;
 }
 
+// Whether the header line is found by its names: no skip_rows is needed then, which differ from
+// file to file.
+bool is_found_by_names(std::string_view text, const GuessedFile& guess, const io::CsvTable& table,
+                       io::CsvFormat format) {
+  format.skip_rows = 0;
+  for (const Quantity& quantity : quantities())
+    format.wanted.emplace_back(quantity.name);
+  for (const GuessedColumn& column : guess.columns)
+    if (!column.canonical.empty()) format.wanted.push_back(io::read_header_name(column.name).name);
+  try {
+    FaultList faults;
+    return io::parse_csv(text, guess.file, format, faults).header_line == table.header_line;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 // A column that numbers the rows names no test.
 void check_experiment(GuessedFile& guess, const io::CsvTable& table) {
   for (GuessedColumn& column : guess.columns) {
@@ -258,7 +291,7 @@ const GuessedColumn* GuessedFile::find(const std::string& canonical) const {
   return nullptr;
 }
 
-bool GuessedFile::reads_like(const GuessedFile& other) const {
+bool GuessedFile::is_read_as(const GuessedFile& other) const {
   const auto named = [](const GuessedFile& guess) {
     std::set<std::string> names;
     for (const GuessedColumn& column : guess.columns)
@@ -266,8 +299,10 @@ bool GuessedFile::reads_like(const GuessedFile& other) const {
         names.insert(column.canonical + "=" + column.name + "/" + column.unit);
     return names;
   };
-  return decimal == other.decimal && thousands == other.thousands && units_row == other.units_row &&
-         intervals == other.intervals && named(*this) == named(other);
+  return (any_decimal || decimal == other.decimal) &&
+         (thousands == 0 || thousands == other.thousands) && units_row == other.units_row &&
+         intervals == other.intervals && skip_rows == other.skip_rows &&
+         named(*this) == named(other);
 }
 
 GuessedFile guess_file(const std::string& path, const std::string& named) {
@@ -283,11 +318,14 @@ GuessedFile guess_file(const std::string& path, const std::string& named) {
     table = std::move(dialects.table);
     guess.decimal = dialects.best.decimal;
     guess.thousands = dialects.best.thousands;
-    guess.skip_rows = dialects.best.skip_rows;
+    guess.any_decimal = dialects.any_decimal;
     guess.units_row = dialects.best.units_row;
     guess.intervals = !table.interval.empty() && table.interval.back() > 0;
+    guess.columns = columns_of(table);
+    if (!is_found_by_names(text, guess, table, dialects.best))
+      guess.skip_rows = dialects.best.skip_rows;
   }
-  guess.columns = columns_of(table);
+  if (guess.columns.empty()) guess.columns = columns_of(table);
   check_experiment(guess, table);
   return guess;
 }
@@ -297,7 +335,7 @@ GuessedFile guess_file(const std::string& path, const std::string& named) {
 namespace {
 
 struct Token {
-  std::string text, number, unit; // "20mm": 20, mm
+  std::string number, unit; // "20mm": 20, mm; both empty for a text
 };
 
 Token token_of(const std::string& text) {
@@ -306,16 +344,16 @@ Token token_of(const std::string& text) {
                                text[end] == '.' || text[end] == ','))
     ++end;
   const bool trailing = end > 0 && !std::isdigit(static_cast<unsigned char>(text[end - 1]));
-  if (end == 0 || trailing) return {text, "", ""};
+  if (end == 0 || trailing) return {};
   const std::string behind = text.substr(end);
   const bool letters = std::all_of(behind.begin(), behind.end(), [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
   });
-  return letters ? Token{text, text.substr(0, end), behind} : Token{text, "", ""};
+  return letters ? Token{text.substr(0, end), behind} : Token{};
 }
 
 struct CutName {
-  std::vector<Token> tokens;
+  std::vector<std::string> tokens;
   std::string signs; // between them
 };
 
@@ -327,11 +365,11 @@ CutName cut(const std::string& file) {
       token += c;
       continue;
     }
-    name.tokens.push_back(token_of(token));
+    name.tokens.push_back(token);
     name.signs += c;
     token.clear();
   }
-  name.tokens.push_back(token_of(token));
+  name.tokens.push_back(token);
   return name;
 }
 
@@ -344,46 +382,58 @@ std::string as_pattern(const std::string& text) {
   return out;
 }
 
+// Numbers by their size, texts by their letters; not more than a line holds.
 std::string list_of(const std::set<std::string>& values) {
-  return join(std::vector<std::string>(values.begin(), values.end()), ", ");
+  std::vector<std::string> list(values.begin(), values.end());
+  const auto number = [](const std::string& text) {
+    double value = 0;
+    return io::read_number(text, '.', value) || io::read_number(text, ',', value) ? value : 0;
+  };
+  std::stable_sort(list.begin(), list.end(), [&](const std::string& a, const std::string& b) {
+    return number(a) < number(b);
+  });
+  constexpr std::size_t shown = 8;
+  if (list.size() > shown) {
+    list.resize(shown);
+    list.emplace_back("...");
+  }
+  return join(list, ", ");
 }
 
-// The tokens of all names at one place, as a part of the pattern.
+// What stands at one place of all names.
 class NamePlace {
 public:
-  NamePlace(const std::vector<CutName>& names, std::size_t number)
-      : number_(number), first_(names.front().tokens[number]) {
-    for (const CutName& name : names) {
-      const Token& token = name.tokens[number];
-      values.insert(token.text);
+  explicit NamePlace(const std::vector<std::string>& texts) : first_(texts.front()) {
+    for (const std::string& text : texts) {
+      const Token token = token_of(text);
+      values_.insert(text);
+      numbers_.insert(token.number);
       units_.insert(token.unit);
-      numbers_ = numbers_ && !token.number.empty();
     }
   }
 
-  // `tests`: how many there are; `named`: whether another part names them.
-  std::string pattern(std::size_t tests, bool named, GuessedNames& guess) const {
-    if (values.size() == 1) return as_pattern(first_.text);
-    if (values.size() == tests && tests > 2) {
-      if (named) return "[^_ -]+";
-      guess.parts.push_back({"experiment", list_of(values)});
-      return "(?<experiment>[^_ -]+)";
-    }
-    const bool measured = numbers_ && units_.size() == 1 && !units_.begin()->empty();
-    const std::string group = measured ? fmt::format("x{}_{}", number_ + 1, *units_.begin())
-                                       : fmt::format("name{}", number_ + 1);
-    guess.parts.push_back({group, list_of(values)});
-    return measured ? fmt::format("(?<{}>[\\d.,]+){}", group, *units_.begin())
-                    : fmt::format("(?<{}>[^_ -]*)", group);
+  bool differs() const { return values_.size() > 1; }
+  bool has_empty() const { return values_.count("") > 0; }
+  // The number of a condition, as 20mm.
+  bool is_measured() const {
+    return numbers_.count("") == 0 && units_.size() == 1 && !units_.begin()->empty();
   }
+  bool names_test(std::size_t tests) const {
+    return values_.size() == tests && tests > 2 && !is_measured();
+  }
+  std::string same() const { return as_pattern(first_); }
 
-  std::set<std::string> values;
+  // As a named group of `letters`; measured ones are called after their unit as well.
+  std::string group(std::string name, const std::string& letters, GuessedNames& guess) const {
+    if (is_measured()) name += "_" + *units_.begin();
+    guess.parts.push_back({name, list_of(is_measured() ? numbers_ : values_)});
+    return is_measured() ? fmt::format("(?<{}>[\\d.,]+){}", name, *units_.begin())
+                         : fmt::format("(?<{}>{})", name, letters);
+  }
 
 private:
-  std::size_t number_;
-  const Token& first_;
-  std::set<std::string> units_;
-  bool numbers_ = true;
+  const std::string& first_;
+  std::set<std::string> values_, numbers_, units_;
 };
 
 bool names_test(const GuessedNames& guess) {
@@ -391,20 +441,75 @@ bool names_test(const GuessedNames& guess) {
                      [](const NamePart& part) { return part.group == "experiment"; });
 }
 
-// Of names that are cut alike.
-void guess_parts(const std::vector<CutName>& names, GuessedNames& guess) {
+// One place of the files' own names, the `number`th from 1.
+std::string part_of_name(const NamePlace& place, std::size_t number, std::size_t tests,
+                         GuessedNames& guess) {
+  const char* const letters = "[^_ /-]+";
+  if (!place.differs()) return place.same();
+  if (place.names_test(tests))
+    return names_test(guess) ? letters : place.group("experiment", letters, guess);
+  return place.group(fmt::format("{}{}", place.is_measured() ? "x" : "name", number), letters,
+                     guess);
+}
+
+// The pattern of names that are cut alike; empty for others.
+std::string guess_parts(const std::vector<CutName>& names, GuessedNames& guess) {
   const CutName& first = names.front();
   if (std::any_of(names.begin(), names.end(),
                   [&](const CutName& name) { return name.signs != first.signs; }))
-    return;
+    return "";
+  GuessedNames found;
   std::string pattern;
   for (std::size_t t = 0; t < first.tokens.size(); ++t) {
-    if (t > 0) pattern += first.signs[t - 1];
-    pattern += NamePlace(names, t).pattern(names.size(), names_test(guess), guess);
+    std::vector<std::string> texts;
+    for (const CutName& name : names)
+      texts.push_back(name.tokens[t]);
+    const NamePlace place(texts);
+    if (place.has_empty() && place.differs()) return "";
+    if (t > 0) pattern += as_pattern(first.signs.substr(t - 1, 1));
+    pattern += part_of_name(place, t + 1, names.size(), found);
   }
-  // A number that tells the tests apart and nothing else: the file's own name does as well.
-  if (guess.parts.size() == 1 && names_test(guess)) guess.parts.clear();
-  if (!guess.parts.empty()) guess.pattern = pattern;
+  // What tells the tests apart and nothing else: the file's own name does as well.
+  if (found.parts.empty() || (found.parts.size() == 1 && names_test(found))) return "";
+  guess.parts.insert(guess.parts.end(), found.parts.begin(), found.parts.end());
+  return pattern;
+}
+
+// The pattern of the folders from the first one that differs, with a / behind each; empty where
+// they say nothing: all alike, at different depths, or one for each file.
+std::string guess_folders(const std::vector<std::string>& files, GuessedNames& guess) {
+  std::vector<std::vector<std::string>> folders;
+  std::set<std::string> all;
+  for (const std::string& file : files) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    all.insert(folder.string());
+    folders.emplace_back();
+    for (const auto& part : folder)
+      folders.back().push_back(part.string());
+    if (folders.back().size() != folders.front().size()) return "";
+  }
+  if (all.size() == files.size()) return "";
+  std::string pattern;
+  for (std::size_t level = 0; level < folders.front().size(); ++level) {
+    std::vector<std::string> texts;
+    for (const auto& folder : folders)
+      texts.push_back(folder[level]);
+    const NamePlace place(texts);
+    const std::string number = guess.parts.empty() ? "" : std::to_string(guess.parts.size() + 1);
+    if (place.differs())
+      pattern += place.group("folder" + number, "[^/]+", guess) + "/";
+    else if (!pattern.empty())
+      pattern += place.same() + "/";
+  }
+  return pattern;
+}
+
+// The files' common extension, or any.
+std::string end_of_names(const std::vector<std::string>& files) {
+  std::set<std::string> extensions;
+  for (const std::string& file : files)
+    extensions.insert(std::filesystem::path(file).extension().string());
+  return (extensions.size() == 1 ? as_pattern(*extensions.begin()) : "(\\.[^./]*)?") + "$";
 }
 
 } // namespace
@@ -413,16 +518,14 @@ GuessedNames guess_names(const std::vector<std::string>& files) {
   GuessedNames guess;
   if (files.size() < 2) return guess;
   std::vector<CutName> names;
-  std::set<std::string> folders;
-  for (const std::string& file : files) {
+  for (const std::string& file : files)
     names.push_back(cut(file));
-    folders.insert(std::filesystem::path(file).parent_path().filename().string());
-  }
-  guess_parts(names, guess);
-  if (folders.size() > 1 && folders.size() < files.size()) {
-    guess.pattern = "(?<folder>[^/]+)/" + (guess.pattern.empty() ? "[^/]*$" : guess.pattern);
-    guess.parts.insert(guess.parts.begin(), {"folder", list_of(folders)});
-  }
+  const std::string folders = guess_folders(files, guess);
+  const std::string parts = guess_parts(names, guess);
+  if (!parts.empty())
+    guess.pattern = folders + parts + end_of_names(files);
+  else if (!folders.empty())
+    guess.pattern = folders + "[^/]*$";
   return guess;
 }
 

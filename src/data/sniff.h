@@ -21,20 +21,21 @@ struct GuessedFile {
   char delimiter = 0; // 0: frictab finds it itself
   char decimal = '.';
   char thousands = 0;
-  std::size_t skip_rows = 0;
+  bool any_decimal = false;  // whole numbers alone: either sign reads them
+  std::size_t skip_rows = 0; // 0 also where the header line is found by its names
   bool units_row = false;
   bool intervals = false; // the header line comes again
   std::vector<GuessedColumn> columns;
 
   const GuessedColumn* find(const std::string& canonical) const; // nullptr where there is none
-  // Whether one set of keys reads both.
-  bool reads_like(const GuessedFile& other) const;
+  // Whether the keys that read the other one read this one as well.
+  bool is_read_as(const GuessedFile& other) const;
 };
 
 // A part of all files' names that differs between them.
 struct NamePart {
   std::string group;  // what the named group is called
-  std::string values; // "20, 50, 100"
+  std::string values; // "20, 50, 100": some of them
 };
 struct GuessedNames {
   std::string pattern; // a regular expression with named groups; empty: nothing to be found
@@ -45,8 +46,9 @@ struct GuessedNames {
 // where it cannot be read as a table.
 GuessedFile guess_file(const std::string& path, const std::string& named);
 
-// Parts between _ - and blanks that differ: numbers in front of a unit, and texts that come in at
-// least two files; one that differs in all files names the test.
+// Folders that differ, and parts of the files' own names between _ - and blanks: numbers in front
+// of a unit, and texts that come in at least two files; a text that differs in all files names the
+// test.
 GuessedNames guess_names(const std::vector<std::string>& files);
 
 } // namespace frictab::data

@@ -39,21 +39,28 @@ std::string dialect_lines(const GuessedFile& file) {
   if (file.thousands != 0)
     out += line(fmt::format("thousands = {}", toml_quoted(std::string(1, file.thousands))),
                 "digits stand in groups of three");
+  if (file.skip_rows > 0)
+    out += line(fmt::format("skip_rows = {}", file.skip_rows),
+                "lines before the one of the names: one of them holds a name as well");
   if (file.units_row) out += line("units_row = true", "the line below the names holds units");
   if (file.intervals)
     out += line("experiment = \"interval\"", "the header line comes again: a test each time");
   return out;
 }
 
-std::string source_of(const GuessedColumn& column) {
-  return toml_quoted(io::read_header_name(column.name).name == column.name
-                         ? column.name
-                         : io::read_header_name(column.name).name);
+// The name in the file, without its unit where that is enough to find it.
+std::string source_of(const GuessedColumn& column, const GuessedFile& file) {
+  const std::string bare = io::read_header_name(column.name).name;
+  const auto alike =
+      std::count_if(file.columns.begin(), file.columns.end(), [&](const GuessedColumn& c) {
+        return io::read_header_name(c.name).name == bare;
+      });
+  return toml_quoted(alike > 1 ? column.name : bare);
 }
 
-std::string column_line(const GuessedColumn& column) {
+std::string column_line(const GuessedColumn& column, const GuessedFile& file) {
   const data::Quantity* quantity = data::find_quantity(column.canonical);
-  std::string value = source_of(column);
+  std::string value = source_of(column, file);
   if (column.coefficient) value = fmt::format("{{ column = {}, times = \"sigma_n_MPa\" }}", value);
   std::string comment = "first values: " + shown(column.first_values);
   if (quantity && !column.coefficient)
@@ -64,42 +71,59 @@ std::string column_line(const GuessedColumn& column) {
   return line(fmt::format("{} = {}", column.canonical, value), comment);
 }
 
-// Columns that need no line: they have the canonical name.
+// Columns that need no line: they have the canonical name, which says the unit unless the file
+// says another.
 bool says_itself(const GuessedColumn& column) {
   return column.name == column.canonical;
 }
 
-std::string columns_lines(const GuessedFile& file, const std::string& section) {
-  std::string out, others;
-  for (const GuessedColumn& column : file.columns) {
+std::string columns_lines(const GuessedFile& file) {
+  std::string out;
+  std::vector<std::string> canonical, others;
+  for (const GuessedColumn& column : file.columns)
     if (column.canonical.empty())
-      others += (others.empty() ? "" : ", ") + shown(column.name);
+      others.push_back(shown(column.name));
+    else if (says_itself(column))
+      canonical.push_back(column.name);
     else
-      out += says_itself(column) ? "# " + column_line(column) : column_line(column);
-  }
+      out += column_line(column, file);
+  if (!canonical.empty()) out += "# known by their names: " + join(canonical, ", ") + "\n";
   if (!others.empty())
-    out += "# kept as recorded; what changes friction may be among them: " + others + "\n";
-  return out.empty() ? "" : "\n[" + section + "]\n" + out;
+    out +=
+        "# kept as recorded; what changes friction may be among them: " + join(others, ", ") + "\n";
+  return out;
+}
+
+// How most of the files are read.
+const GuessedFile& most_common(const std::vector<GuessedFile>& files) {
+  const auto alike = [&](const GuessedFile& file) {
+    return std::count_if(files.begin(), files.end(),
+                         [&](const GuessedFile& other) { return other.is_read_as(file); });
+  };
+  return *std::max_element(
+      files.begin(), files.end(),
+      [&](const GuessedFile& a, const GuessedFile& b) { return alike(a) < alike(b); });
 }
 
 class Writer {
 public:
   Writer(const std::vector<GuessedFile>& files, const data::GuessedNames& names,
          const std::vector<std::string>& training)
-      : files_(files), names_(names), training_(training) {}
+      : files_(files), most_(most_common(files)), names_(names), training_(training) {}
 
   GuessedJob write() {
     add_head();
-    out_.text += columns_lines(files_.front(), "data.columns");
-    add_questions();
+    out_.text += "\n[data.columns]\n" + columns_lines(most_);
+    ask_for_pressure();
+    ask_for_friction();
+    add_constants();
     add_rules();
     out_.text += "\n[output]\ndirectory = \"out\"\n";
     return std::move(out_);
   }
 
 private:
-  const GuessedFile& first() const { return files_.front(); }
-  bool has(const char* canonical) const { return first().find(canonical) != nullptr; }
+  bool has(const char* canonical) const { return most_.find(canonical) != nullptr; }
 
   void add_head() {
     std::vector<std::string> quoted;
@@ -111,17 +135,17 @@ private:
         "with it,\n# frictab explain job what else there is.\n\n[data]\n";
     out_.text += line("training = " + list,
                       fmt::format("{} {}", files_.size(), files_.size() == 1 ? "file" : "files"));
-    out_.text += dialect_lines(first());
+    out_.text += dialect_lines(most_);
     add_experiment();
   }
 
   void add_experiment() {
-    if (has("experiment") || first().intervals) return;
+    if (has("experiment") || most_.intervals) return;
     if (files_.size() > 1)
       out_.text += line("experiment = \"file\"", "no column names the tests: each file is one");
     else
-      out_.text += "# ? One file, and no column that names its tests: it is taken as one test.\n"
-                   "# experiment = \"COLUMN\"\n";
+      ask("Which column names the tests? None was found: the file is taken as one test.",
+          "# experiment = \"COLUMN\"\n");
   }
 
   void ask(const std::string& question, const std::string& lines) {
@@ -129,33 +153,40 @@ private:
     out_.text += "# ? " + question + "\n" + lines;
   }
 
+  void ask_for_pressure() {
+    if (has("sigma_n_MPa")) return;
+    const GuessedColumn* force = most_.find("F_N_N");
+    ask("Where does the contact normal stress come from? None was found.",
+        fmt::format("# sigma_n_MPa = \"COLUMN\"\n{}"
+                    "# or one value for all rows, in [data.constants] below\n",
+                    line(fmt::format("# sigma_n_MPa = {{ column = {}, area_mm2 = 78.5 }}",
+                                     force ? source_of(*force, most_) : "\"FORCE\""),
+                         "a force over the nominal contact area")));
+  }
+
   void ask_for_friction() {
     const bool friction = has("F_R_N"), normal = has("F_N_N");
     if (has("tau_R_MPa") || (friction && normal)) return;
-    out_.text += "\n";
     if (friction)
       ask("Which normal force belongs to the friction force? None was found.",
-          "# [data.constants]\n# F_N_N = 50.0\n# or in [data.columns]: F_N_N = \"COLUMN\"\n");
+          "# F_N_N = \"COLUMN\"\n# or one value for all rows, in [data.constants] below\n");
     else
       ask("Where is friction? Neither a shear stress, nor a coefficient, nor a friction force was "
           "found.",
-          "# in [data.columns], one of:\n# F_R_N = \"COLUMN\"\n# tau_R_MPa = \"COLUMN\"\n"
+          "# F_R_N = \"COLUMN\"\n# tau_R_MPa = \"COLUMN\"\n"
           "# tau_R_MPa = { column = \"COLUMN\", times = \"sigma_n_MPa\" }\n");
   }
 
-  void add_questions() {
-    if (!has("sigma_n_MPa")) {
-      out_.text += "\n";
-      ask("Where does the contact normal stress come from? None was found.",
-          "# [data.constants]\n# sigma_n_MPa = 500.0\n# or in [data.columns], from a force over "
-          "the "
-          "nominal contact area:\n# sigma_n_MPa = { column = \"FORCE\", area_mm2 = 78.5 }\n");
-    }
-    ask_for_friction();
+  // One section, so that every line of it can be made to count.
+  void add_constants() {
+    std::string lines;
+    if (!has("sigma_n_MPa")) lines += "# sigma_n_MPa = 500.0\n";
+    if (has("F_R_N") && !has("F_N_N") && !has("tau_R_MPa")) lines += "# F_N_N = 50.0\n";
     if (!has("sigma_f_MPa"))
-      out_.text +=
-          "\n# Laws with a shear limit need the flow stress of the workpiece, as a column or "
-          "here:\n# [data.constants]\n# sigma_f_MPa = 480.0\n";
+      lines +=
+          line("# sigma_f_MPa = 480.0", "flow stress of the workpiece: laws with a shear limit "
+                                        "need it");
+    if (!lines.empty()) out_.text += "\n[data.constants]\n" + lines;
   }
 
   void add_names() {
@@ -164,27 +195,37 @@ private:
         "from_name = " + (plain ? "'" + names_.pattern + "'" : toml_quoted(names_.pattern)) + "\n";
     for (const data::NamePart& part : names_.parts)
       out_.text += fmt::format("# {}: {}{}\n", part.group, shown(part.values),
-                               part.group == "experiment" ? " (the name of the test)"
-                                                          : " - what is it? Give the group a name");
+                               part.group == "experiment" ? " (the name of the test)" : "");
+    out_.text += "# Give the groups names that say what they are; one without a meaning may go.\n";
   }
 
   // What is read in another way than the first file, and what the names say.
   void add_rules() {
     for (const GuessedFile& file : files_) {
-      if (file.reads_like(first())) continue;
+      if (file.is_read_as(most_)) continue;
       out_.text += fmt::format("\n[[data.files]]\nmatch = {}\n", toml_quoted(file.file));
       out_.text += dialect_lines(file);
-      if (file.decimal == '.' && first().decimal != '.') out_.text += "decimal = \".\"\n";
-      if (!file.units_row && first().units_row) out_.text += "units_row = false\n";
+      out_.text += plain_lines(file);
       if (!names_.pattern.empty()) add_names();
-      out_.text += columns_lines(file, "data.files.columns");
+      out_.text += "\n[data.files.columns]\n" + columns_lines(file);
     }
     if (names_.pattern.empty()) return;
     out_.text += "\n[[data.files]]\nmatch = \"*\"\n";
     add_names();
   }
 
+  // Where [data] says what this file is without.
+  std::string plain_lines(const GuessedFile& file) const {
+    std::string out;
+    if (file.decimal == '.' && most_.decimal != '.') out += "decimal = \".\"\n";
+    if (file.skip_rows == 0 && most_.skip_rows > 0) out += "skip_rows = 0\n";
+    if (!file.units_row && most_.units_row) out += "units_row = false\n";
+    if (!file.intervals && most_.intervals) out += "experiment = \"file\"\n";
+    return out;
+  }
+
   const std::vector<GuessedFile>& files_;
+  const GuessedFile& most_;
   const data::GuessedNames& names_;
   const std::vector<std::string>& training_;
   GuessedJob out_;

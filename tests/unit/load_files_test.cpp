@@ -68,6 +68,10 @@ TEST_F(LoadFiles, OfTheSameNameAreToldApartByTheirFolders) {
   file("b/1.csv", rows);
   file("b/2.csv", rows);
   EXPECT_THAT(load_dataset({"*/*.csv"}, options).experiments, ElementsAre("a/1", "b/1", "2"));
+  for (const char* name : {"rig/x/a/1.csv", "rig/x/b/1.csv", "rig/y/b/1.csv"})
+    file(name, rows);
+  EXPECT_THAT(load_dataset({"rig/*/*/*.csv"}, options).experiments,
+              ElementsAre("a/1", "rig/x/b/1", "rig/y/b/1"));
 }
 
 // ---- what is special about some ----

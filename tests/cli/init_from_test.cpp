@@ -1,0 +1,453 @@
+// "frictab init --from": a job file guessed from a lab's files, used with nothing edited.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/program.h"
+#include "core/text.h"
+#include "support/json.h"
+#include "support/run_command.h"
+
+namespace frictab::init_from_test {
+namespace {
+
+using test::CommandResult;
+using test::run_frictab;
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int rows_per_test = 30;
+
+// One row of a test that nobody would find odd; F_N over 20 mm2.
+struct Row {
+  double time_s, sigma_MPa, mu;
+  double F_N() const { return 20 * sigma_MPa; }
+  double F_R() const { return mu * F_N(); }
+};
+
+std::vector<Row> rows(int test) {
+  std::vector<Row> out;
+  for (int i = 0; i < rows_per_test; ++i)
+    out.push_back({0.1 * i, 100.0 * test + 5 * i,
+                   0.1 + 0.01 * (test % 3) + 0.002 * std::sin(1.7 * i + test)});
+  return out;
+}
+
+// "1.234,50", as a German rig writes.
+std::string german(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  text[text.size() - 3] = ',';
+  if (text.size() > 6) text.insert(text.size() - 6, ".");
+  return text;
+}
+
+std::string utf16(const std::string& text) {
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) {
+    wide += c;
+    wide += '\0';
+  }
+  return wide;
+}
+
+// "Time [s];COF;Pressure [MPa]".
+std::string coefficient_file(int test) {
+  std::string text = "Time [s];COF;Pressure [MPa]\n";
+  for (const Row& row : rows(test))
+    text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+  return text;
+}
+
+// Four tests, each below a header of its own, in kPa.
+std::string shear_cell() {
+  std::string text;
+  for (int test = 1; test <= 4; ++test) {
+    text += fmt::format("Interval;{}\n\nTime;Shear stress;Normal stress\n[s];[kPa];[kPa]\n", test);
+    for (const Row& row : rows(test))
+      text +=
+          fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu * row.sigma_MPa, row.sigma_MPa);
+  }
+  return text;
+}
+
+class InitFrom : public testing::Test {
+protected:
+  CommandResult frictab(const std::vector<std::string>& arguments) const {
+    return run_frictab(arguments, directory.path());
+  }
+
+  // The job file that is guessed, which asks nothing that must be answered.
+  std::string job_from(const std::vector<std::string>& files) const {
+    std::vector<std::string> arguments = {"init", "job", "--from"};
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    const CommandResult result = frictab(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "job/job.toml\n");
+    return result.exit_code == 0 ? directory.read("job/job.toml") : "";
+  }
+
+  // As it is read and calibrated with nothing edited: "K1 30, K2 30", and the text of frictab data.
+  struct Read {
+    std::string tests, text;
+  };
+  Read read() const {
+    const CommandResult data = frictab({"data", "job/job.toml", "--json", "-q"});
+    EXPECT_EQ(data.exit_code, 0) << data.err;
+    if (data.exit_code != 0) return {};
+    std::vector<std::string> tests;
+    const auto json = nlohmann::json::parse(data.out);
+    for (const auto& test : json["tests"])
+      tests.push_back(
+          fmt::format("{} {}", test["experiment"].get<std::string>(), test["rows"].get<int>()));
+    std::sort(tests.begin(), tests.end());
+    const CommandResult fit =
+        frictab({"calibrate", "job/job.toml", "-q", "--set", "models.use=[\"coulomb\"]"});
+    EXPECT_EQ(fit.exit_code, 0) << fit.err;
+    return {join(tests, ", "), frictab({"data", "job/job.toml", "-q"}).out};
+  }
+
+  TemporaryDirectory directory;
+};
+
+// ---- files of one dialect ----
+
+TEST_F(InitFrom, TakesCanonicalNamesAsTheyAre) {
+  std::string text = "experiment,time_s,sigma_n_MPa,v_rel_mm_s,tau_R_MPa,sigma_f_MPa,room_C\n";
+  for (int test = 1; test <= 4; ++test)
+    for (const Row& row : rows(test))
+      text += fmt::format("K{},{:.1f},{:.1f},{},{:.3f},900,21\n", test, row.time_s, row.sigma_MPa,
+                          50 * test, row.mu * row.sigma_MPa);
+  directory.write("a.csv", text);
+  EXPECT_EQ(
+      job_from({"a.csv"}),
+      R"(# Guessed from the files; every line may be wrong. frictab data shows what is read with it,
+# frictab explain job what else there is.
+
+[data]
+training = "../a.csv"                        # 1 file
+
+[data.columns]
+# known by their names: experiment, time_s, sigma_n_MPa, v_rel_mm_s, tau_R_MPa, sigma_f_MPa
+# kept as recorded; what changes friction may be among them: room_C
+
+[output]
+directory = "out"
+)");
+  EXPECT_EQ(read().tests, "K1 30, K2 30, K3 30, K4 30");
+}
+
+TEST_F(InitFrom, FindsDecimalCommasPreamblesUnitsAndGroupsOfDigits) {
+  for (int test = 1; test <= 4; ++test) {
+    std::string text = "Pr\xFC"
+                       "fstand 7;Labor S\xFC"
+                       "d\nDatum;12.03.2024\nBediener;N, N\n\n"
+                       "Normalkraft [kN];Reibkraft [N];Zeit [s];Normalspannung [MPa]\n";
+    for (const Row& row : rows(9 + test))
+      text += fmt::format("{};{};{};{}\n", german(row.F_N() / 1000), german(row.F_R()),
+                          german(row.time_s), german(row.sigma_MPa));
+    directory.write(fmt::format("rig/versuch_{}.csv", test), text);
+  }
+  const std::string job = job_from({"rig"});
+  EXPECT_THAT(job, HasSubstr(R"(
+training = "../rig/*.csv"                    # 4 files
+decimal = ","                                # more cells are numbers than with a point
+thousands = "."                              # digits stand in groups of three
+experiment = "file"                          # no column names the tests: each file is one
+
+[data.columns]
+F_N_N = "Normalkraft"                        # first values: 20, 20.1, 20.2; in kN, as the file says
+)"));
+  EXPECT_THAT(job, Not(HasSubstr("[[data.files]]"))) << "all are read alike";
+  const Read found = read();
+  EXPECT_EQ(found.tests, "versuch_1 30, versuch_2 30, versuch_3 30, versuch_4 30");
+  EXPECT_THAT(found.text, HasSubstr("1,300..1,445")) << found.text;
+}
+
+TEST_F(InitFrom, SkipsAPreambleThatHoldsANameOfAColumnItself) {
+  for (int test = 1; test <= 3; ++test) {
+    std::string text = "Zeit;12:30 Uhr\nZeit;Reibwert;Druck [MPa]\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+    directory.write(fmt::format("{}.csv", test), text);
+  }
+  EXPECT_THAT(job_from({"1.csv", "2.csv", "3.csv"}), HasSubstr("\nskip_rows = 1 "));
+  EXPECT_EQ(read().tests, "1 30, 2 30, 3 30");
+}
+
+TEST_F(InitFrom, FindsALineOfUnitsAndAColumnThatNamesTests) {
+  std::string text = "Test,Time,Load,Friction force,Contact pressure\n,s,kN,N,MPa\n";
+  for (int test = 1; test <= 4; ++test)
+    for (const Row& row : rows(test))
+      text += fmt::format("{},{:.1f},{:.4f},{:.3f},{:.1f}\n", test, row.time_s, row.F_N() / 1000,
+                          row.F_R(), row.sigma_MPa);
+  directory.write("a.csv", text);
+  const std::string job = job_from({"a.csv"});
+  EXPECT_THAT(job, HasSubstr("\nunits_row = true "));
+  EXPECT_THAT(job, HasSubstr("\nexperiment = \"Test\" "));
+  EXPECT_THAT(job, HasSubstr("first values: 2, 2.1, 2.2; in kN, as the file says"));
+  const Read found = read();
+  EXPECT_EQ(found.tests, "1 30, 2 30, 3 30, 4 30");
+  EXPECT_THAT(found.text, HasSubstr("F_N_N: kN as the file says, taken as N"));
+}
+
+TEST_F(InitFrom, TakesAHeaderThatComesAgainForTheNextTest) {
+  directory.write("cell.csv", shear_cell());
+  const std::string job = job_from({"cell.csv"});
+  EXPECT_THAT(job, HasSubstr("\nexperiment = \"interval\" "));
+  EXPECT_THAT(job, HasSubstr("in kPa, as the file says"));
+  EXPECT_EQ(read().tests, "cell 1 30, cell 2 30, cell 3 30, cell 4 30");
+}
+
+TEST_F(InitFrom, ReadsUtf16WithTabs) {
+  directory.write("cell.txt",
+                  utf16(replace_all(replace_all(shear_cell(), ";", "\t"), "\n", "\r\n")));
+  job_from({"cell.txt"});
+  EXPECT_EQ(read().tests, "cell 1 30, cell 2 30, cell 3 30, cell 4 30");
+}
+
+TEST_F(InitFrom, TakesACoefficientTimesThePressure) {
+  std::string text = "Sample,Elapsed time (s),Friction coefficient,Contact pressure (MPa),"
+                     "Sliding speed (m/s)\n";
+  for (int test = 1; test <= 4; ++test)
+    for (const Row& row : rows(test))
+      text += fmt::format("S{},{:.1f},{:.4f},{:.1f},{}\n", test, row.time_s, row.mu, row.sigma_MPa,
+                          0.05 * test);
+  directory.write("a.csv", text);
+  EXPECT_THAT(job_from({"a.csv"}), HasSubstr("\ntau_R_MPa = { column = \"Friction coefficient\", "
+                                             "times = \"sigma_n_MPa\" } "));
+  const Read found = read();
+  EXPECT_EQ(found.tests, "S1 30, S2 30, S3 30, S4 30");
+  EXPECT_THAT(found.text, HasSubstr("v_rel_mm_s: m/s as the file says, taken as mm/s"));
+}
+
+// ---- what names say ----
+
+TEST_F(InitFrom, FindsConditionsInTheNamesOfFiles) {
+  for (const char* steel : {"316SS", "52100"})
+    for (const int radius : {5, 20, 100})
+      for (const int repeat : {1, 2})
+        directory.write(fmt::format("raw_data/{}_{}mm_r{}.csv", steel, radius, repeat),
+                        coefficient_file(1 + repeat + radius / 20));
+  EXPECT_THAT(job_from({"raw_data"}), HasSubstr(R"(
+[[data.files]]
+match = "*"
+from_name = '(?<name1>[^_ /-]+)_(?<x2_mm>[\d.,]+)mm_(?<name3>[^_ /-]+)\.csv$'
+# name1: 316SS, 52100
+# x2_mm: 5, 20, 100
+# name3: r1, r2
+# Give the groups names that say what they are; one without a meaning may go.
+)"));
+  EXPECT_THAT(read().text, HasSubstr("from the names name1 (2: 316SS, 52100), name3 (2: r1, r2), "
+                                     "x2_mm (3: 100, 20, 5)"));
+}
+
+TEST_F(InitFrom, KeepsAConditionThatDiffersInAllFiles) {
+  for (const int load : {20, 50, 100})
+    directory.write(fmt::format("pin_{}N.csv", load), coefficient_file(1 + load / 20));
+  EXPECT_THAT(job_from({"pin_*.csv"}), HasSubstr("from_name = 'pin_(?<x2_N>[\\d.,]+)N\\.csv$'\n"
+                                                 "# x2_N: 20, 50, 100\n"));
+  EXPECT_EQ(read().tests, "pin_100N 30, pin_20N 30, pin_50N 30");
+}
+
+TEST_F(InitFrom, LeavesNamesAloneThatOnlyTellTheTestsApart) {
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("K{}_raw.csv", test), coefficient_file(test));
+  EXPECT_THAT(job_from({"K1_raw.csv", "K2_raw.csv", "K3_raw.csv"}), Not(HasSubstr("from_name")));
+  EXPECT_EQ(read().tests, "K1_raw 30, K2_raw 30, K3_raw 30");
+}
+
+TEST_F(InitFrom, FindsConditionsInTheNamesOfFolders) {
+  for (const char* filler : {"0pct", "2.5pct", "10pct"})
+    for (const int repeat : {1, 2})
+      directory.write(fmt::format("rig/{}/test {}.csv", filler, repeat), coefficient_file(repeat));
+  const std::string job = job_from({"rig/*/*.csv"});
+  EXPECT_THAT(job, HasSubstr("training = \"../rig/*/*.csv\""));
+  EXPECT_THAT(job, HasSubstr("from_name = '(?<folder_pct>[\\d.,]+)pct/test "
+                             "(?<name2>[^_ /-]+)\\.csv$'\n# folder_pct: 0, 2.5, 10\n"));
+  EXPECT_EQ(read().tests, "0pct/test 1 30, 0pct/test 2 30, 10pct/test 1 30, 10pct/test 2 30, "
+                          "2.5pct/test 1 30, 2.5pct/test 2 30");
+}
+
+TEST_F(InitFrom, NamesNoFilesThatARunWritesBesideTheData) {
+  for (const char* file : {"dry/1.csv", "dry/2.csv", "oil/1.csv", "oil/2.csv"})
+    directory.write(file, coefficient_file(1));
+  ASSERT_EQ(frictab({"init", "--from", "dry", "oil"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job.toml"), HasSubstr("\ntraining = [\"dry/*.csv\", \"oil/*.csv\"] "))
+      << "*/*.csv would find out/*.csv";
+}
+
+// ---- files of several dialects ----
+
+TEST_F(InitFrom, GivesARuleToEachFileThatIsReadInAnotherWay) {
+  directory.write("1.csv", "Rig 2\nZeit [s];Normalkraft [kN];Reibkraft [N];Kontaktdruck [MPa]\n"
+                           "0,0;2,0;200,5;100,5\n0,5;2,1;210,5;105,5\n");
+  for (int test = 2; test <= 4; ++test) {
+    std::string text = "Time [s],Normal force [N],Friction force [N],Contact pressure [MPa]\n";
+    for (const Row& row : rows(test))
+      text += fmt::format("{:.1f},{:.1f},{:.3f},{:.1f}\n", row.time_s, row.F_N(), row.F_R(),
+                          row.sigma_MPa);
+    directory.write(fmt::format("{}.csv", test), text);
+  }
+  const std::string job = job_from({"*.csv"});
+  EXPECT_THAT(job, HasSubstr("\nF_N_N = \"Normal force\" ")) << "as most files are";
+  EXPECT_THAT(job, HasSubstr(R"(
+[[data.files]]
+match = "../1.csv"
+decimal = ","                                # more cells are numbers than with a point
+
+[data.files.columns]
+time_s = "Zeit"                              # first values: 0, 0.5; in s, as the file says
+F_N_N = "Normalkraft"                        # first values: 2, 2.1; in kN, as the file says
+)"));
+  EXPECT_EQ(read().tests, "1 2, 2 30, 3 30, 4 30");
+}
+
+TEST_F(InitFrom, GivesNoRuleToAFileWithoutDecimalsAmongOthersWithCommas) {
+  for (int test = 1; test <= 3; ++test)
+    directory.write(fmt::format("{}.csv", test),
+                    test == 1 ? "t;FR;FN;p [MPa]\n0;100;1000;50\n1;101;1010;51\n"
+                              : "t;FR;FN;p [MPa]\n0,0;1.000,5;10.000,5;50\n1,5;101,5;1010;51\n");
+  EXPECT_THAT(job_from({"*.csv"}), Not(HasSubstr("[[data.files]]")));
+  EXPECT_EQ(read().tests, "1 2, 2 2, 3 2");
+}
+
+// ---- other formats ----
+
+TEST_F(InitFrom, ReadsCanonicalHdf5) {
+  if (!have_program("/usr/bin/python3")) GTEST_SKIP() << "python3 is not installed";
+  directory.write("make.py", R"(
+import h5py
+with h5py.File('a.h5', 'w') as f:
+    f['experiment'] = ['K%d' % (i // 3) for i in range(9)]
+    f['sigma_n_MPa'] = [100.0 + i for i in range(9)]
+    f['tau_R_MPa'] = [10.0 + (i % 2) for i in range(9)]
+)");
+  const CommandResult made = test::run_command({"/usr/bin/python3", "make.py"}, directory.path());
+  if (made.exit_code != 0) GTEST_SKIP() << "h5py is not installed";
+  EXPECT_THAT(job_from({"a.h5"}),
+              HasSubstr("# known by their names: experiment, sigma_n_MPa, tau_R_MPa\n"));
+  EXPECT_EQ(read().tests, "K0 3, K1 3, K2 3");
+}
+
+TEST_F(InitFrom, ReadsAWorkbook) {
+  if (!have_program("/usr/bin/python3") || !have_program("xlsx2csv"))
+    GTEST_SKIP() << "python3 or xlsx2csv is not installed";
+  directory.write("make.py", R"(
+import zipfile
+rows = [['Rig 7'], ['Test', 'Time [s]', 'COF', 'Pressure [MPa]']]
+rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2), 100.5 + i] for k in range(3) for i in range(5)]
+cell = lambda c: ('t="inlineStr"><is><t>%s</t></is>' % c if isinstance(c, str) else '><v>%r</v>' % c)
+xml = ''.join('<row r="%d">%s</row>' % (i + 1, ''.join('<c r="%s%d" %s</c>' % ('ABCD'[j], i + 1, cell(c))
+              for j, c in enumerate(row))) for i, row in enumerate(rows))
+main = 'http://schemas.openxmlformats.org/spreadsheetml/2006/main'
+rel = 'http://schemas.openxmlformats.org/officeDocument/2006/relationships'
+package = 'http://schemas.openxmlformats.org/package/2006/'
+sheet = 'application/vnd.openxmlformats-officedocument.spreadsheetml.'
+with zipfile.ZipFile('a.xlsx', 'w') as z:
+    z.writestr('[Content_Types].xml', '<Types xmlns="%scontent-types"><Override PartName="/xl/workbook.xml" ContentType="%ssheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="%sworksheet+xml"/></Types>' % (package, sheet, sheet))
+    z.writestr('_rels/.rels', '<Relationships xmlns="%srelationships"><Relationship Id="r1" Type="%s/officeDocument" Target="xl/workbook.xml"/></Relationships>' % (package, rel))
+    z.writestr('xl/workbook.xml', '<workbook xmlns="%s" xmlns:r="%s"><sheets><sheet name="1" sheetId="1" r:id="rId1"/></sheets></workbook>' % (main, rel))
+    z.writestr('xl/_rels/workbook.xml.rels', '<Relationships xmlns="%srelationships"><Relationship Id="rId1" Type="%s/worksheet" Target="worksheets/sheet1.xml"/></Relationships>' % (package, rel))
+    z.writestr('xl/worksheets/sheet1.xml', '<worksheet xmlns="%s"><sheetData>%s</sheetData></worksheet>' % (main, xml))
+)");
+  ASSERT_EQ(test::run_command({"/usr/bin/python3", "make.py"}, directory.path()).exit_code, 0);
+  EXPECT_THAT(job_from({"a.xlsx"}), HasSubstr("\nexperiment = \"Test\" "));
+  EXPECT_EQ(read().tests, "K0 5, K1 5, K2 5");
+}
+
+// ---- what is missing, what is there ----
+
+TEST_F(InitFrom, AsksForWhatIsMissing) {
+  directory.write("a.csv", "Time [s];FF;Batch\n0;100.5;40\n1;101.5;40\n0;99.5;41\n1;99;41\n");
+  const CommandResult result = frictab({"init", "--from", "a.csv"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "to be answered in it: Which column names the tests? None was found: the file is taken "
+            "as one test.\n"
+            "to be answered in it: Where does the contact normal stress come from? None was "
+            "found.\n"
+            "to be answered in it: Which normal force belongs to the friction force? None was "
+            "found.\n"
+            "next: frictab data job.toml (shows what is read), frictab run job.toml\n");
+  EXPECT_EQ(
+      directory.read("job.toml"),
+      R"(# Guessed from the files; every line may be wrong. frictab data shows what is read with it,
+# frictab explain job what else there is.
+
+[data]
+training = "a.csv"                           # 1 file
+# ? Which column names the tests? None was found: the file is taken as one test.
+# experiment = "COLUMN"
+
+[data.columns]
+time_s = "Time"                              # first values: 0, 1, 0; in s, as the file says
+F_R_N = "FF"                                 # first values: 100.5, 101.5, 99.5; no unit is given: N is assumed
+# kept as recorded; what changes friction may be among them: Batch
+# ? Where does the contact normal stress come from? None was found.
+# sigma_n_MPa = "COLUMN"
+# sigma_n_MPa = { column = "FORCE", area_mm2 = 78.5 } # a force over the nominal contact area
+# or one value for all rows, in [data.constants] below
+# ? Which normal force belongs to the friction force? None was found.
+# F_N_N = "COLUMN"
+# or one value for all rows, in [data.constants] below
+
+[data.constants]
+# sigma_n_MPa = 500.0
+# F_N_N = 50.0
+# sigma_f_MPa = 480.0                        # flow stress of the workpiece: laws with a shear limit need it
+
+[output]
+directory = "out"
+)");
+  // Its lines answer, once their # is gone.
+  std::string job = directory.read("job.toml");
+  for (const char* line : {"sigma_n_MPa = 500.0", "F_N_N = 50.0", "sigma_f_MPa = 480.0"})
+    job = replace_all(job, std::string("# ") + line, line);
+  job = replace_all(job, "# experiment = \"COLUMN\"", "experiment = \"Batch\"");
+  directory.write("job.toml", replace_all(job, "F_N_N = 50.0", "F_N_N = 500.0"));
+  const CommandResult data = frictab({"data", "job.toml", "-q"});
+  EXPECT_EQ(data.exit_code, 0) << data.err;
+}
+
+TEST_F(InitFrom, AsksForAnAreaUnderTheForceThatItFound) {
+  directory.write("a.csv", "Test,Load [kN],Friction force [N]\n1,1.5,200\n1,1.6,210\n");
+  ASSERT_EQ(frictab({"init", "--from", "a.csv"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job.toml"),
+              HasSubstr("\n# sigma_n_MPa = { column = \"Load\", area_mm2 = 78.5 }"));
+}
+
+TEST_F(InitFrom, TellsWhatIsNoTable) {
+  directory.write("letter.txt", "Dear all,\nthe tests went well.\nRegards\n");
+  directory.write("numbers.csv", "1,2,3\n4,5,6\n");
+  directory.write("empty.csv", "\n");
+  const std::string none = ": error: no table of numbers under a line of names was found\n"
+                           "  hint: frictab init DIR writes a job with every key, to be filled in "
+                           "by hand\n";
+  for (const auto& [file, said] :
+       {std::pair<std::string, std::string>{"letter.txt", "letter.txt" + none},
+        {"numbers.csv", "numbers.csv" + none},
+        {"empty.csv", "empty.csv: error: the file is empty\n"},
+        {"gone.csv", "gone.csv: error: cannot be read\n  hint: there is no such file\n"}}) {
+    const CommandResult result = frictab({"init", "job", "--from", file});
+    EXPECT_EQ(result.exit_code, 2) << file;
+    EXPECT_EQ(result.err, said);
+  }
+}
+
+TEST_F(InitFrom, KeepsAJobFileThatIsThereUnlessForced) {
+  directory.write("a.csv", coefficient_file(1));
+  directory.write("job.toml", "mine");
+  const CommandResult kept = frictab({"init", "--from", "a.csv"});
+  EXPECT_EQ(kept.exit_code, 2);
+  EXPECT_THAT(kept.err, HasSubstr("job.toml: error: is there already\n  hint: name another "
+                                  "directory, or --force to replace it"));
+  EXPECT_EQ(directory.read("job.toml"), "mine");
+  EXPECT_EQ(frictab({"init", "--from", "a.csv", "--force"}).exit_code, 0);
+  EXPECT_THAT(directory.read("job.toml"), HasSubstr("tau_R_MPa = { column = \"COF\""));
+}
+
+} // namespace
+} // namespace frictab::init_from_test
