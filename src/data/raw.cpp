@@ -10,6 +10,7 @@
 #include "core/program.h"
 #include "core/text.h"
 #include "data/quantity.h"
+#include "data/wide.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 
@@ -204,6 +205,9 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
   if (const std::string column = experiment_column_of(options); !column.empty())
     format.text_columns.push_back(column);
   format.wanted = wanted_names(options);
+  if (!options.wide.empty())
+    format.also_wanted = [tests = test_columns(options.wide, options.wide_place)](
+                             const std::string& name) { return tests.search(name).has_value(); };
   if (is_workbook(path)) { // as xlsx2csv writes
     format.delimiter = ',';
     format.decimal = '.';

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/pattern.h"
 #include "core/text.h"
 #include "io/number.h"
 
@@ -30,8 +29,7 @@ class Wide {
 public:
   Wide(const io::CsvTable& table, const std::string& columns, const Place& place)
       : table_(table), text_(columns), place_(place) {
-    // The whole name, however the pattern is written.
-    const Pattern pattern("^(?:" + columns + ")$", place);
+    const Pattern pattern = test_columns(columns, place);
     for (std::size_t i = 0; i < table.columns.size(); ++i)
       if (auto groups = pattern.search(table.columns[i].name))
         take(i, std::move(*groups));
@@ -176,6 +174,10 @@ private:
 };
 
 } // namespace
+
+Pattern test_columns(const std::string& columns, const Place& place) {
+  return Pattern("^(?:" + columns + ")$", place);
+}
 
 io::CsvTable from_wide(const io::CsvTable& table, const std::string& columns, const Place& place) {
   return Wide(table, columns, place).unfolded();

@@ -4,9 +4,14 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/pattern.h"
 #include "io/csv.h"
 
 namespace frictab::data {
+
+// Finds the names of columns that are one test each: the regular expression fits all of the name,
+// however it is written. Throws InputError where it is none.
+Pattern test_columns(const std::string& columns, const Place& place);
 
 // Columns whose whole name fits the regular expression `columns` are one test each. Its named
 // groups become columns (numbers or texts); the group `experiment` names the test, else the

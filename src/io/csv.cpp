@@ -230,9 +230,10 @@ std::string_view without_footer(std::string_view text, std::size_t lines) {
   return text;
 }
 
+// A line of blanks, or of delimiters alone, as spreadsheets leave where a row is empty.
 bool is_blank(std::string_view text, std::size_t from) {
   for (; from < text.size() && text[from] != '\n'; ++from)
-    if (!std::strchr(" \t\r", text[from])) return false;
+    if (!std::strchr(" \t\r,;|", text[from])) return false;
   return true;
 }
 
@@ -351,7 +352,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
                std::string_view header_text, const CsvFormat& format, FaultList& faults) {
   const std::size_t width = table.columns.size(), named = named_columns(table);
   const std::vector<char> is_text = text_columns(table, format);
-  std::size_t again = 0, in_front = 0;
+  std::size_t again = 0, in_front = 0, delimiters_alone = 0;
   std::vector<RaggedLine> ragged, since_row; // lines of a header that comes again are no faults
   const auto tell = [&] {
     ragged.insert(ragged.end(), since_row.begin(), since_row.end());
@@ -359,7 +360,7 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   };
   while (!scanner.at_end()) {
     if (is_blank(text, scanner.position())) {
-      scanner.take_line();
+      delimiters_alone += scanner.take_line().find_first_of(",;|") != std::string_view::npos;
       continue;
     }
     const std::size_t line = scanner.line();
@@ -387,6 +388,9 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
   if (in_front > 0)
     table.notes.push_back(fmt::format("{} lines in front of it are no rows", in_front));
+  if (delimiters_alone > 0)
+    table.notes.push_back(
+        fmt::format("{} lines hold delimiters alone: they are no rows", delimiters_alone));
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
@@ -425,6 +429,7 @@ std::string_view line_at(std::string_view text, std::size_t begin) {
 
 // Whether a cell of a header is one of the names, or one of them with a unit.
 bool is_wanted(const std::string& cell, const CsvFormat& format) {
+  if (format.also_wanted && format.also_wanted(cell)) return true;
   const std::string name = read_header_name(cell).name;
   return std::any_of(format.wanted.begin(), format.wanted.end(),
                      [&](const std::string& wanted) { return wanted == cell || wanted == name; });
@@ -450,6 +455,9 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
   for (std::size_t i = 0; i < format.skip_rows && !lines.at_end(); ++i)
     lines.take_line();
   skip_blank_lines(lines, text);
+  // "sep=;": a word to spreadsheets, no header.
+  if (format.skip_rows == 0 && line_at(text, lines.position()).starts_with("sep="))
+    lines.take_line();
   if (lines.at_end())
     throw InputError({file, 0, 0},
                      fmt::format("no header after {} skipped lines", format.skip_rows),

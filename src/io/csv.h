@@ -1,6 +1,7 @@
 // Delimited text as rigs write it, parsed to columns of cells that are numbers where they can be.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct CsvFormat {
   // Names by which the header line is known: where the first line holds none of them, it is the one
   // of the next 200 that holds most.
   std::vector<std::string> wanted;
+  std::function<bool(const std::string& name)> also_wanted; // other such names; empty: none
 };
 
 // One column of a file. A cell that is no number is NaN in `numbers` and listed in `texts`.
@@ -48,11 +50,11 @@ struct CsvTable {
 };
 
 // Handles UTF-8 and UTF-16 with a BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells
-// with delimiters and line breaks inside, blank lines, empty column names, delimiters behind the
-// last cell. Where the header line comes again a new interval starts; lines in front of it that are
-// no rows belong to it. Other ragged rows (once per number of cells, with their count) and an
-// unclosed quote are added to `faults`; they are left out of the result (the caller throws). Throws
-// InputError where there is no header or no row.
+// with delimiters and line breaks inside, lines that are blank or hold delimiters alone, empty
+// column names, delimiters behind the last cell. Where the header line comes again a new interval
+// starts; lines in front of it that are no rows belong to it. Other ragged rows (once per number of
+// cells, with their count) and an unclosed quote are added to `faults`; they are left out of the
+// result (the caller throws). Throws InputError where there is no header or no row.
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
 

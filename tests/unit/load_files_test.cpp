@@ -262,6 +262,22 @@ TEST_F(LoadFiles, MayHaveDelimitersBehindTheLastCellAndLinesEndedInThreeWays) {
   EXPECT_THAT(column(data, "F_R_N"), ElementsAre(1, 2, 3));
 }
 
+TEST_F(LoadFiles, PassOverLinesOfDelimitersAloneAndAWordToSpreadsheets) {
+  const Dataset data = read("sep=;\n;;;\ntime_s;F_R_N;F_N_N;sigma_n_MPa\n;;;\n0;1;10;5\n; ; ;\n"
+                            "1;2;10;5\n");
+  EXPECT_THAT(column(data, "F_R_N"), ElementsAre(1, 2));
+  EXPECT_THAT(data.notes, testing::Contains("2 lines hold delimiters alone: they are no rows"));
+}
+
+TEST_F(LoadFiles, OfOneColumnPerTestHaveTheirHeaderWhereItsNamesStand) {
+  options.wide = "mu_(?<experiment>\\d+)";
+  options.columns["tau_R_MPa"].names = {"value"};
+  options.columns["tau_R_MPa"].times = "sigma_n_MPa";
+  options.constants["sigma_n_MPa"] = 5;
+  const Dataset data = read("Rig 7;lab\nDatum;12.3.2024\nCycle;mu_1;mu_2\n1;0.1;0.2\n2;0.1;0.2\n");
+  EXPECT_THAT(data.experiments, ElementsAre("1", "2"));
+}
+
 TEST_F(LoadFiles, HaveRowsWithEmptyCellsLeftOutAndCountedWhereTheJobSaysSo) {
   const std::string text = "time_s,F_R_N,F_N_N,sigma_n_MPa,room\n0,1,10,5,\n1,,10,5,20\n2,,,5,21\n"
                            "3,4,10,5,22\n";
