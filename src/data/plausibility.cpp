@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -21,16 +22,24 @@ constexpr double kelvin_low = 270, room_in_kelvin = 330;
 constexpr double same_speed = 5;
 // Noise lifts a stuck contact above its shear yield stress by less.
 constexpr double above_yield = 1.15;
-constexpr std::size_t stuck_rows = 20;
+constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
+// Of the load of a test: below, nothing is pressed; of its friction: an offset that matters.
+constexpr double no_load = 0.05, half_load = 0.5, offset_share = 0.1;
+constexpr std::size_t rows_without_contact = 10;
 // Tests of a campaign differ, by what it varies; not by this much more than all others.
 constexpr double apart = 3;
 constexpr std::size_t tests_to_compare = 5;
 
-double median(std::vector<double> values) {
+// 0 for none.
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = values.begin() + std::ptrdiff_t(share * double(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
 }
 
 // Of rows with a coefficient: under load.
@@ -140,29 +149,198 @@ bool something_changes(const Dataset& data, std::size_t begin, std::size_t end) 
   return false;
 }
 
-// The same number again and again where others change: a channel that is stuck, or at its end.
+// Rows of one test that hold one value.
+struct Run {
+  std::size_t test, begin, end;
+  std::size_t rows() const { return end - begin; }
+};
+
+std::vector<Run> runs_of_one_value(const Dataset& data, std::span<const double> values,
+                                   std::size_t least) {
+  std::vector<Run> runs;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e], end = data.first_row[e + 1], from = i; i < end; ++i) {
+      if (i + 1 < end && values[i + 1] == values[from]) continue;
+      if (i + 1 - from >= least) runs.push_back({e, from, i + 1});
+      from = i + 1;
+    }
+  return runs;
+}
+
+// Whether the rows of these runs' tests that are off their value go up and down from row to row, as
+// what is measured does and a nominal value does not.
+bool scatters_beside(const Dataset& data, std::span<const double> values,
+                     const std::vector<Run>& runs) {
+  const double level = values[runs.front().begin];
+  std::set<std::size_t> tests;
+  for (const Run& run : runs)
+    tests.insert(run.test);
+  std::size_t turns = 0, of = 0;
+  for (const std::size_t e : tests)
+    for (std::size_t i = data.first_row[e] + 2; i < data.first_row[e + 1]; ++i) {
+      const double a = values[i - 2], b = values[i - 1], c = values[i];
+      if (a == level || b == level || c == level) continue;
+      ++of;
+      turns += (b - a) * (c - b) < 0;
+    }
+  return tests.size() > 1 && of >= clipped_rows && 5 * turns >= of;
+}
+
+// Where a channel stays at its largest or smallest value in several tests and at no value between
+// them: the end of an amplifier. A plateau is at another height in another test, or scatters; a
+// nominal or a coarse column stays at other values too. At 0 nothing is lost.
+std::vector<Run> clipped_runs(const Dataset& data, std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<Run> at_low, at_high;
+  std::size_t held = 0, between = 0;
+  for (const Run& run : runs_of_one_value(data, values, clipped_rows)) {
+    const double value = values[run.begin];
+    if (value == *high) at_high.push_back(run);
+    if (value == *low) at_low.push_back(run);
+    (value == *high || value == *low ? held : between) += run.rows();
+  }
+  std::vector<Run> out;
+  if (10 * between > held) return out;
+  for (const auto& [level, runs] : {std::pair(*high, at_high), std::pair(*low, at_low)})
+    if (level != 0 && !runs.empty() && scatters_beside(data, values, runs))
+      out.insert(out.end(), runs.begin(), runs.end());
+  return out;
+}
+
+Implausible clipped_channel(const Dataset& data) {
+  Implausible out;
+  out.of = data.rows();
+  out.hint = "an amplifier at the end of its range? Measure again, or leave these rows out: "
+             "data.drop";
+  for (const char* name : {"F_R_N", "F_N_N", "tau_R_MPa", "sigma_n_MPa"}) {
+    if (!data.has(name) || out.rows > 0) continue; // stresses may come from forces
+    const auto values = data.values(name);
+    const std::vector<Run> runs = clipped_runs(data, values);
+    std::set<std::size_t> tests;
+    for (const Run& run : runs) {
+      out.rows += run.rows();
+      tests.insert(run.test);
+    }
+    if (!runs.empty())
+      out.what = fmt::format("{} stays at {:.6g}, beyond which it never goes, {} times in a row or "
+                             "more: in {} tests, first in '{}'",
+                             name, values[runs.front().begin], clipped_rows, tests.size(),
+                             data.experiments[*tests.begin()]);
+  }
+  return out;
+}
+
+// The same number again and again where others change: a channel that is stuck.
 Implausible stuck_channel(const Dataset& data) {
   Implausible out;
   out.of = data.rows();
   std::string where;
   for (const char* name : {"tau_R_MPa", "F_R_N"}) {
-    if (!data.has(name)) continue;
+    if (!data.has(name) || out.rows > 0) continue; // tau_R_MPa may come from F_R_N
     const auto values = data.values(name);
-    for (std::size_t e = 0; e < data.experiments.size(); ++e)
-      for (std::size_t i = data.first_row[e], end = data.first_row[e + 1], from = i; i < end; ++i) {
-        if (i + 1 < end && values[i + 1] == values[from]) continue;
-        if (i + 1 - from >= stuck_rows && something_changes(data, from, i + 1)) {
-          if (where.empty()) where = fmt::format("{} in test '{}'", name, data.experiments[e]);
-          out.rows += i + 1 - from;
-        }
-        from = i + 1;
-      }
-    if (out.rows > 0) break; // tau_R_MPa may come from F_R_N
+    if (!clipped_runs(data, values).empty()) continue; // told already
+    for (const Run& run : runs_of_one_value(data, values, stuck_rows)) {
+      if (!something_changes(data, run.begin, run.end)) continue;
+      if (where.empty()) where = fmt::format("{} in test '{}'", name, data.experiments[run.test]);
+      out.rows += run.rows();
+    }
   }
   out.what = fmt::format("the same value {} times in a row or more, while load or speed change: {}",
                          stuck_rows, where);
   out.hint = "a channel that is stuck or clipped, or a mean written in every row?";
   return out;
+}
+
+// The forces of one test, and what they are under load.
+struct Forces {
+  std::span<const double> normal, friction, speed; // speed is empty where it is unknown
+  double load = 0, rubbing = 0;
+
+  Forces(const Dataset& data, std::size_t test) {
+    const std::size_t begin = data.first_row[test], rows = data.first_row[test + 1] - begin;
+    normal = data.values("F_N_N").subspan(begin, rows);
+    friction = data.values("F_R_N").subspan(begin, rows);
+    if (data.has("v_rel_mm_s")) speed = data.values("v_rel_mm_s").subspan(begin, rows);
+    load = quantile({normal.begin(), normal.end()}, 0.9);
+    std::vector<double> under_load;
+    for (std::size_t i = 0; i < rows; ++i)
+      if (normal[i] > half_load * load) under_load.push_back(std::abs(friction[i]));
+    rubbing = median(under_load);
+  }
+
+  // Rows in front of (or behind) the first (last) one with this share of the load.
+  std::pair<std::size_t, std::size_t> ends(bool front, double share) const {
+    std::size_t begin = 0, end = normal.size();
+    if (front)
+      for (end = 0; end < normal.size() && normal[end] < share * load;)
+        ++end;
+    else
+      for (begin = normal.size(); begin > 0 && normal[begin - 1] < share * load;)
+        --begin;
+    return {begin, end};
+  }
+};
+
+struct Level {
+  double middle, spread;
+};
+Level level_of(std::span<const double> values) {
+  const double middle = median({values.begin(), values.end()});
+  std::vector<double> off;
+  for (const double value : values)
+    off.push_back(std::abs(value - middle));
+  return {middle, median(off)};
+}
+
+// What the friction force shows where nothing is pressed: off zero by more than scatter, and more
+// than any coefficient makes of what load is left.
+double friction_offset(const Forces& forces, bool front) {
+  const auto [begin, end] = forces.ends(front, no_load);
+  if (end - begin < rows_without_contact) return 0;
+  const auto [friction, scatter] = level_of(forces.friction.subspan(begin, end - begin));
+  const double pressed = std::abs(level_of(forces.normal.subspan(begin, end - begin)).middle);
+  const bool is_offset = std::abs(friction) > offset_share * forces.rubbing &&
+                         std::abs(friction) > largest_mu * pressed &&
+                         scatter < 0.5 * std::abs(friction);
+  return is_offset ? friction : 0;
+}
+
+// What the normal force shows where something slides and nothing rubs: a load that is at rest may
+// be honest.
+double normal_offset(const Forces& forces, bool front) {
+  const auto [begin, end] = forces.ends(front, half_load);
+  if (end - begin < rows_without_contact || forces.speed.empty()) return 0;
+  const std::span<const double> speed = forces.speed.subspan(begin, end - begin);
+  if (std::any_of(speed.begin(), speed.end(), [](double v) { return !(v > 0); })) return 0;
+  const auto [normal, scatter] = level_of(forces.normal.subspan(begin, end - begin));
+  const double friction = std::abs(level_of(forces.friction.subspan(begin, end - begin)).middle);
+  const bool is_offset = normal > no_load * forces.load && scatter < offset_share * normal &&
+                         friction < offset_share * normal * forces.rubbing / forces.load;
+  return is_offset ? normal : 0;
+}
+
+// Before or after contact a force is zero; where it is not, it is off by as much under load.
+Implausible force_offset(const Dataset& data) {
+  if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
+  std::size_t rows = 0, tests = 0;
+  std::string first;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const Forces forces(data, e);
+    for (const bool front : {true, false}) {
+      const double friction = friction_offset(forces, front), normal = normal_offset(forces, front);
+      if (friction == 0 && normal == 0) continue;
+      if (tests++ == 0)
+        first = fmt::format("{} is {:.3g} N {} contact in test '{}'",
+                            friction != 0 ? "F_R_N" : "F_N_N", friction != 0 ? friction : normal,
+                            front ? "before" : "after", data.experiments[e]);
+      rows += forces.normal.size();
+      break; // once per test
+    }
+  }
+  if (tests == 0) return {};
+  return {"", rows, data.rows(), fmt::format("{}, not 0{}", first, and_more(tests - 1, "test")),
+          "a zero point that was not set? Take it off where the force is mapped: "
+          "{ formula = \"COLUMN - 3.2\" }"};
 }
 
 Implausible test_apart(const Dataset& data) {
@@ -199,7 +377,9 @@ constexpr Check checks[] = {{"pressure", pressure},
                             {"temperature", temperature},
                             {"speed", speed},
                             {"surface_expansion", surface_expansion},
+                            {"clipped_channel", clipped_channel},
                             {"stuck_channel", stuck_channel},
+                            {"force_offset", force_offset},
                             {"test_apart", test_apart}};
 
 } // namespace

@@ -1,5 +1,8 @@
 // Mistakes of units and columns, each made once in a campaign without any; and campaigns without
 // any.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -7,6 +10,7 @@
 
 #include "core/error.h"
 #include "data/plausibility.h"
+#include "support/run_command.h"
 #include "twin/twin.h"
 
 namespace frictab::plausibility_test {
@@ -39,6 +43,21 @@ void scale(Dataset& data, const std::string& name, double factor) {
     value *= factor;
 }
 
+// Forces of the stresses over 2 mm2, without load and friction but for noise in the first 15 rows.
+void add_forces(Dataset& data) {
+  std::vector<double> normal, friction;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      const bool contact = i >= data.first_row[e] + 15;
+      const double noise = 0.5 * std::sin(12.9898 * double(i));
+      normal.push_back(contact ? 2 * data.values("sigma_n_MPa")[i] : 1 + noise);
+      friction.push_back(contact ? 2 * data.values("tau_R_MPa")[i] : 0.1 * noise);
+    }
+  std::erase_if(data.columns, [](const auto& c) { return c.name == "F_R_N" || c.name == "F_N_N"; });
+  data.columns.push_back({"F_N_N", "N", normal, {}});
+  data.columns.push_back({"F_R_N", "N", friction, {}});
+}
+
 // What is found after this mistake, with the first of them.
 std::string found_after(const std::function<void(Dataset&)>& mistake) {
   Dataset data = campaign();
@@ -62,6 +81,38 @@ TEST(SlowPlausibility, RaisesNoFalseAlarmInAHundredCampaigns) {
         for (const Implausible& one : data::find_implausible(campaign(seed, profile, noise)))
           EXPECT_LT(one.rows, one.of / 100 + 1)
               << seed << " " << profile << " " << noise << " " << one.check << ": " << one.what;
+}
+
+TEST(SlowPlausibility, FindsNoZeroPointInAHundredCampaignsThatStartWithoutLoad) {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed)
+    for (const char* profile : {"constant", "varied"})
+      for (const char* noise : {"t4", "heteroscedastic"}) {
+        Dataset data = campaign(seed, profile, noise);
+        add_forces(data);
+        for (const Implausible& one : data::find_implausible(data))
+          EXPECT_NE(one.check, "force_offset")
+              << seed << " " << profile << " " << noise << " " << one.what;
+      }
+}
+
+// The examples' jobs over the files as their rigs wrote them.
+TEST(Plausibility, FindsNoOffsetAndNoEndOfAnAmplifierInMeasuredCampaigns) {
+  namespace fs = std::filesystem;
+  const char* set = std::getenv("FRICTAB_MEASURED");
+  const fs::path source = FRICTAB_SOURCE_DIR;
+  const fs::path measured = set ? fs::path(set) : source.parent_path() / "shared" / "measured";
+  if (!fs::is_directory(measured)) GTEST_SKIP() << "no measured files here; set FRICTAB_MEASURED";
+  for (const auto& [example, files] : {std::pair("02_rock_velocity_steps", "rock_velocity_steps"),
+                                       {"03_ptfe_pin_on_disc", "pps_ptfe_pin_on_disc"},
+                                       {"08_composite_filler", "al10cu_composites"}}) {
+    const test::TemporaryDirectory directory;
+    fs::copy(source / "examples" / example, directory.path());
+    fs::create_directory_symlink(fs::canonical(measured / files / "data"), directory.path("data"));
+    const auto result = test::run_frictab({"data", directory.path("job.toml"), "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, testing::Not(HasSubstr("contact in test"))) << example;
+    EXPECT_THAT(result.out, testing::Not(HasSubstr("beyond which it never goes"))) << example;
+  }
 }
 
 TEST(Plausibility, FindsUnitsOfStressesByTheCoefficient) {
@@ -141,6 +192,110 @@ TEST(Plausibility, TakesAStressThatNothingChangesForNoStuckChannel) {
   std::erase_if(data.columns, [](const auto& c) { return c.name == "F_R_N" || c.name == "F_N_N"; });
   for (const Implausible& one : data::find_implausible(data))
     EXPECT_NE(one.check, "stuck_channel") << "a twin without noise";
+}
+
+void shift(Dataset& data, const std::string& name, double by, std::size_t tests) {
+  for (std::size_t i = 0; i < data.first_row[tests]; ++i)
+    values(data, name)[i] += by;
+}
+
+TEST(Plausibility, FindsZeroPointsThatWereNotSet) {
+  EXPECT_EQ(found_after(add_forces), "nothing") << "zeros";
+  const std::string friction = found_after([](Dataset& d) {
+    add_forces(d);
+    shift(d, "F_R_N", 60, d.experiments.size());
+  });
+  EXPECT_THAT(friction,
+              testing::StartsWith("force_offset! F_R_N is 60 N before contact in test '"));
+  EXPECT_THAT(friction, HasSubstr("', not 0 (and 80 more tests); a zero point that was not set?"));
+  EXPECT_THAT(found_after([](Dataset& d) {
+                add_forces(d);
+                shift(d, "F_R_N", -60, 2);
+              }),
+              testing::StartsWith("force_offset: F_R_N is -60 N before contact in test '"));
+  EXPECT_THAT(found_after([](Dataset& d) {
+                add_forces(d);
+                shift(d, "F_N_N", 400, d.experiments.size());
+              }),
+              testing::StartsWith("force_offset! F_N_N is 401 N before contact in test '"));
+}
+
+TEST(Plausibility, TakesALoadAtRestOrOnItsWayForNoOffset) {
+  EXPECT_EQ(found_after([](Dataset& d) { // pressed before it slides
+              add_forces(d);
+              shift(d, "F_N_N", 400, d.experiments.size());
+              for (std::size_t e = 0; e < d.experiments.size(); ++e)
+                for (std::size_t i = d.first_row[e]; i < d.first_row[e] + 15; ++i)
+                  values(d, "v_rel_mm_s")[i] = 0;
+            }),
+            "nothing");
+  EXPECT_EQ(found_after([](Dataset& d) { // a slow ramp, with the higher coefficient of low loads
+              add_forces(d);
+              for (std::size_t e = 0; e < d.experiments.size(); ++e)
+                for (std::size_t k = 0; k < 15; ++k) {
+                  const std::size_t i = d.first_row[e] + k;
+                  values(d, "F_N_N")[i] = 4.0 * double(k + 1);
+                  values(d, "F_R_N")[i] = 2.0 * double(k + 1);
+                }
+            }),
+            "nothing");
+}
+
+// At most (or least) this value: the end of an amplifier.
+void clip(Dataset& data, const std::string& name, double share, std::size_t tests) {
+  std::vector<double> sorted = values(data, name);
+  std::sort(sorted.begin(), sorted.end());
+  const double end = sorted[std::size_t(share * double(sorted.size()))];
+  for (std::size_t i = 0; i < data.first_row[tests]; ++i)
+    values(data, name)[i] = std::min(values(data, name)[i], end);
+  for (std::size_t i = data.first_row[tests]; i < data.rows(); ++i)
+    if (values(data, name)[i] >= end) values(data, name)[i] = 0.9 * end;
+}
+
+TEST(Plausibility, FindsAChannelAtTheEndOfItsAmplifier) {
+  const auto clipped = [](Dataset& d) {
+    std::erase_if(d.columns, [](const auto& c) { return c.name == "F_R_N" || c.name == "F_N_N"; });
+    clip(d, "tau_R_MPa", 0.75, d.experiments.size());
+  };
+  const std::string found = found_after(clipped);
+  EXPECT_THAT(found, testing::StartsWith("clipped_channel: tau_R_MPa stays at "));
+  EXPECT_THAT(found, HasSubstr("an amplifier at the end of its range?"));
+  Dataset data = campaign();
+  clipped(data);
+  for (const Implausible& one : data::find_implausible(data))
+    EXPECT_NE(one.check, "stuck_channel") << "told once";
+}
+
+TEST(Plausibility, TakesNominalLoadsPlateausAndCoarseChannelsForNoEndOfAnAmplifier) {
+  const auto fine = [](const char* what, const std::function<void(Dataset&)>& change) {
+    Dataset data = campaign();
+    change(data);
+    for (const Implausible& one : data::find_implausible(data))
+      EXPECT_NE(one.check, "clipped_channel") << what << ": " << one.what;
+  };
+  const auto each_row = [](Dataset& d, const std::function<double(std::size_t, double)>& value) {
+    for (std::size_t e = 0; e < d.experiments.size(); ++e)
+      for (std::size_t i = d.first_row[e]; i < d.first_row[e + 1]; ++i)
+        values(d, "sigma_n_MPa")[i] = value(i - d.first_row[e], values(d, "sigma_n_MPa")[i]);
+  };
+  fine("one load", [&](Dataset& d) { each_row(d, [](std::size_t, double) { return 900.; }); });
+  fine("a ramp and a hold, as set", [&](Dataset& d) {
+    each_row(d, [](std::size_t i, double) { return std::min(900., 30. * double(i + 1)); });
+  });
+  fine("a plateau that is measured", [&](Dataset& d) {
+    each_row(d, [](std::size_t i, double) {
+      return std::min(900., 30. * double(i + 1)) + std::sin(12.9898 * double(i));
+    });
+  });
+  fine("a coarse channel", [](Dataset& d) {
+    for (double& value : values(d, "tau_R_MPa"))
+      value = 50 * std::round(value / 50);
+  });
+  fine("no friction at first", [](Dataset& d) {
+    for (std::size_t e = 0; e < d.experiments.size(); ++e)
+      for (std::size_t i = d.first_row[e]; i < d.first_row[e] + 15; ++i)
+        values(d, "tau_R_MPa")[i] = 0;
+  });
 }
 
 TEST(Plausibility, WhatMostRowsFailIsAnErrorUnlessItIsAllowed) {
