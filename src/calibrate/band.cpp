@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
+
+#include "core/no_value.h"
 
 namespace frictab::calibrate {
 
@@ -19,7 +20,7 @@ std::vector<double> experiment_gains(std::span<const double> measured,
       cross += measured[i] * predicted[i];
       square += predicted[i] * predicted[i];
     }
-    gains.push_back(square > 0 ? cross / square : std::numeric_limits<double>::quiet_NaN());
+    gains.push_back(square > 0 ? cross / square : no_value);
   }
   return gains;
 }

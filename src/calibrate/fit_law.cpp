@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "calibrate/law_problem.h"
+#include "core/no_value.h"
 #include "core/text.h"
 
 namespace frictab::calibrate {
@@ -48,9 +48,8 @@ void fit_means(ModelFit& fit, const Dataset& data) {
       variance += std::pow(part - mean * count, 2);
     const double experiments = static_cast<double>(parts.size());
     fit.model.parameters.push_back(mean);
-    fit.std_error.push_back(experiments > 1
-                                ? std::sqrt(variance * experiments / (experiments - 1)) / rows
-                                : std::numeric_limits<double>::quiet_NaN());
+    fit.std_error.push_back(
+        experiments > 1 ? std::sqrt(variance * experiments / (experiments - 1)) / rows : no_value);
     if (unloaded > 0)
       fit.remarks.push_back(fmt::format("{} rows without load are not in the mean of {}",
                                         thousands(unloaded), parameter.name));
@@ -89,7 +88,7 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
   const NetworkRecord& record = trained.record;
   fit.model.law = models::unregistered_law(std::move(trained.law));
   fit.model.parameters = {trained.mu0};
-  fit.std_error = {std::numeric_limits<double>::quiet_NaN()};
+  fit.std_error = {no_value};
   fit.std_error_method =
       fmt::format("none for weights; the members of the ensemble differ by {:.2g} "
                   "MPa (standard deviation)",

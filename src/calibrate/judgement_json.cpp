@@ -1,9 +1,9 @@
 // What validation says, to JSON and back.
 #include "calibrate/judgement_json.h"
 
-#include <limits>
-
 #include <nlohmann/json.hpp>
+
+#include "core/no_value.h"
 
 namespace frictab::calibrate {
 
@@ -84,7 +84,7 @@ ConditionalFit parse_conditional_fit(const Json& j) {
 } // namespace
 
 double number_or_nan(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  return value.is_null() ? no_value : value.get<double>();
 }
 
 Json metrics_json(const Metrics& m) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/no_value.h"
+
 namespace frictab::calibrate {
 
 namespace {
@@ -55,8 +57,7 @@ Interval studentised(std::span<const double> x, std::span<const double> n, Measu
 
 Estimate estimate(const std::vector<double>& x, const std::vector<double>& n, Measure measure,
                   Draws draws) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Estimate result{0, {none, none}};
+  Estimate result{0, {no_value, no_value}};
   std::vector<double> influence(x.size());
   const std::vector<double> once(x.size(), 1.0);
   result.value = ratio_of(x, n, once, measure, influence);

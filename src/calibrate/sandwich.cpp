@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "calibrate/fit.h"
+#include "core/no_value.h"
 
 namespace frictab::calibrate {
 
@@ -20,8 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Parameters = std::span<const Parameter>;
-
-constexpr double no_error = std::numeric_limits<double>::quiet_NaN();
 
 std::string settled_by(const std::vector<const Parameter*>& parameters) {
   std::string text;
@@ -140,7 +138,7 @@ public:
   Judge(Parameters parameters, std::span<const double> values)
       : parameters_(parameters), values_(values) {
     const auto size = static_cast<Index>(values.size());
-    result_ = {std::vector<double>(values.size(), no_error),
+    result_ = {std::vector<double>(values.size(), no_value),
                std::vector<std::string>(values.size()),
                {},
                {values.begin(), values.end()},
@@ -172,7 +170,7 @@ private:
   Uncertainty one_experiment() {
     result_.remarks.push_back("one experiment only: no standard error");
     result_.why_none.assign(values_.size(), "one experiment only");
-    result_.covariance.setConstant(no_error);
+    result_.covariance.setConstant(no_value);
     return std::move(result_);
   }
 
@@ -212,7 +210,7 @@ private:
       for (std::size_t b = 0; b < single.size(); ++b) {
         const auto i = static_cast<Index>(a), j = static_cast<Index>(b);
         result_.covariance(s.used[a], s.used[b]) =
-            single[a] || single[b] ? no_error : variance(i, j) * s.scale(i) * s.scale(j);
+            single[a] || single[b] ? no_value : variance(i, j) * s.scale(i) * s.scale(j);
       }
   }
 

@@ -2,7 +2,6 @@
 #include "cli/law_alone.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "cli/sources.h"
 #include "codegen/exporter.h"
 #include "core/error.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/number.h"
@@ -131,7 +131,7 @@ models::Model model_of(const LawOptions& options,
 std::string model_file(const models::Model& model) {
   calibrate::ModelFit fit;
   fit.model = model;
-  fit.std_error.assign(model.parameters.size(), std::numeric_limits<double>::quiet_NaN());
+  fit.std_error.assign(model.parameters.size(), no_value);
   return calibrate::model_json(fit, {});
 }
 

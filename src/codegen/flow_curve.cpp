@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "codegen/entry_arguments.h"
 #include "core/error.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "expr/program.h"
@@ -100,7 +100,7 @@ public:
       low = high;
       at_low = at_high;
     }
-    return at_low == 0 ? low : std::numeric_limits<double>::quiet_NaN();
+    return at_low == 0 ? low : no_value;
   }
 
   static constexpr int cells = 200;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "data/quantity.h"
@@ -225,7 +225,7 @@ void derive_shear_stress(Part& part, const DataOptions& options) {
   for (std::size_t i = 0; i < tau.values.size(); ++i)
     tau.values[i] = normal->values[i] > 0
                         ? friction->values[i] / normal->values[i] * stress->values[i]
-                        : std::numeric_limits<double>::quiet_NaN();
+                        : no_value;
   part.data.columns.push_back(std::move(tau));
   part.data.notes.push_back("tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)");
 }

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/text.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Of an ascending clock: the row at or before `at`, and how far the next one is; nothing beyond the
 // ends. Asked for ascending times it moves on from where it was.
@@ -61,7 +59,7 @@ public:
                      double* rows = nullptr) const {
     Position at(t2_);
     double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0, syy = 0; // running means and products
-    double begin = nan, end = nan;
+    double begin = no_value, end = no_value;
     for (std::size_t i = 0; i < t1_.size(); i += stride) {
       if (!at.find(t1_[i] - offset)) continue;
       if (std::isnan(begin)) begin = t1_[i];
@@ -174,7 +172,7 @@ public:
     for (const Column& column : second.columns)
       if (column.name != options.by && !part.data.has(column.name))
         added_.push_back(
-            {column.name, column.unit, std::vector<double>(rows_, nan), column.levels}),
+            {column.name, column.unit, std::vector<double>(rows_, no_value), column.levels}),
             from_.push_back(&column);
   }
 

@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "core/no_value.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::pair<double, double> span_of(std::span<const double> values) {
-  std::pair<double, double> span{nan, nan};
+  std::pair<double, double> span{no_value, no_value};
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
     if (!(span.first <= value)) span.first = value;
@@ -32,7 +30,7 @@ double mean_ratio(std::span<const double> above, std::span<const double> below) 
       sum += above[i] / below[i];
       ++n;
     }
-  return n > 0 ? sum / n : nan;
+  return n > 0 ? sum / n : no_value;
 }
 
 } // namespace
@@ -42,7 +40,7 @@ std::vector<TestOverview> overview(const Dataset& data) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
     const auto of = [&](const std::string& name) { return data.values(name).subspan(first, rows); };
-    TestOverview test{data.experiments[e], rows, {}, nan, {}};
+    TestOverview test{data.experiments[e], rows, {}, no_value, {}};
     for (const Quantity& quantity : quantities())
       if (data.has(quantity.name))
         test.spans.emplace_back(quantity.name, span_of(of(quantity.name)));

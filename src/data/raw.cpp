@@ -2,11 +2,11 @@
 #include "data/raw.h"
 
 #include <filesystem>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -17,8 +17,6 @@
 namespace frictab::data {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // ---- HDF5 ----
 
@@ -90,7 +88,7 @@ private:
                     std::size_t rows) {
     io::CsvColumn& to = column(name, in_.text_attribute(path, "units").value_or(""), first);
     if (in_.is_text(path)) {
-      to.numbers.resize(first + rows, nan);
+      to.numbers.resize(first + rows, no_value);
       std::size_t row = first;
       for (std::string& text : in_.texts(path))
         to.texts.push_back({row++, std::move(text), 0});
@@ -103,7 +101,7 @@ private:
   void repeat(const std::string& name, const std::string& text, std::size_t first,
               std::size_t rows) {
     io::CsvColumn& to = column(name, "", first);
-    to.numbers.resize(first + rows, nan);
+    to.numbers.resize(first + rows, no_value);
     for (std::size_t i = 0; i < rows; ++i)
       to.texts.push_back({first + i, text, 0});
   }

@@ -2,12 +2,12 @@
 #include "data/wide.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "core/no_value.h"
 #include "core/text.h"
 #include "io/number.h"
 
@@ -157,10 +157,10 @@ private:
 
   static void repeat(io::CsvColumn& to, const std::string& text, std::size_t first,
                      std::size_t rows) {
-    double value = std::numeric_limits<double>::quiet_NaN();
+    double value = no_value;
     const bool number = to.name != "experiment" &&
                         (io::read_number(text, '.', value) || io::read_number(text, ',', value));
-    if (!number) value = std::numeric_limits<double>::quiet_NaN();
+    if (!number) value = no_value;
     to.numbers.resize(first + rows, value);
     for (std::size_t i = 0; !number && i < rows; ++i)
       to.texts.push_back({first + i, text, 0});

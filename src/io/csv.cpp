@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 #include <iconv.h>
 
+#include "core/no_value.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "io/number.h"
@@ -17,8 +17,6 @@
 namespace frictab::io {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trim(std::string_view s) {
   while (!s.empty() && (s.front() == ' ' || s.front() == '\t'))
@@ -264,7 +262,7 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& forma
   for (bool last = false; !last; ++cells) {
     const bool known = cells < is_text.size();
     if (known) filled = cells + 1;
-    double value = nan;
+    double value = no_value;
     if (known && !is_text[cells] && scanner.number(format.decimal, value, last)) {
       table.columns[cells].numbers.push_back(value);
       continue;
@@ -277,7 +275,7 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& forma
     }
     if (is_text[cells] || !parse_number(cell, format, value)) {
       table.columns[cells].texts.push_back({row, to_utf8(cell), place});
-      value = nan;
+      value = no_value;
     }
     table.columns[cells].numbers.push_back(value);
   }
@@ -295,7 +293,7 @@ std::size_t named_columns(const CsvTable& table) {
 // Empty cells behind the ones that are there.
 void fill_row(CsvTable& table, std::size_t cells, std::size_t row) {
   for (std::size_t i = cells; i < table.columns.size(); ++i) {
-    table.columns[i].numbers.push_back(nan);
+    table.columns[i].numbers.push_back(no_value);
     table.columns[i].texts.push_back({row, "", 0});
   }
 }

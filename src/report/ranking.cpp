@@ -1,11 +1,11 @@
 // The ranking table and the plots of each law.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "calibrate/noise_floor.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
@@ -88,8 +88,7 @@ std::string parameter_list(const calibrate::ModelFit& fit) {
   if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
   std::string text;
   for (std::size_t i = 0; i < n; ++i) {
-    const double error =
-        i < fit.std_error.size() ? fit.std_error[i] : std::numeric_limits<double>::quiet_NaN();
+    const double error = i < fit.std_error.size() ? fit.std_error[i] : no_value;
     text += parameter_text(law.parameters[i], fit.model.parameters[i], error,
                            law.calibrated == Calibrated::fixed);
   }

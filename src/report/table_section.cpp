@@ -1,10 +1,10 @@
 // Tables and how far they, and the sources generated from them, are from their laws.
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "codegen/table_text.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "report/numbers.h"
@@ -59,11 +59,10 @@ TemplateValues axis_row(const table::Table& table, const table::TableAxis& axis)
   if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
     why += (why.empty() ? "" : "; ") + beyond;
   const bool any = !axis.nodes.empty();
-  const double none = std::numeric_limits<double>::quiet_NaN();
   return {{{"name", svg::escape(axis.name)},
            {"unit", shown_unit(axis.unit)},
-           {"low", short_figures(any ? axis.nodes.front() : none)},
-           {"high", short_figures(any ? axis.nodes.back() : none)},
+           {"low", short_figures(any ? axis.nodes.front() : no_value)},
+           {"high", short_figures(any ? axis.nodes.back() : no_value)},
            {"nodes", thousands(axis.nodes.size())},
            {"spacing", axis.log ? "logarithm" : "the quantity itself"},
            {"why", why.empty() ? "\u2013" : svg::escape(why)}},

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
+#include "core/no_value.h"
 #include "trace/choose_effect.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
@@ -150,7 +150,7 @@ double per_e_fold(const Search& search, const VectorXd& y) {
       xx += (x - mx) * (x - mx);
     }
   }
-  return xx > 0 ? xy / xx : std::numeric_limits<double>::quiet_NaN();
+  return xx > 0 ? xy / xx : no_value;
 }
 
 // Change of the friction coefficient per e-fold of the speed, of the law as it is and of the lead:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
+#include "core/no_value.h"
 #include "core/text.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
@@ -28,8 +28,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // What each test says about the parameters, by whitened residuals. (Nuisance columns are projected
 // out of all tests together; what a test's own share in them is worth is not counted.)

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
+#include "core/no_value.h"
 #include "core/text.h"
 
 namespace frictab::twin {
@@ -63,7 +63,7 @@ double read_number(const KeyValue& item, FaultList& faults) {
   if (error == std::errc() && stop == end && std::isfinite(value)) return value;
   faults.add({item.option}, "'" + item.value + "' of '" + item.key + "' is not a finite number",
              "write it like 0.15 or 1e-3");
-  return std::numeric_limits<double>::quiet_NaN();
+  return no_value;
 }
 
 std::vector<double> read_numbers(const KeyValue& item, FaultList& faults) {

@@ -1,0 +1,10 @@
+// What a number is that is not there.
+#pragma once
+
+#include <limits>
+
+namespace frictab {
+
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace frictab
