@@ -1,4 +1,5 @@
 // frictab status JOB: what is there, what is stale, what the next command is.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -19,6 +20,20 @@ struct StageStatus {
   std::string name, state, why; // done | stale | missing
 };
 
+// The first law that table.model names and no table is of.
+std::string law_without_table(const job::Job& job) {
+  std::vector<std::string> tables;
+  std::error_code none; // no directory: no tables
+  for (const auto& file : std::filesystem::directory_iterator(job.directory + "/tables", none))
+    tables.push_back(file.path().stem().string());
+  for (const std::string& law : job.table.model)
+    if (std::none_of(tables.begin(), tables.end(), [&](const std::string& table) {
+          return table == law || table.starts_with(law + "_q"); // of a quantile
+        }))
+      return law;
+  return "";
+}
+
 std::vector<StageStatus> status_of(const job::Job& job) {
   const run::JobData data = run::load_job_data(job);
   const run::Stages stages(job, job.directory);
@@ -28,6 +43,9 @@ std::vector<StageStatus> status_of(const job::Job& job) {
     StageStatus status{name, "missing", ""};
     if (stages.has(name)) {
       status.why = stages.stale(name, key);
+      if (name == "tabulate" && status.why.empty() && job.table.names_laws())
+        if (const std::string law = law_without_table(job); !law.empty())
+          status.why = "there is no table of " + law;
       status.state = status.why.empty() ? "done" : "stale";
       for (const StageStatus& before : out)
         if (status.why.empty() && before.state == "stale") {

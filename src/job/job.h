@@ -26,7 +26,8 @@ struct Job {
   trace::TraceOptions trace;
   std::string directory = "out"; // relative to the job file, already joined with its directory
   // What file and overrides say below each section head, as text without places and order: by it a
-  // stage knows results that another job has made.
+  // stage knows results that another job has made. Without table.model, which also picks among
+  // tables that are there.
   std::map<std::string, std::string> sections;
 };
 

@@ -198,8 +198,11 @@ Job parse_job(std::string_view text, const std::string& file, const std::vector<
                        &reader.job.exports.place})
     *place = whole;
   walk(reader, root, "", "", "");
-  for (const TomlNode& section : root.items)
+  for (TomlNode section : root.items) {
+    if (section.key == "table")
+      std::erase_if(section.items, [](const TomlNode& item) { return item.key == "model"; });
     reader.job.sections[section.key] = canonical_text(section);
+  }
   check_job(reader);
   sort_by_place(reader.faults);
   if (!reader.faults.empty()) throw InputError(std::move(reader.faults));

@@ -70,9 +70,7 @@ namespace {
 // all, which is what the earlier run has resolved.
 void keep_named(std::vector<Table>& tables, const table::TableOptions& options) {
   const std::vector<std::string>& names = options.model;
-  if (std::count(names.begin(), names.end(), "best") +
-      std::count(names.begin(), names.end(), "all"))
-    return;
+  if (!options.names_laws()) return;
   std::string there;
   for (const Table& table : tables)
     there += (there.empty() ? "" : ", ") + table.model;
@@ -380,24 +378,6 @@ const codegen::SourceBundle& Pipeline::sources_in(const std::string& directory) 
   return sources_[directory];
 }
 
-namespace {
-
-// The job may ask for files that an export with other options has not written.
-void check_sources(const verify::GeneratedSource& source, const std::string& directory) {
-  constexpr std::string_view here = "@{dir}/";
-  for (const codegen::BuildVariant& variant : source.exporter->variants(source.request))
-    for (const std::string& word : variant.command) {
-      if (!word.starts_with(here)) continue;
-      const std::string file = word.substr(here.size());
-      if (!source.bundle.count(file) && !variant.extra.count(file))
-        throw InputError({directory + "/" + file, 0, 0},
-                         "is not there, but [export.options] of the job ask for it",
-                         "run `frictab export` again with --force");
-    }
-}
-
-} // namespace
-
 // As the recipes say: of the table, or of the law itself.
 std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, const Table& direct) {
   std::vector<verify::GeneratedSource> sources;
@@ -409,7 +389,6 @@ std::vector<verify::GeneratedSource> Pipeline::sources_of(const Table& table, co
     const bool of_law =
         codegen::is_direct_recipe(bundle.at("recipe.json"), directory + "/recipe.json");
     sources.push_back({exporter, request_for(exporter->name, of_law ? direct : table), bundle});
-    check_sources(sources.back(), job_.directory + "/" + directory);
   }
   return sources;
 }

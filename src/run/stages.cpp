@@ -16,6 +16,8 @@ namespace frictab::run {
 
 namespace {
 
+constexpr const char* tabulate = "tabulate";
+
 struct Stage {
   const char* name;
   std::vector<std::string> sections; // of the job, that it depends on
@@ -24,7 +26,7 @@ struct Stage {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {{"calibrate", {"models", "calibration"}},
                                          {"trace", {"trace"}},
-                                         {"tabulate", {"table"}},
+                                         {tabulate, {"table"}},
                                          {"export", {"export"}},
                                          {"verify", {"verify"}}};
   return all;
@@ -64,13 +66,14 @@ Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : jo
   const auto json = io::parse_json(io::read_file(file), file.string());
   io::read_json(file.string(), "remove it, then `frictab run`", [&] {
     for (const auto& [name, inputs] : json.at("stages").items())
-      made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("from"), inputs.at("version")};
+      made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("laws"), inputs.at("from"),
+                     inputs.at("version")};
   });
 }
 
 std::string Stages::key(const std::string& stage) const {
   const StageInputs& made = made_.at(stage);
-  return hash_of(made.data + made.job + made.from + made.version);
+  return hash_of(made.data + made.job + made.laws + made.from + made.version);
 }
 
 // The last stage before it whose results it goes on from: tracing need not have run.
@@ -89,8 +92,9 @@ StageInputs Stages::now(const std::string& stage, const std::string& data) const
       job += section + found->second;
   const bool first = stage == stage_names().front();
   if (first) job += fmt::format("seed {}", job_.calibration.seed);
+  const std::string laws = stage == tabulate ? join(job_.table.model, ", ") : "";
   const std::string last = before(stage);
-  return {first ? data : "", hash_of(job), last.empty() ? "" : key(last), FRICTAB_VERSION};
+  return {first ? data : "", hash_of(job), laws, last.empty() ? "" : key(last), FRICTAB_VERSION};
 }
 
 void Stages::record(const std::string& stage, const std::string& data) {
@@ -107,6 +111,8 @@ std::string Stages::stale(const std::string& stage, const std::string& data) con
   if (!data.empty() && made.data != wanted.data) return "the data have changed since";
   if (made.job != wanted.job)
     return sections_text(stage_named(stage)) + " of the job has changed since";
+  if (made.laws != wanted.laws && !job_.table.names_laws())
+    return "table.model of the job has changed since";
   if (made.from != wanted.from) return fmt::format("made before the last `{}`", before(stage));
   return "";
 }
@@ -119,6 +125,7 @@ std::string Stages::json() const {
     if (const auto found = made_.find(name); found != made_.end())
       out["stages"][name] = {{"data", found->second.data},
                              {"job", found->second.job},
+                             {"laws", found->second.laws},
                              {"from", found->second.from},
                              {"version", found->second.version}};
   return io::json_text(out);

@@ -15,7 +15,8 @@ namespace frictab::run {
 // What one stage's results depend on, as hashes (16 hex digits).
 struct StageInputs {
   std::string data;    // of the first: values and names of the data
-  std::string job;     // the stage's sections of the job
+  std::string job;     // the stage's sections of the job, table.model left out
+  std::string laws;    // table.model, of the stage that makes the tables
   std::string from;    // the stage before; empty for the first
   std::string version; // of frictab
 };
@@ -34,8 +35,9 @@ public:
 
   bool has(const std::string& stage) const { return made_.count(stage) > 0; }
   // In words, how what a stage was made from differs from what it would be made from now: "[table]
-  // of the job has changed since"; empty where it does not, or nothing is known of it. `data`
-  // empty: they were not read, and are not compared.
+  // of the job has changed since"; empty where it does not, or nothing is known of it. A
+  // table.model that names laws picks among the tables there are. `data` empty: they were not read,
+  // and are not compared.
   std::string stale(const std::string& stage, const std::string& data) const;
 
   std::string json() const;

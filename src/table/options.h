@@ -1,6 +1,7 @@
 // [table] of a job.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +35,12 @@ struct TableOptions {
   double memory_limit_MiB = 256;              // of values; a larger table stays on disk
   io::Hdf5Storage hdf5;
   Place place;
+
+  // Whether `model` has names alone, not "best" or "all".
+  bool names_laws() const {
+    return std::none_of(model.begin(), model.end(),
+                        [](const std::string& name) { return name == "best" || name == "all"; });
+  }
 };
 
 } // namespace frictab::table

@@ -184,8 +184,8 @@ TEST_F(SlowMainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
         directory.read(std::string("out/export/") + target + "/levanov/recipe.json"));
     EXPECT_EQ(recipe.at("form"), "direct");
   }
-  // The job file still says table: what counts is what was exported.
-  ASSERT_EQ(run_frictab({"verify", job}).exit_code, 0);
+  EXPECT_EQ(run_frictab({"verify", job}).exit_code, 2) << "the job file says table";
+  ASSERT_EQ(run_frictab({"verify", job, set[0], set[1]}).exit_code, 0);
   const auto verified = test::parse_json(directory.read("out/verify.json"));
   std::size_t direct = 0;
   for (const auto& record : verified.at("records"))
@@ -275,7 +275,8 @@ TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {
   EXPECT_THAT(source("abaqus_vfric", "strain"), testing::HasSubstr("field"));
   EXPECT_THAT(source("marc_ufric", "sigma_f_MPa"), testing::HasSubstr("480"));
   const auto refused =
-      run_frictab({"export", job, "--set", "export.marc_ufric.inputs.sigma_f_MPa=\"field:1\""});
+      run_frictab({"export", job, "--set", "export.marc_ufric.inputs.sigma_f_MPa=\"field:1\"",
+                   "--set", "table.model=orowan"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.err, "--set 1: error: marc_ufric: 'field:1' is no source of a state\n"
                          "  hint: known: constant:VALUE, solver\n");
@@ -297,7 +298,10 @@ TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {
   const auto quantiles = run_frictab(
       {"run", job, "--set", "table.model=levanov", "--set", "table.quantile=[0.25, 0.5]"});
   ASSERT_EQ(quantiles.exit_code, 0) << quantiles.err;
-  EXPECT_EQ(run_frictab({"export", job, "--set", "table.model=levanov"}).exit_code, 0);
+  EXPECT_EQ(run_frictab({"export", job, "--set", "table.model=levanov", "--set",
+                         "table.quantile=[0.25, 0.5]"})
+                .exit_code,
+            0);
   EXPECT_TRUE(fs::exists(directory.path("out/export/c/levanov_q25/recipe.json")));
   ASSERT_EQ(run_frictab({"run", job}).exit_code, 0);
   EXPECT_EQ(run_frictab({"export", job, "--set", "table.model=levanov"}).exit_code, 0);
@@ -334,8 +338,7 @@ TEST_F(SlowMainJob, TheKernelInSinglePrecisionIsVerifiedAndItsRoundingTold) {
     command->insert(command->end(), {"--set", "export.options.precision=single"});
   const auto none = run_frictab(verify);
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, testing::HasSubstr("out/export/c/frictab_tau_R_f32.c: error: is not there, "
-                                           "but [export.options] of the job ask for it"));
+  EXPECT_THAT(none.err, testing::HasSubstr("is stale: [export] of the job has changed since"));
   const auto result = run_frictab(run);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, testing::ContainsRegex("In single precision, .*\n  levanov .* c/f32 "));
@@ -346,6 +349,11 @@ TEST_F(SlowMainJob, TheKernelInSinglePrecisionIsVerifiedAndItsRoundingTold) {
   const auto recipe = test::parse_json(directory.read("out/export/c/recipe.json"));
   EXPECT_LE(record.at("max_vs_table_MPa"),
             recipe.at("single_precision").at("rounding_bound_MPa").get<double>());
+  fs::remove(directory.path("out/export/c/frictab_tau_R_f32.c"));
+  const auto gone = run_frictab(verify);
+  EXPECT_EQ(gone.exit_code, 2);
+  EXPECT_THAT(gone.err, testing::HasSubstr("out/export/c/frictab_tau_R_f32.c: error: cannot be "
+                                           "read\n  hint: there is no such file"));
 }
 
 TEST_F(SlowMainJob, FilesOfTheUserInTheOutputDirectoryStay) {

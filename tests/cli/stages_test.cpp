@@ -101,6 +101,20 @@ TEST_F(StagesOfAJob, HoldWhatTheyDoNotDependOn) {
                                   "changed since\nnext: frictab verify job.toml\n"));
 }
 
+TEST_F(StagesOfAJob, NamesOfLawsPickAmongTheTablesAndBestDoesNot) {
+  ASSERT_EQ(
+      run({"tabulate", "job.toml", "--set", "table.model=[\"levanov\", \"coulomb\"]"}).exit_code,
+      0);
+  EXPECT_EQ(run({"export", "job.toml"}).exit_code, 0);
+  EXPECT_THAT(status(), HasSubstr("tabulate   done\nexport     done\n"));
+  const CommandResult best = run({"export", "job.toml", "--set", "table.model=best"});
+  EXPECT_EQ(best.exit_code, 2);
+  EXPECT_THAT(best.err, HasSubstr("out/tables: error: is stale: table.model of the job has changed "
+                                  "since\n"));
+  ASSERT_EQ(run({"tabulate", "job.toml", "--set", "table.model=coulomb"}).exit_code, 0);
+  EXPECT_THAT(status(), HasSubstr("tabulate   stale: there is no table of levanov\n"));
+}
+
 TEST_F(StagesOfAJob, TracingMakesTablesBeforeItStale) {
   write_job(0.5, "[trace]\nignore = [\"humidity_pct\"]\n");
   ASSERT_EQ(run({"tabulate", "job.toml"}).exit_code, 0);
