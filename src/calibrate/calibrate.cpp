@@ -100,7 +100,7 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
   const auto [columns, trained] = predict_with_columns(assembled, assembled.inputs, input.training);
   fit.data_range = columns.ranges();
   fit.training = errors_on(input.training, trained, input.options);
-  if (input.judged_by != JudgedBy::leave_one_out) {
+  if (on_other_experiments(input.judged_by)) {
     const std::vector<double> unseen = predict(fit.model, input.validation);
     fit.validation = errors_on(input.validation, unseen, input.options);
     fit.band = check_band(fit.model, unseen, input.validation);
@@ -122,6 +122,14 @@ void judge_by_leaving_out(std::vector<ModelFit>& fits, const std::vector<const m
     fits[i].band = check_band(fits[i].model, {}, input.training.subset({}));
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
+  }
+}
+
+void judge_by_the_fit(std::vector<ModelFit>& fits, const CalibrationInput& input) {
+  for (ModelFit& fit : fits) {
+    fit.validation = fit.training;
+    fit.unseen = experiment_errors(fit.model, input.training, false);
+    fit.band = check_band(fit.model, {}, input.training.subset({}));
   }
 }
 
@@ -178,6 +186,7 @@ Calibration calibrate(const CalibrationInput& input) {
   });
   if (input.judged_by == JudgedBy::leave_one_out)
     judge_by_leaving_out(calibration.fits, selection.laws, conventions, input);
+  if (input.judged_by == JudgedBy::fit) judge_by_the_fit(calibration.fits, input);
   std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;

@@ -86,7 +86,7 @@ struct Calibration {
 
 struct CalibrationInput {
   const data::Dataset& training;
-  const data::Dataset& validation; // leave_one_out: the same data as training
+  const data::Dataset& validation; // leave_one_out, fit: the same data as training
   ModelOptions models;
   CalibrationOptions options;
   JudgedBy judged_by = JudgedBy::validation_files;

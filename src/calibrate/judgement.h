@@ -28,9 +28,12 @@ struct Metrics {
 };
 
 // What the errors of prediction were taken on. leave_one_out: every experiment, by the law fitted
-// to all others; held_out: a share that was drawn; validation_files: files of their own.
-enum class JudgedBy { leave_one_out, held_out, validation_files };
+// to all others; held_out: a share that was drawn; validation_files: files of their own; fit: the
+// one experiment there is, to which the laws are fitted.
+enum class JudgedBy { leave_one_out, held_out, validation_files, fit };
 const char* judged_by_name(JudgedBy judged_by); // "leave_one_out"
+// Whether the judged experiments are not those that the laws are fitted to.
+bool on_other_experiments(JudgedBy judged_by);
 
 // One law on one experiment.
 struct ExperimentError {

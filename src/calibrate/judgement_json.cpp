@@ -115,14 +115,20 @@ const char* judged_by_name(JudgedBy judged_by) {
     return "leave_one_out";
   case JudgedBy::held_out:
     return "held_out";
+  case JudgedBy::fit:
+    return "fit";
   case JudgedBy::validation_files:
     break;
   }
   return "validation_files";
 }
 
+bool on_other_experiments(JudgedBy judged_by) {
+  return judged_by == JudgedBy::held_out || judged_by == JudgedBy::validation_files;
+}
+
 JudgedBy parse_judged_by(const std::string& name) {
-  for (const JudgedBy one : {JudgedBy::leave_one_out, JudgedBy::held_out})
+  for (const JudgedBy one : {JudgedBy::leave_one_out, JudgedBy::held_out, JudgedBy::fit})
     if (name == judged_by_name(one)) return one;
   return JudgedBy::validation_files;
 }

@@ -175,7 +175,7 @@ std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t re
 void add_noise_floors(Calibration& calibration, const CalibrationInput& input) {
   std::vector<std::pair<const data::Dataset*, const char*>> parts = {
       {&input.validation, "validation"}, {&input.training, "training"}};
-  if (input.judged_by == JudgedBy::leave_one_out) parts = {{&input.training, "all"}};
+  if (!on_other_experiments(input.judged_by)) parts = {{&input.training, "all"}};
   for (auto* method : {oracle_floor, replicate_floor, within_floor}) {
     std::vector<NoiseFloor> both;
     for (const auto& [data, part] : parts)

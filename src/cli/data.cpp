@@ -35,8 +35,8 @@ int run(const Options& options, const CommonOptions& common) {
   const run::JobData data = run::load_job_data(job, implausible);
   io::OutputFiles files(job.directory);
   files.write("data.html",
-              report::data_html({job.file, calibrate::is_synthetic(data.training), data.training,
-                                 data.validation, texts_of(implausible)}));
+              report::data_html({job.file, calibrate::is_synthetic(data.training), data.judged_by,
+                                 data.training, data.validation, texts_of(implausible)}));
   if (options.write == "csv") files.write("data.csv", data::csv_text(run::canonical(data)));
   if (options.write == "hdf5")
     data::write_hdf5_columns(run::canonical(data), files.stage("data.h5"));

@@ -75,15 +75,12 @@ std::string fingerprint(const Dataset& training, const Dataset& validation) {
   return fmt::format("{:016x}", training.hash ^ (validation.hash * 0x9e3779b97f4a7c15ULL));
 }
 
-void require_two_experiments(const Dataset& data) {
+Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   if (data.experiments.size() < 2)
     throw InputError({join(data.sources, ", "), 0, 0},
                      "there is only one experiment: none can be held out to validate",
-                     "give data.validation, or an experiment column that tells the tests apart");
-}
-
-Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
-  require_two_experiments(data);
+                     "give data.validation, or an experiment column that tells the tests apart; "
+                     "without data.holdout laws are fitted to it and judged by nothing");
   const std::size_t count = data.experiments.size();
   const auto wanted = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
   const std::size_t held = std::clamp<std::size_t>(wanted, 1, count - 1);

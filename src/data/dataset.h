@@ -61,9 +61,6 @@ void fingerprint(Dataset& data);
 // Of two datasets together: 16 hex digits.
 std::string fingerprint(const Dataset& training, const Dataset& validation);
 
-// Throws InputError where there is only one: none can be left out to validate.
-void require_two_experiments(const Dataset& data);
-
 // Splits off round(share * experiments) whole experiments (at least 1, leaving at least 1), drawn
 // by seed. Throws InputError where there are fewer than 2 experiments.
 struct Split {

@@ -112,8 +112,7 @@ std::vector<KeyRule> file_keys() {
       key<std::vector<std::string>>(
           "data.training", [](Job & job) -> auto& { return job.data.training; },
           "CSV or HDF5 file, a folder, names with * (\"tests/*.csv\"), or a list of these; they "
-          "are "
-          "joined; relative to the job file",
+          "are joined; relative to the job file",
           "an error: the one key a job needs", "\"training.csv\""),
       key<std::vector<std::string>>(
           "data.validation", [](Job & job) -> auto& { return job.data.validation; },
@@ -128,7 +127,9 @@ std::vector<KeyRule> file_keys() {
       key<std::optional<double>>(
           "data.holdout", [](Job & job) -> auto& { return job.data.holdout; },
           "share of the EXPERIMENTS that is held out where data.validation is absent",
-          "below 30 experiments each is left out in turn, of more 0.25 are held out", "0.25") |
+          "below 30 experiments each is left out in turn, of more 0.25 are held out; one is fitted "
+          "only",
+          "0.25") |
           between(0, 1),
       key<char>(
           "data.delimiter", [](Job & job) -> auto& { return job.data.delimiter; },

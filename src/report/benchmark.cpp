@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "report/benchmark_parts.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 #include "report/published.h"
 #include "report/report.h"

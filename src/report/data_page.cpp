@@ -12,6 +12,7 @@
 #include "data/overview.h"
 #include "data/quantity.h"
 #include "report/data_lines.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
@@ -126,22 +127,13 @@ void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
   }
 }
 
-std::string size_text(const DataPage& page) {
-  const std::string training = fmt::format("{} of {}", count_of(page.training.rows(), "row"),
-                                           count_of(page.training.experiments.size(), "test"));
-  if (page.validation.rows() == 0) return training + ", each left out in turn to judge the laws";
-  return fmt::format("{} to train, {} of {} to validate", training,
-                     count_of(page.validation.rows(), "row"),
-                     count_of(page.validation.experiments.size(), "test"));
-}
-
 } // namespace
 
 std::string data_html(const DataPage& page) {
   TemplateValues values;
   values.text["title"] = svg::escape(shown_path(page.title));
   values.text["style"] = std::string(codegen::embedded_template("report/style.css"));
-  values.text["size"] = size_text(page);
+  values.text["size"] = size_text(page.judged_by, page.training, page.validation);
   values.flags["synthetic"] = page.synthetic;
   for (const std::string& fault : page.faults)
     values.lists["faults"].push_back({{{"text", svg::escape(fault)}}, {}, {}});
@@ -153,7 +145,7 @@ std::string data_html(const DataPage& page) {
   add_strokes(values, page);
   add_tests(values, page.training, "training");
   add_tests(values, page.validation, "validation");
-  add_data_lines(values, page.training, page.validation, page.validation.rows() == 0);
+  add_data_lines(values, page.training, page.validation, page.judged_by);
   return codegen::render_template("report/data.html", values);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/judgement.h"
 #include "data/dataset.h"
 
 namespace frictab::report {
@@ -11,6 +12,7 @@ namespace frictab::report {
 struct DataPage {
   std::string title; // the job file's name
   bool synthetic = false;
+  calibrate::JudgedBy judged_by;
   const data::Dataset& training;
   const data::Dataset& validation;
   std::vector<std::string> faults; // what is implausible in most rows

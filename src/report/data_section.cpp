@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "report/data_lines.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 #include "report/sections.h"
 #include "report/svg.h"
@@ -61,14 +62,17 @@ std::string range_of(const data::Dataset& data, const std::string& name) {
 } // namespace
 
 void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const data::Dataset& v,
-                    bool each) {
-  const auto of_validation = [&](const std::string& text) { return each ? "\u2013" : text; };
+                    calibrate::JudgedBy judged_by) {
+  const std::string none = judged_words(judged_by).files;
+  const auto of_validation = [&](const std::string& text) {
+    return none.empty() ? text : "\u2013";
+  };
   std::vector<codegen::TemplateValues>& rows = page.lists["data"];
   const auto add = [&](const char* what, const std::string& training,
                        const std::string& validation) {
     rows.push_back({{{"what", what}, {"training", training}, {"validation", validation}}, {}, {}});
   };
-  add("Files", lines(files_of(t)), each ? "the same, each left out in turn" : lines(files_of(v)));
+  add("Files", lines(files_of(t)), none.empty() ? lines(files_of(v)) : none);
   add("Experiments", thousands(t.experiments.size()),
       of_validation(thousands(v.experiments.size())));
   add("Rows", thousands(t.rows()), of_validation(thousands(v.rows())));
@@ -80,9 +84,10 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
 }
 
 void add_data(codegen::TemplateValues& page, const ReportInput& input) {
-  const bool each = input.calibration.judged_by == calibrate::JudgedBy::leave_one_out;
-  const data::Dataset none, &t = input.training, &v = each ? none : input.validation;
-  add_data_lines(page, t, v, each);
+  const calibrate::JudgedBy judged_by = input.calibration.judged_by;
+  const data::Dataset none, &t = input.training,
+                            &v = on_other_experiments(judged_by) ? input.validation : none;
+  add_data_lines(page, t, v, judged_by);
   std::vector<codegen::TemplateValues>& ranges = page.lists["ranges"];
   for (const data::Quantity& quantity : data::quantities()) {
     if (!t.has(quantity.name) && !v.has(quantity.name)) continue;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 #include "report/published.h"
 #include "report/sections.h"
@@ -112,14 +113,15 @@ void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& inp
   const std::vector<std::size_t> shown = laws_to_show(input);
   page.flags["has_experiment_errors"] = !shown.empty();
   page.text["by_experiment_link"] = shown.empty() ? "" : "<a href=\"#experiments\">By test</a> ";
-  const bool each = input.calibration.judged_by == calibrate::JudgedBy::leave_one_out;
-  page.flags["has_held_out_names"] = !each;
+  const std::string alike = judged_words(input.calibration.judged_by).dots;
+  page.flags["has_held_out_names"] = alike.empty();
   page.text["experiment_colours"] =
-      each ? "Each test is predicted by the law fitted to all others."
-           : fmt::format(
-                 "<span style=\"color:{}\">&#9679;</span> held out, <span style=\"color:{}\">"
-                 "&#9679;</span> trained on.",
-                 held_out_colour, trained_colour);
+      !alike.empty()
+          ? alike
+          : fmt::format(
+                "<span style=\"color:{}\">&#9679;</span> held out, <span style=\"color:{}\">"
+                "&#9679;</span> trained on.",
+                held_out_colour, trained_colour);
   page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
   const svg::Axis errors = axis_of_errors(input, shown);
   std::vector<codegen::TemplateValues>& figures = page.lists["experiment_errors"];

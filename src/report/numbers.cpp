@@ -56,24 +56,6 @@ std::string inside_text(const calibrate::BandCheck& band) {
   return fmt::format("{} of {} (90 % expected)", band.inside, band.experiments);
 }
 
-std::string judged_text(const calibrate::Calibration& c) {
-  const calibrate::Metrics& v = c.fits.front().validation;
-  const std::string tests = count_of(v.n_experiments, "experiment");
-  const std::string on = count_of(v.n_rows, "row") + " of " + tests;
-  switch (c.judged_by) {
-  case calibrate::JudgedBy::leave_one_out:
-    return "validated on " + on +
-           ", each left out in turn: the errors of an experiment are those of the law fitted to "
-           "all "
-           "the others";
-  case calibrate::JudgedBy::held_out:
-    return fmt::format("validated on {}, held out by seed {}", on, c.seed);
-  case calibrate::JudgedBy::validation_files:
-    break;
-  }
-  return "validated on " + on;
-}
-
 std::string p_text(double p_value) {
   return p_value < 0.001 ? "< 0.001" : figures(p_value, 2);
 }

@@ -30,9 +30,6 @@ inline constexpr const char* band_sentence =
 std::string factor_text(const std::optional<double>& factor);
 std::string inside_text(const calibrate::BandCheck& band);
 
-// What validation is, in a sentence without a full stop.
-std::string judged_text(const calibrate::Calibration& calibration);
-
 // "0.023", or "< 0.001".
 std::string p_text(double p_value);
 

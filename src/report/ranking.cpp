@@ -7,6 +7,7 @@
 #include "calibrate/noise_floor.h"
 #include "core/no_value.h"
 #include "core/text.h"
+#include "report/judged.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
 #include "report/published.h"
@@ -190,10 +191,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   page.flags["has_laws"] = has_laws;
   page.text["made_by"] = method_text(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
-  const bool each = calibration.judged_by == calibrate::JudgedBy::leave_one_out;
-  page.text["plotted_rows"] = each ? "All rows, by the laws as they are delivered, fitted to these "
-                                     "rows as well; the errors above are of tests left out"
-                                   : "Validation rows";
+  page.text["plotted_rows"] = judged_words(calibration.judged_by).plotted;
   if (has_laws) {
     const calibrate::Metrics& v = calibration.fits.front().validation;
     const svg::Axis axis = bar_axis(calibration);

@@ -5,6 +5,7 @@
 
 #include "calibrate/input_columns.h"
 #include "core/text.h"
+#include "report/judged.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
 #include "report/sections.h"
@@ -125,8 +126,7 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   std::sort(sorted.begin(), sorted.end());
   const svg::Axis y_axis =
       svg::nice_axis(quantile(sorted, 0.005), quantile(sorted, 0.995), 5, "residual / MPa");
-  const bool each = input.calibration.judged_by == calibrate::JudgedBy::leave_one_out;
-  const std::string on = each ? ", all experiments" : ", unseen experiments";
+  const std::string on = ", " + judged_words(input.calibration.judged_by).trace;
   return residual_plot({x, r0}, x_axis, y_axis, "residual before" + on) +
          curve_plot(effect, x_axis) + residual_plot({x, r1}, x_axis, y_axis, "residual after" + on);
 }

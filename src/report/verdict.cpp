@@ -27,6 +27,11 @@ std::string best_sentence(const calibrate::Calibration& calibration) {
   const calibrate::ModelFit& best = calibration.fits.front();
   const calibrate::Metrics& v = best.validation;
   const std::string on = count_of(v.n_experiments, "experiment");
+  if (calibration.judged_by == calibrate::JudgedBy::fit)
+    return fmt::format("There is one experiment: nothing judges the laws. "
+                       "<strong>{}</strong> comes nearest to it: it is off by <strong>{} "
+                       "MPa</strong> on average (mean absolute error of the fit).",
+                       svg::escape(best.model.law->name), figures(v.mae_MPa));
   const bool each = calibration.judged_by == calibrate::JudgedBy::leave_one_out;
   return fmt::format("On {}, <strong>{}</strong> predicts "
                      "\u03C4<sub>R</sub> best: it is off by <strong>{} MPa</strong> on average "

@@ -13,6 +13,7 @@
 #include "data/overview.h"
 #include "data/quantity.h"
 #include "io/json.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 
 namespace frictab::run {
@@ -93,15 +94,6 @@ std::string clock_text(const data::ClockOffset& clock) {
                      clock.offset, clock.std_error, clock.correlation);
 }
 
-std::string size_text(const JobData& data) {
-  const Dataset &t = data.training, &v = data.validation;
-  const std::string judged = v.rows() == 0 ? ", each left out in turn to judge the laws"
-                                           : fmt::format(" to train, {} of {} to validate",
-                                                         thousands(v.rows()), v.experiments.size());
-  return fmt::format("{} rows of {} tests{}{}\n", thousands(t.rows()), t.experiments.size(), judged,
-                     calibrate::is_synthetic(t) ? " - SYNTHETIC data" : "");
-}
-
 std::vector<std::string> bystanders(const Dataset& data) {
   std::vector<std::string> names;
   for (const data::Column& column : data.columns)
@@ -146,7 +138,8 @@ std::string data_text(const JobData& data) {
   add_lines(out, "in none of the data", data.training.unused);
   if (const auto names = bystanders(data.training); !names.empty())
     out += "other columns: " + join(names, ", ") + "\n";
-  return out + size_text(data);
+  return out + report::size_text(data.judged_by, data.training, data.validation) +
+         (calibrate::is_synthetic(data.training) ? " - SYNTHETIC data\n" : "\n");
 }
 
 std::string data_json(const JobData& data) {

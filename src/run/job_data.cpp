@@ -80,10 +80,10 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
   return data;
 }
 
-JobData with_each_left_out(data::Dataset all) {
-  data::require_two_experiments(all);
+JobData without_others(data::Dataset all) {
   JobData data;
-  data.judged_by = calibrate::JudgedBy::leave_one_out;
+  const bool one = all.experiments.size() == 1;
+  data.judged_by = one ? calibrate::JudgedBy::fit : calibrate::JudgedBy::leave_one_out;
   data.validation = all.subset({});
   data.validation.dropped.clear();
   data.validation.notes.clear();
@@ -111,7 +111,7 @@ JobData without_validation_files(const data::DataOptions& options, std::uint64_t
   data::Dataset all = data::load_dataset(options.training, options);
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   if (!options.holdout && all.experiments.size() < few_experiments)
-    return with_each_left_out(std::move(all));
+    return without_others(std::move(all));
   return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);
 }
 
@@ -131,7 +131,7 @@ void check_files(const data::DataOptions& options) {
 } // namespace
 
 const data::Dataset& JobData::judged() const {
-  return judged_by == calibrate::JudgedBy::leave_one_out ? training : validation;
+  return calibrate::on_other_experiments(judged_by) ? validation : training;
 }
 
 calibrate::CalibrationInput JobData::calibration_input(const job::Job& job) const {

@@ -15,6 +15,7 @@
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "io/json.h"
+#include "report/judged.h"
 #include "report/numbers.h"
 #include "table/beyond_data.h"
 #include "table/bound.h"
@@ -30,15 +31,12 @@ namespace {
 void add_data(std::string& out, const Pipeline& p) {
   if (!p.data()) return;
   const data::Dataset &training = p.data()->training, &validation = p.data()->validation;
-  const auto describe = [](const data::Dataset& d) {
-    return fmt::format("{} rows of {} experiments", thousands(d.rows()), d.experiments.size());
-  };
   const bool synthetic = calibrate::is_synthetic(training);
-  const bool each = p.data()->judged_by == calibrate::JudgedBy::leave_one_out;
-  out += fmt::format("Data: {}{}{}\n", describe(training),
-                     each ? ", each experiment judged by laws fitted without it"
-                          : " to train, " + describe(validation) + " to validate",
+  out += fmt::format("Data: {}{}\n", report::size_text(p.data()->judged_by, training, validation),
                      synthetic ? " - SYNTHETIC data" : "");
+  if (p.data()->judged_by == calibrate::JudgedBy::fit)
+    out +=
+        "  if they are of several tests, data.experiment names the column that tells them apart\n";
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
@@ -132,7 +130,7 @@ void add_conditional(std::string& out, const calibrate::Conditional& c, int deci
 
 void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
   const int decimals = report::error_decimals(calibration);
-  out += "\nLaws by mean absolute error on experiments not trained on (tau_R, MPa):\n";
+  out += fmt::format("\n{} (tau_R, MPa):\n", report::judged_words(calibration.judged_by).ranking);
   const std::size_t width = name_width(calibration);
   out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", width, "MAE",
                      "95 % interval", "RMSE", "bias", "train MAE", "parameters");

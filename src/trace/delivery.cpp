@@ -130,7 +130,7 @@ private:
     if (nested)
       t_.unseen = "nested_cross_validation";
     else if (no_validation())
-      t_.unseen = "leave_one_out";
+      t_.unseen = in_.training.experiments.size() > 1 ? "leave_one_out" : "nothing";
     const auto unseen = [&](const Rival& rival, std::size_t effects) {
       if (nested) return d_.nested.sums[weights_][effects];
       return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);

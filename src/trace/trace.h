@@ -170,7 +170,8 @@ struct Trace {
   TraceErrors as_calibrated; // by the calibration stage; validation tests, whatever `unseen` says
   TraceErrors before;        // the same law, fitted with the same weights as `after`
   TraceErrors after;
-  std::string unseen = "validation"; // | nested_cross_validation | leave_one_out: nothing was found
+  // | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, the fit
+  std::string unseen = "validation";
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
   NestedCheck nested;
   ValidationShift validation_shift;

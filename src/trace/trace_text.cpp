@@ -117,6 +117,7 @@ std::string unseen_line(const Trace& t) {
     return fmt::format("  unseen: the {} validation tests; before is the law without the effects, "
                        "fitted with the same weights\n",
                        t.after.validation.n_experiments);
+  if (t.unseen == "nothing") return "  unseen: nothing, there is one test\n";
   if (t.unseen == "leave_one_out")
     return fmt::format(
         "  unseen: each of the {} tests predicted by the law calibrated without it\n",

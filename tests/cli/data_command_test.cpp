@@ -71,7 +71,7 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
             "read: s_mm integrated from v_rel_mm_s and time_s\n"
             "in none of the data: tests.csv: K4\n"
             "other columns: rpm, batch\n"
-            "82 rows of 2 tests to train, 41 of 1 to validate\n");
+            "82 rows of 2 experiments to train, 41 rows of 1 experiment to validate\n");
   const std::string page = directory.read("out/data.html");
   for (const char* text : {"test K1", "test K3", "F_N_N: kN as the file says", "tests.csv: K4"})
     EXPECT_THAT(page, HasSubstr(text));
@@ -112,7 +112,9 @@ TEST_F(DataCommand, ShowsImplausibleDataAndFails) {
   const CommandResult result = run_frictab({"data", "job.toml"}, directory.path());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("job.toml:2:12: error: sigma_n_MPa is"));
-  EXPECT_THAT(result.out, HasSubstr("4 rows of 2 tests, each left out in turn to judge the laws"));
+  EXPECT_THAT(
+      result.out,
+      HasSubstr("4 rows of 2 experiments, each experiment judged by laws fitted without it"));
   EXPECT_THAT(directory.read("out/data.html"), HasSubstr("No rig measures this."));
 }
 

@@ -119,6 +119,42 @@ TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
               Not(HasSubstr("log_coulomb,E001,0,")));
 }
 
+TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
+  design = "p=1865;psi=4.47;v=50;T=110;points=400;validation=0";
+  const std::string out = calibrate({"--no-bystanders", "--profile", "varied"}, {two_laws});
+  ASSERT_EQ(exit_code, 0) << error;
+  EXPECT_THAT(
+      out, testing::StartsWith(
+               "Data: 400 rows of 1 experiment, no other to judge the laws by - SYNTHETIC data\n"
+               "  if they are of several tests, data.experiment names the column that tells them "
+               "apart\n\n"
+               "Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
+               "seen (tau_R, MPa):\n"));
+  EXPECT_THAT(out, Not(HasSubstr("on new tests expect")));
+  const auto json = calibration();
+  EXPECT_EQ(json.at("judged_by"), "fit");
+  const auto best = json.at("models").at(0);
+  EXPECT_EQ(best.at("validation").at("mae_MPa"), best.at("training").at("mae_MPa"));
+  EXPECT_TRUE(best.at("validation").at("mae_95").at(0).is_null()) << "one test has no interval";
+  EXPECT_THAT(directory.read("data/out/benchmark.md"),
+              HasSubstr("not validated: 400 rows of 1 experiment, to which the laws are fitted"));
+  EXPECT_THAT(directory.read("data/out/errors_by_experiment.csv"),
+              HasSubstr("log_coulomb,E001,0,"));
+  const auto run = run_frictab({"run", directory.path("data/job.toml"), "--set", two_laws});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("nothing that so few tests can prove"));
+  const std::string report = directory.read("data/out/report.html");
+  EXPECT_THAT(report, HasSubstr("There is one experiment: nothing judges the laws."));
+  EXPECT_THAT(report, Not(HasSubstr("left out in turn")));
+}
+
+TEST_F(Judgement, OneTestIsNotDividedWhereTheJobAsksForAShare) {
+  design = "p=1865;psi=4.47;v=50;T=110;points=40;validation=0";
+  calibrate({"--no-bystanders"}, {two_laws, "data.holdout=0.25"});
+  EXPECT_EQ(exit_code, 2);
+  EXPECT_THAT(error, HasSubstr("there is only one experiment: none can be held out to validate"));
+}
+
 TEST_F(Judgement, OfFewTestsAShareIsHeldOutWhereTheJobSaysSo) {
   design = "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=0";
   const std::string out = calibrate({"--no-bystanders"}, {two_laws, "data.holdout=0.25"});

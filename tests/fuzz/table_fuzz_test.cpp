@@ -80,7 +80,9 @@ std::string outcomes_in_child(const std::vector<std::string>& cases, const std::
   for (char outcome = 0; ::read(ends[0], &outcome, 1) == 1;)
     told += outcome;
   close(ends[0]);
-  waitpid(child, nullptr, 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFSIGNALED(status)) ADD_FAILURE() << "signal " << WTERMSIG(status);
   return told;
 }
 

@@ -1,0 +1,69 @@
+// The four ways of judging.
+#include "report/judged.h"
+
+#include <fmt/format.h>
+
+#include "report/numbers.h"
+
+namespace frictab::report {
+
+using calibrate::JudgedBy;
+
+JudgedWords judged_words(JudgedBy judged_by) {
+  const std::string unseen = "Laws by mean absolute error on experiments not trained on";
+  switch (judged_by) {
+  case JudgedBy::leave_one_out:
+    return {unseen, "the same, each left out in turn",
+            "All rows, by the laws as they are delivered, fitted to these rows as well; the errors "
+            "above are of tests left out",
+            "Each test is predicted by the law fitted to all others.", "all experiments"};
+  case JudgedBy::fit:
+    return {"Laws by mean absolute error on the ONE experiment they are fitted to; no other was "
+            "seen",
+            "none: there is one experiment", "All rows: those that the laws are fitted to",
+            "The one test that the law is fitted to.", "the one experiment"};
+  case JudgedBy::held_out:
+  case JudgedBy::validation_files:
+    break;
+  }
+  return {unseen, "", "Validation rows", "", "unseen experiments"};
+}
+
+std::string size_text(JudgedBy judged_by, const data::Dataset& training,
+                      const data::Dataset& validation) {
+  const auto describe = [](const data::Dataset& data) {
+    return count_of(data.rows(), "row") + " of " + count_of(data.experiments.size(), "experiment");
+  };
+  switch (judged_by) {
+  case JudgedBy::leave_one_out:
+    return describe(training) + ", each experiment judged by laws fitted without it";
+  case JudgedBy::fit:
+    return describe(training) + ", no other to judge the laws by";
+  case JudgedBy::held_out:
+  case JudgedBy::validation_files:
+    break;
+  }
+  return describe(training) + " to train, " + describe(validation) + " to validate";
+}
+
+std::string judged_text(const calibrate::Calibration& c) {
+  const calibrate::Metrics& v = c.fits.front().validation;
+  const std::string on =
+      count_of(v.n_rows, "row") + " of " + count_of(v.n_experiments, "experiment");
+  switch (c.judged_by) {
+  case JudgedBy::leave_one_out:
+    return "validated on " + on +
+           ", each left out in turn: the errors of an experiment are those of the law fitted to "
+           "all the others";
+  case JudgedBy::fit:
+    return "not validated: " + on +
+           ", to which the laws are fitted; how far they are off another test is not known";
+  case JudgedBy::held_out:
+    return fmt::format("validated on {}, held out by seed {}", on, c.seed);
+  case JudgedBy::validation_files:
+    break;
+  }
+  return "validated on " + on;
+}
+
+} // namespace frictab::report

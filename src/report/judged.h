@@ -1,0 +1,28 @@
+// In words, on which experiments laws were judged; one wording for each way.
+#pragma once
+
+#include <string>
+
+#include "calibrate/calibration.h"
+#include "data/dataset.h"
+
+namespace frictab::report {
+
+struct JudgedWords {
+  std::string ranking; // "Laws by mean absolute error on experiments not trained on"
+  std::string files;   // where the files of validation stand; empty: their names
+  std::string plotted; // rows in plots of measured against predicted
+  std::string dots;    // HTML; errors of single tests; empty: two colours
+  std::string trace;   // behind "residual before"
+};
+
+JudgedWords judged_words(calibrate::JudgedBy judged_by);
+
+// "82,500 rows of 150 experiments to train, 16,500 rows of 30 experiments to validate".
+std::string size_text(calibrate::JudgedBy judged_by, const data::Dataset& training,
+                      const data::Dataset& validation);
+
+// What validation is, in a sentence without a full stop.
+std::string judged_text(const calibrate::Calibration& calibration);
+
+} // namespace frictab::report
