@@ -17,6 +17,7 @@ namespace frictab::run {
 namespace {
 
 constexpr const char* tabulate = "tabulate";
+constexpr const char* schema = "frictab/stages/1";
 
 struct Stage {
   const char* name;
@@ -65,6 +66,7 @@ Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : jo
   if (!std::filesystem::exists(file)) return;
   const auto json = io::parse_json(io::read_file(file), file.string());
   io::read_json(file.string(), "remove it, then `frictab run`", [&] {
+    if (json.at("schema") != schema) return; // of another version: nothing is known
     for (const auto& [name, inputs] : json.at("stages").items())
       made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("laws"), inputs.at("from"),
                      inputs.at("version")};
@@ -118,7 +120,7 @@ std::string Stages::stale(const std::string& stage, const std::string& data) con
 }
 
 std::string Stages::json() const {
-  nlohmann::ordered_json out = {{"schema", "frictab/stages/1"},
+  nlohmann::ordered_json out = {{"schema", schema},
                                 {"tool_version", FRICTAB_VERSION},
                                 {"stages", nlohmann::ordered_json::object()}};
   for (const std::string& name : stage_names())

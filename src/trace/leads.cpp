@@ -200,7 +200,9 @@ Lead within_lead(const Trace& trace, const Search& search, std::size_t index) {
   lead.share =
       amplitude * static_cast<double>(shape.direction.maxCoeff() - shape.direction.minCoeff());
   if (!(std::abs(lead.share) < hardly_there)) lead.share = 0;
-  lead.why = fmt::format("p = {:.2g} over all that changes within tests{}", search.last_p_value,
+  const bool one_row_each = search.blocks.count() == search.blocks.experiments();
+  lead.why = fmt::format("p = {:.2g} over all {}{}", search.last_p_value,
+                         one_row_each ? "pairs of quantities" : "that changes within tests",
                          too_few(trace, search.blocks.experiments()));
   if (too_few_tests(trace) && follows_speed(search, search.causes[d.cause]))
     lead.why += rate_sentence(search, d, amplitude);

@@ -239,6 +239,11 @@ tau_R_MPa = { column = "COF", times = "sigma_n_MPa" }
   EXPECT_THAT(span(test, "v_rel_mm_s"), ElementsAre(1500, 1500));
   EXPECT_NEAR(span(test, "sigma_n_MPa")[0], 0.6, 1e-12);
   calibrate();
+  const CommandResult traced = run_frictab(
+      {"trace", "job.toml", "-q", "--set", "models.use=[\"coulomb\"]"}, directory.path());
+  EXPECT_EQ(traced.exit_code, 0) << traced.err;
+  EXPECT_THAT(traced.out, HasSubstr("+ sigma_n_MPa: linear, on mu"));
+  EXPECT_THAT(traced.out, HasSubstr("over all pairs of quantities"));
 }
 
 // ---- a powder shear cell ----

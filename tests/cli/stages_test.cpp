@@ -126,7 +126,8 @@ TEST_F(StagesOfAJob, TracingMakesTablesBeforeItStale) {
 
 TEST_F(StagesOfAJob, DamagedRecordIsAFaultWithItsMend) {
   ASSERT_EQ(run({"calibrate", "job.toml"}).exit_code, 0);
-  directory.write("out/stages.json", "{\"stages\": {\"calibrate\": {}}}");
+  directory.write("out/stages.json",
+                  "{\"schema\": \"frictab/stages/1\", \"stages\": {\"calibrate\": {}}}");
   const CommandResult result = run({"tabulate", "job.toml"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("stages.json"));
