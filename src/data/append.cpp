@@ -26,7 +26,9 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
     }
     if (column.levels.empty() != other->levels.empty()) {
       faults.add({file, 0, 0},
-                 fmt::format("column {} is text in one file and numbers in another", column.name));
+                 fmt::format("column {} is text in one file and numbers in another", column.name),
+                 "of [[data.files]], `constants` are numbers, `labels` texts, and groups of "
+                 "from_name numbers where all of them are");
       continue;
     }
     std::vector<std::string> levels = column.levels;

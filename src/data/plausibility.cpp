@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -18,8 +19,10 @@ constexpr double least_mu = 0.001, largest_mu = 1;
 constexpr double largest_pressure_MPa = 20000;
 constexpr double largest_psi = 100;
 constexpr double kelvin_low = 270, room_in_kelvin = 330;
-// A factor between two units of speed, not between two ways to measure it.
+// A factor between two units of speed, not between two ways to measure it; over so many rows, of
+// which a noisy path goes back and forth and still gets on.
 constexpr double same_speed = 5;
+constexpr std::size_t path_rows = 100;
 // Noise lifts a stuck contact above its shear yield stress by less.
 constexpr double above_yield = 1.15;
 constexpr std::size_t stuck_rows = 20, clipped_rows = 10;
@@ -115,16 +118,25 @@ Implausible speed(const Dataset& data) {
              v = data.values("v_rel_mm_s");
   std::size_t rows = 0, of = 0;
   std::vector<double> ratios;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e)
-    for (std::size_t i = data.first_row[e] + 1; i < data.first_row[e + 1]; ++i) {
-      const double moved = std::abs(path[i] - path[i - 1]), lasted = time[i] - time[i - 1];
-      const double mean = 0.5 * (v[i - 1] + v[i]);
-      if (!(lasted > 0) || !(moved > 0) || !(mean > 0)) continue;
-      const double ratio = moved / lasted / mean;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t first = data.first_row[e], steps = data.first_row[e + 1] - first - 1;
+    const std::size_t parts = std::max<std::size_t>(1, steps / path_rows);
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t begin = first + part * steps / parts,
+                        end = first + (part + 1) * steps / parts;
+      double moved = 0, expected = 0;
+      for (std::size_t i = begin; i < end; ++i)
+        if (const double lasted = time[i + 1] - time[i]; lasted > 0) {
+          moved += path[i + 1] - path[i];
+          expected += 0.5 * (v[i] + v[i + 1]) * lasted;
+        }
+      if (moved == 0 || !(expected > 0)) continue;
+      const double ratio = std::abs(moved) / expected;
       ratios.push_back(ratio);
-      ++of;
-      rows += ratio > same_speed || ratio < 1 / same_speed;
+      of += end - begin;
+      if (ratio > same_speed || ratio < 1 / same_speed) rows += end - begin;
     }
+  }
   return {"", rows, of,
           fmt::format("s_mm grows {:.3g} times as fast as v_rel_mm_s says", median(ratios)),
           "a speed in m/s, a path in m or um, a time in ms? `unit` where it is mapped"};
@@ -230,6 +242,23 @@ Implausible clipped_channel(const Dataset& data) {
   return out;
 }
 
+// Whether the rows of a test that are in none of its runs repeat the value before mostly: then the
+// channel is too coarse for what it measures, and may stand still honestly.
+bool is_coarse(const Dataset& data, std::span<const double> values, const std::vector<Run>& runs,
+               std::size_t test) {
+  std::size_t repeats = 0, of = 0;
+  auto run =
+      std::partition_point(runs.begin(), runs.end(), [&](const Run& r) { return r.test < test; });
+  for (std::size_t i = data.first_row[test] + 1; i < data.first_row[test + 1]; ++i) {
+    while (run != runs.end() && run->test == test && run->end <= i)
+      ++run;
+    if (run != runs.end() && run->test == test && i > run->begin) continue;
+    ++of;
+    repeats += values[i] == values[i - 1];
+  }
+  return 2 * repeats > of;
+}
+
 // The same number again and again where others change: a channel that is stuck.
 Implausible stuck_channel(const Dataset& data) {
   Implausible out;
@@ -239,8 +268,13 @@ Implausible stuck_channel(const Dataset& data) {
     if (!data.has(name) || out.rows > 0) continue; // tau_R_MPa may come from F_R_N
     const auto values = data.values(name);
     if (!clipped_runs(data, values).empty()) continue; // told already
-    for (const Run& run : runs_of_one_value(data, values, stuck_rows)) {
-      if (!something_changes(data, run.begin, run.end)) continue;
+    const std::vector<Run> runs = runs_of_one_value(data, values, stuck_rows);
+    std::optional<std::size_t> test;
+    bool coarse = false;
+    for (const Run& run : runs) {
+      if (test != run.test) coarse = is_coarse(data, values, runs, run.test);
+      test = run.test;
+      if (coarse || !something_changes(data, run.begin, run.end)) continue;
       if (where.empty()) where = fmt::format("{} in test '{}'", name, data.experiments[run.test]);
       out.rows += run.rows();
     }
