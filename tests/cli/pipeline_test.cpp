@@ -417,7 +417,7 @@ TEST(CommandLine, VersionIsPrinted) {
   EXPECT_EQ(run_frictab({"--version"}).out, "frictab " FRICTAB_VERSION "\n");
 }
 
-TEST_F(MainJob, WithoutValidationFilesGoesThroughAllStagesAloneAsInOneRun) {
+TEST_F(SlowMainJob, WithoutValidationFilesGoesThroughAllStagesAloneAsInOneRun) {
   const std::string file = directory.write(
       "few.toml", "[data]\ntraining = \"data/training.csv\"\n[export]\ntargets = [\"c\"]\n"
                   "[models]\nuse = [\"coulomb\", \"shear\", \"neural_network\"]\n");

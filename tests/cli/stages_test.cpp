@@ -46,6 +46,8 @@ protected:
   TemporaryDirectory directory;
 };
 
+using SlowStagesOfAJob = StagesOfAJob;
+
 TEST_F(StagesOfAJob, MakeWhatIsMissingFirst) {
   EXPECT_EQ(status(), "calibrate  missing\ntrace      missing\ntabulate   missing\n"
                       "export     missing\nverify     missing\nnext: frictab run job.toml\n");
@@ -73,7 +75,7 @@ TEST_F(StagesOfAJob, NameResultsOfOtherData) {
   EXPECT_EQ(run({"tabulate", "job.toml"}).exit_code, 0);
 }
 
-TEST_F(StagesOfAJob, NameResultsOfAnotherJob) {
+TEST_F(SlowStagesOfAJob, NameResultsOfAnotherJob) {
   ASSERT_EQ(run({"verify", "job.toml"}).exit_code, 0);
   write_job(0.25);
   CommandResult result = run({"verify", "job.toml"});
@@ -93,7 +95,7 @@ TEST_F(StagesOfAJob, NameResultsOfAnotherJob) {
   EXPECT_EQ(run({"verify", "job.toml"}).exit_code, 0);
 }
 
-TEST_F(StagesOfAJob, HoldWhatTheyDoNotDependOn) {
+TEST_F(SlowStagesOfAJob, HoldWhatTheyDoNotDependOn) {
   ASSERT_EQ(run({"verify", "job.toml"}).exit_code, 0);
   write_job(0.5, "[verify]\nsamples = 3000\n[output]\ndirectory = \"out\"\n");
   EXPECT_EQ(run({"report", "job.toml"}).exit_code, 0);
@@ -101,7 +103,7 @@ TEST_F(StagesOfAJob, HoldWhatTheyDoNotDependOn) {
                                   "changed since\nnext: frictab verify job.toml\n"));
 }
 
-TEST_F(StagesOfAJob, NamesOfLawsPickAmongTheTablesAndBestDoesNot) {
+TEST_F(SlowStagesOfAJob, NamesOfLawsPickAmongTheTablesAndBestDoesNot) {
   ASSERT_EQ(
       run({"tabulate", "job.toml", "--set", "table.model=[\"levanov\", \"coulomb\"]"}).exit_code,
       0);
@@ -115,7 +117,7 @@ TEST_F(StagesOfAJob, NamesOfLawsPickAmongTheTablesAndBestDoesNot) {
   EXPECT_THAT(status(), HasSubstr("tabulate   stale: there is no table of levanov\n"));
 }
 
-TEST_F(StagesOfAJob, TracingMakesTablesBeforeItStale) {
+TEST_F(SlowStagesOfAJob, TracingMakesTablesBeforeItStale) {
   write_job(0.5, "[trace]\nignore = [\"humidity_pct\"]\n");
   ASSERT_EQ(run({"tabulate", "job.toml"}).exit_code, 0);
   ASSERT_EQ(run({"trace", "job.toml"}).exit_code, 0);

@@ -133,7 +133,7 @@ TEST(SmallCampaign, AConditionalGainIsLearnedFromTheOtherTests) {
   EXPECT_NEAR(left_out.conditional.mae_MPa, sum / rows, 1e-9);
 }
 
-TEST(SmallCampaign, NeedsTwoTestsAndTheNetworkOneMoreThanItTrainsOn) {
+TEST(SmallCampaign, TheNetworkNeedsOneMoreTestThanItTrainsOn) {
   const Dataset data = few_tests();
   const std::array first_five = {0UL, 1UL, 2UL, 3UL, 4UL};
   const Dataset five = data.subset(first_five);
