@@ -8,6 +8,9 @@
 #include "codegen/recipe.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "job/job.h"
+#include "run/stages.h"
+#include "support/run_command.h"
 #include "support/sample_data.h"
 #include "verify/verify.h"
 
@@ -50,6 +53,19 @@ void fuzz(const std::string& valid, std::size_t cases,
     }
   }
   EXPECT_GT(refused, cases / 10) << "the damage is too mild to test anything";
+}
+
+TEST(FormatsFuzz, DamagedRecordOfStagesIsAFault) {
+  const test::TemporaryDirectory directory;
+  const job::Job job = job::parse_job("[data]\ntraining = \"a.csv\"\n", "job.toml");
+  run::Stages made(job, directory.path());
+  made.record("calibrate", "0123456789abcdef");
+  made.record("tabulate", "");
+  fuzz(made.json(), 1000, [&](const std::string& text) {
+    directory.write("stages.json", text);
+    run::Stages read(job, directory.path());
+    read.stale("tabulate", "");
+  });
 }
 
 TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {

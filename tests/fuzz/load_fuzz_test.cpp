@@ -11,8 +11,10 @@
 #include "core/random.h"
 #include "data/load.h"
 #include "data/quantity.h"
+#include "data/sniff.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
+#include "job/guessed_job.h"
 
 namespace frictab::load_fuzz_test {
 namespace {
@@ -161,6 +163,70 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   }
   EXPECT_GT(outcomes[read_well], 50u);
   EXPECT_GT(outcomes[refused], 200u);
+}
+
+// Two files in one campaign: what stands beside the rows, or one column per test.
+TEST_F(LoadFuzz, DamagedFilesBesideTheRowsGiveADatasetOrAnInputError) {
+  const std::string rows = "experiment,time_s,sigma_n_MPa,F_N_N,F_R_N\n"
+                           "a,0,1000,10,1\na,1,1000,20,2\na,2,1000,15,1\na,3,1000,30,3\n"
+                           "b,0,1000,10,1\nb,1,1000,30,2\nb,2,1000,15,1\nb,3,1000,20,3\n";
+  const std::string tests = "experiment,batch,humidity_pct,T_tool_C\na,x,40,20\nb,y,41.5,21\n";
+  const std::string simulation =
+      "experiment,time_s,F_N_N,psi\na,0.5,15,1\na,1.5,17,1.5\na,2.5,22,2\n"
+      "b,0.5,20,1\nb,1.5,22,1.2\nb,2.5,17,1.4\n";
+  const std::string wide = "time_s,OA1_v5_a,OA2_v5_b,OA3_v50_c\n0,0.1,0.2,0.3\n1,0.11,,0.31\n";
+  const std::string beside = file_.string() + "_beside";
+  Random random(17);
+  std::size_t outcomes[4] = {};
+  for (int i = 0; i < 6000; ++i) {
+    data::DataOptions options;
+    const std::size_t form = random.below(3);
+    std::string bytes = mutated(form == 0 ? tests : form == 1 ? simulation : wide, random, 3);
+    if (form == 0) options.tests = beside;
+    if (form == 1) {
+      options.join.files = {beside};
+      if (random.below(2) == 0) options.join.offset.value = 0.25;
+    }
+    if (form == 2) {
+      options.wide = R"(OA(?<oa_pct>\d+)_v(?<v_rel_mm_s>\d+)_(?<experiment>.*))";
+      options.columns["tau_R_MPa"].names = {"value"};
+      options.constants["sigma_n_MPa"] = 1;
+      write(bytes);
+    } else {
+      write(rows);
+      std::ofstream(beside, std::ios::binary) << bytes;
+    }
+    const Outcome outcome = load(file_.string(), options);
+    ++outcomes[outcome];
+    ASSERT_TRUE(outcome == read_well || outcome == refused) << "case " << i << ":\n" << bytes;
+  }
+  fs::remove(beside);
+  EXPECT_GT(outcomes[read_well], 600u);
+  EXPECT_GT(outcomes[refused], 600u);
+}
+
+// frictab init --from: a job, or a file that holds no table.
+TEST_F(LoadFuzz, DamagedFilesAreGuessedOrRefused) {
+  const std::string file = "Pruefbericht;;\r\nDatum;3.4.2021;\r\n\r\n"
+                           "Zeit [s];Normalkraft [kN];Reibkraft [N];Weg [mm]\r\n"
+                           "0,0;1,5;120,5;0,00\r\n0,1;1,6;121,0;0,05\r\n0,2;1.234,6;121,0;0,10\r\n";
+  Random random(19);
+  std::size_t guessed = 0, refusals = 0;
+  for (int i = 0; i < 600; ++i) {
+    const std::string bytes = mutated(file, random, 8);
+    write(bytes);
+    try {
+      const data::GuessedFile guess = data::guess_file(file_.string(), "file.csv");
+      ASSERT_FALSE(guess.columns.empty()) << bytes;
+      job::guessed_job({guess}, {}, {"file.csv"});
+      ++guessed;
+    } catch (const InputError& error) {
+      ASSERT_FALSE(error.faults().empty());
+      ++refusals;
+    }
+  }
+  EXPECT_GT(guessed, 100u);
+  EXPECT_GT(refusals, 1u);
 }
 
 TEST_F(LoadFuzz, RandomBytesGiveAnInputError) {
