@@ -49,7 +49,9 @@ public:
                  std::span<const double> values);
   // Makes `scale` a dimension scale (netCDF-4 coordinate) and ties it to one axis of `dataset`.
   void dimension_scale(const std::string& dataset, std::size_t axis, const std::string& scale);
-  void close(); // flushes; throws where that fails
+  // Flushes, reads the file again and compares; throws where that fails, also InputError where the
+  // file cannot be read.
+  void close();
 
 private:
   struct Data;
@@ -63,12 +65,14 @@ struct Hdf5Layout {
   std::uint64_t stored_bytes = 0;
 };
 
-// Throws InputError where the file is no HDF5 file, is truncated, or lacks what is asked for.
+// What an HDF5 file holds, as a child process reads it: the library can crash or hang on a damaged
+// file, and this process never opens it. Datasets of up to 16 MiB are read with the description,
+// larger ones where they are asked for. Throws InputError where the file is no HDF5 file, is
+// damaged, or lacks what is asked for.
 class Hdf5Reader {
 public:
-  // `named` is how messages call the file. large = false: for who leaves values of large datasets
-  // alone, so that they need not be looked at before.
-  Hdf5Reader(const std::filesystem::path& file, std::string named, bool large = true);
+  // `named` is how messages call the file.
+  Hdf5Reader(const std::filesystem::path& file, std::string named);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
@@ -98,12 +102,6 @@ public:
 
 private:
   struct Data;
-  struct Unchecked {};
-  std::vector<std::string> members(const std::string& group, int type) const;
-  Hdf5Reader(const std::filesystem::path& file, std::string named, Unchecked);
-  static void read_group(const Hdf5Reader& in, const std::string& group, bool large);
-  static void read_all(const std::filesystem::path& file, bool large);
-  static bool survives_reading(const std::filesystem::path& file, bool large);
   std::unique_ptr<Data> data_;
 };
 

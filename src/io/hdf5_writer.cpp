@@ -1,8 +1,15 @@
 // Writes HDF5 files through the C API.
 #include <algorithm>
+#include <bit>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <variant>
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "io/hdf5.h"
 #include "io/hdf5_handle.h"
@@ -37,10 +44,39 @@ hid_t text_type(std::size_t size) {
 
 } // namespace
 
+namespace {
+
+// Values in their order, however they come, as one number.
+class Hash {
+public:
+  Hash() { XXH64_reset(&state_, 0); }
+  void add(std::span<const double> values) {
+    XXH64_update(&state_, values.data(), values.size_bytes());
+  }
+  void add(const std::string& text) { XXH64_update(&state_, text.c_str(), text.size() + 1); }
+  bool operator==(const Hash& other) const {
+    return XXH64_digest(&state_) == XXH64_digest(&other.state_);
+  }
+
+private:
+  XXH64_state_t state_;
+};
+
+} // namespace
+
 struct Hdf5Writer::Data {
-  explicit Data(hid_t id) : file(id, H5Fclose) {}
+  Data(hid_t id, std::filesystem::path name) : file(id, H5Fclose), path(std::move(name)) {}
   std::unique_lock<std::recursive_mutex> lock{library()};
   Handle file;
+  std::filesystem::path path;
+  // What was given, to be compared with what the file gives back.
+  std::map<std::string, Hash> values, texts; // by dataset
+  std::map<std::pair<std::string, std::string>, std::variant<std::string, double>> attributes;
+
+  [[noreturn]] void differs(const std::string& what) const {
+    throw std::runtime_error(
+        fmt::format("the disk gives back other {} than were written to {}", what, path.string()));
+  }
 };
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::size_t aligned) {
@@ -52,7 +88,8 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::size_t aligned) {
   if (aligned > 0) H5Pset_alignment(access, aligned, aligned);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false); // of the root group
-  data_ = std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, creation, access));
+  data_ = std::make_unique<Data>(H5Fcreate(file.string().c_str(), H5F_ACC_TRUNC, creation, access),
+                                 file);
   must(data_->file.ok(), "create " + file.string());
 }
 
@@ -93,12 +130,17 @@ bool set_storage(hid_t list, const std::vector<hsize_t>& dims, const Hdf5Storage
 
 void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
                          std::span<const double> values, const Hdf5Storage& storage) {
+  must(values.size() ==
+           std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()),
+       "write " + name + ": its values do not fill its shape");
   const auto dims = dimensions(shape);
   const Handle space = space_of(dims), list(without_times(), H5Pclose);
   set_storage(list, dims, storage);
-  const Handle set = create(data_->file, name, space, list);
+  Handle set = create(data_->file, name, space, list);
   must(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
        "write the dataset " + name);
+  set.close();
+  data_->values[name].add(values);
 }
 
 void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> shape,
@@ -110,7 +152,7 @@ void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> s
     H5Pget_chunk(list, static_cast<int>(block.size()), block.data());
   else
     block = block_shape(dims, std::size_t{1} << 20);
-  const Handle set = create(data_->file, name, space, list);
+  Handle set = create(data_->file, name, space, list);
   std::vector<double> values;
   std::size_t first = 0;
   for_blocks(dims, block, [&](const auto& start, const auto& count, std::size_t n) {
@@ -121,15 +163,17 @@ void Hdf5Writer::dataset(const std::string& name, std::span<const std::size_t> s
       H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
     must(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0,
          "write the dataset " + name);
+    data_->values[name].add(values);
     first += n;
   });
+  set.close();
 }
 
 void Hdf5Writer::reserve(const std::string& name, std::span<const std::size_t> shape) {
   const Handle space = space_of(dimensions(shape)), list(without_times(), H5Pclose);
   H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
-  create(data_->file, name, space, list);
+  create(data_->file, name, space, list).close();
 }
 
 void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> values) {
@@ -149,6 +193,10 @@ void Hdf5Writer::dataset(const std::string& name, std::span<const std::string> v
   must(set.ok(), "create the dataset " + name);
   must(values.empty() || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) >= 0,
        "write the dataset " + name);
+  set.close();
+  Hash& hash = data_->texts[name];
+  for (const std::string& value : values)
+    hash.add(value);
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name,
@@ -157,6 +205,7 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name,
   const std::string written = text.empty() ? " " : text;
   must(H5LTset_attribute_string(data_->file, object.c_str(), name.c_str(), written.c_str()) >= 0,
        "write the attribute " + name);
+  data_->attributes[{object, name}] = written;
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
@@ -168,6 +217,7 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name,
   must(H5LTset_attribute_double(data_->file, object.c_str(), name.c_str(), values.data(),
                                 values.size()) >= 0,
        "write the attribute " + name);
+  if (values.size() == 1) data_->attributes[{object, name}] = values[0];
 }
 
 void Hdf5Writer::dimension_scale(const std::string& dataset, std::size_t axis,
@@ -178,10 +228,36 @@ void Hdf5Writer::dimension_scale(const std::string& dataset, std::size_t axis,
   if (H5DSis_scale(ruler) <= 0)
     must(H5DSset_scale(ruler, scale.c_str()) >= 0, "make a dimension scale of " + scale);
   must(H5DSattach_scale(set, ruler, static_cast<unsigned>(axis)) >= 0, "attach " + scale);
+  ruler.close();
+  set.close();
 }
 
 void Hdf5Writer::close() {
   data_->file.close();
+  const Hdf5Reader in(data_->path, data_->path.string());
+  for (const auto& [name, given] : data_->values) {
+    Hash found;
+    in.blocks(name, std::size_t{1} << 20,
+              [&](std::size_t, std::span<const double> values) { found.add(values); });
+    if (!(found == given)) data_->differs("values of " + name);
+  }
+  for (const auto& [name, given] : data_->texts) {
+    Hash found;
+    for (const std::string& text : in.texts(name))
+      found.add(text);
+    if (!(found == given)) data_->differs("texts of " + name);
+  }
+  for (const auto& [place, given] : data_->attributes) {
+    const auto& [object, name] = place;
+    const auto text = in.text_attribute(object, name);
+    const auto number = in.number_attribute(object, name);
+    const auto* words = std::get_if<std::string>(&given);
+    // NaN is no number that equals itself.
+    const bool same = words ? text == *words
+                            : number && std::bit_cast<std::uint64_t>(*number) ==
+                                            std::bit_cast<std::uint64_t>(std::get<double>(given));
+    if (!same) data_->differs("attributes, " + name + " of " + object);
+  }
 }
 
 } // namespace frictab::io

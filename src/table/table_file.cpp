@@ -134,8 +134,8 @@ namespace {
 
 class TableReader {
 public:
-  explicit TableReader(const std::filesystem::path& file, bool values = true)
-      : file_(file), named_(file.string()), in_(file, file.string(), values) {}
+  explicit TableReader(const std::filesystem::path& file)
+      : file_(file), named_(file.string()), in_(file, file.string()) {}
 
   Table read(std::size_t in_memory) {
     Table table = describe();
@@ -433,7 +433,7 @@ Table read_table(const std::filesystem::path& file, std::size_t in_memory) {
 }
 
 TableDescription read_description(const std::filesystem::path& file) {
-  TableReader reader(file, false);
+  TableReader reader(file);
   TableDescription out;
   out.table = reader.describe();
   out.layout = reader.layout();

@@ -255,7 +255,7 @@ TEST_F(Load, ReadsHdf5ColumnsAndTellsTheirFaults) {
     io::Hdf5Writer out(directory_ / "a.h5");
     out.dataset("sigma_n_MPa", rows, Values{1, stress});
     out.attribute("sigma_n_MPa", "units", "GPa");
-    out.dataset("tau_R_MPa", std::span(&others, 1), Values{3, 4, 5});
+    out.dataset("tau_R_MPa", std::span(&others, 1), Values(others, 3.0));
     out.dataset("experiment", std::vector<std::string>{"a", "a"});
     out.close();
   };

@@ -1,0 +1,513 @@
+// The C API behind exceptions, then bytes.
+#include "io/hdf5_scan.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include "io/hdf5_handle.h"
+
+namespace frictab::io {
+
+using namespace hdf5;
+
+namespace {
+
+constexpr std::size_t values_at_once = std::size_t{1} << 20;
+constexpr std::uint64_t held_bytes = std::uint64_t{1} << 24; // of one dataset
+constexpr std::uint64_t held_in_all = std::uint64_t{1} << 28;
+constexpr std::size_t longest_text = std::size_t{1} << 20;
+// What deflate can make of a byte, at best.
+constexpr std::uint64_t best_ratio = 1100;
+
+struct Unreadable {
+  std::string what, hint;
+};
+
+// ---- in the child ----
+
+// A damaged header may claim any size: what a file cannot hold is refused before allocation.
+std::size_t values_of(const std::vector<std::size_t>& shape, std::uint64_t file_bytes) {
+  const std::uint64_t limit = file_bytes * best_ratio + 1024;
+  std::size_t count = 1;
+  for (const std::size_t n : shape) {
+    if (n != 0 && count > limit / n) return SIZE_MAX;
+    count *= n;
+  }
+  return count;
+}
+
+std::optional<std::string> text_attribute(hid_t attribute) {
+  const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
+    return std::nullopt;
+  if (H5Tis_variable_str(type) > 0) {
+    char* raw = nullptr;
+    if (H5Aread(attribute, type, &raw) < 0 || raw == nullptr) return std::nullopt;
+    std::string text = raw;
+    H5free_memory(raw);
+    return text;
+  }
+  std::string text(std::min(H5Tget_size(type), longest_text), '\0');
+  if (text.size() != H5Tget_size(type) || H5Aread(attribute, type, text.data()) < 0)
+    return std::nullopt;
+  text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
+  return text;
+}
+
+std::optional<double> number_attribute(hid_t attribute) {
+  const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const H5T_class_t kind = H5Tget_class(type);
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Sget_simple_extent_npoints(space) != 1)
+    return std::nullopt;
+  double value = 0;
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
+  return value;
+}
+
+// Those that hold one text or one number.
+Hdf5Attributes attributes_of(hid_t object) {
+  std::vector<std::string> names;
+  const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* into) -> herr_t {
+    static_cast<std::vector<std::string>*>(into)->push_back(name);
+    return 0;
+  };
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names);
+  Hdf5Attributes attributes;
+  for (const std::string& name : names) {
+    const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
+    if (!attribute.ok()) continue;
+    if (auto text = text_attribute(attribute))
+      attributes[name] = std::move(*text);
+    else if (const auto number = number_attribute(attribute))
+      attributes[name] = *number;
+  }
+  return attributes;
+}
+
+std::optional<std::string> scale_of(hid_t set, std::size_t axis) {
+  std::optional<std::string> found;
+  const auto visit = [](hid_t, unsigned, hid_t scale, void* into) -> herr_t {
+    char name[256] = {};
+    if (H5Iget_name(scale, name, sizeof name) > 0)
+      *static_cast<std::optional<std::string>*>(into) = std::string(name + (name[0] == '/'));
+    return 1; // the first is enough
+  };
+  H5DSiterate_scales(set, static_cast<unsigned>(axis), nullptr, visit, &found);
+  return found;
+}
+
+Hdf5Layout layout_of(hid_t set) {
+  const Handle list(H5Dget_create_plist(set), H5Pclose);
+  Hdf5Layout out;
+  out.stored_bytes = H5Dget_storage_size(set);
+  if (H5Pget_layout(list) == H5D_CHUNKED) {
+    hsize_t chunk[H5S_MAX_RANK] = {};
+    const int rank = H5Pget_chunk(list, H5S_MAX_RANK, chunk);
+    out.chunk.assign(chunk, chunk + std::max(rank, 0));
+  }
+  for (int i = 0; i < H5Pget_nfilters(list); ++i) {
+    unsigned flags = 0, options[8] = {};
+    std::size_t count = 8;
+    char name[64] = {};
+    const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &count, options,
+                                           sizeof name, name, nullptr);
+    out.filters.push_back(id == H5Z_FILTER_DEFLATE ? fmt::format("deflate {}", options[0]) : name);
+  }
+  return out;
+}
+
+std::optional<std::uint64_t> raw_offset_of(hid_t set, std::uint64_t file_bytes) {
+  const Handle list(H5Dget_create_plist(set), H5Pclose), type(H5Dget_type(set), H5Tclose);
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const bool plain = H5Pget_layout(list) == H5D_CONTIGUOUS && H5Pget_external_count(list) == 0 &&
+                     H5Tequal(type, H5T_IEEE_F64LE) > 0 &&
+                     H5Tequal(type, H5T_NATIVE_DOUBLE) > 0; // of this machine too
+  const haddr_t offset = plain ? H5Dget_offset(set) : HADDR_UNDEF;
+  const auto values = static_cast<hsize_t>(std::max<hssize_t>(H5Sget_select_npoints(space), 0));
+  if (offset == HADDR_UNDEF || offset > file_bytes ||
+      values > (file_bytes - offset) / sizeof(double))
+    return std::nullopt;
+  return offset;
+}
+
+[[noreturn]] void cannot_read(const std::string& name, hid_t set) {
+  const Handle list(H5Dget_create_plist(set), H5Pclose);
+  if (H5Pget_nfilters(list) > 0)
+    throw Unreadable{"'" + name +
+                         "' cannot be read: a chunk does not fit its checksum or its compression",
+                     "the file is damaged: write it again, or take a copy"};
+  throw Unreadable{"'" + name + "' cannot be read", "the file may be damaged"};
+}
+
+std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_t count) {
+  const Handle type(H5Dget_type(set), H5Tclose);
+  const Unreadable bad{"'" + name + "' cannot be read as text", ""};
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(type) > 0) {
+    const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(memory, H5T_VARIABLE);
+    H5Tset_cset(memory, H5Tget_cset(type));
+    std::vector<char*> raw(count, nullptr);
+    if (count > 0 && H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0) throw bad;
+    for (char* text : raw) {
+      texts.emplace_back(text ? text : "");
+      H5free_memory(text);
+    }
+    return texts;
+  }
+  const std::size_t width = H5Tget_size(type);
+  if (width == 0 || width > longest_text) throw bad;
+  std::string packed(width * count, '\0');
+  if (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0) throw bad;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string text = packed.substr(i * width, width);
+    text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+template <class Take>
+void read_values(const std::string& name, hid_t set, const std::vector<std::size_t>& shape,
+                 std::size_t most, const Take& take) {
+  const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+  const H5T_class_t kind = H5Tget_class(type);
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER)
+    throw Unreadable{"'" + name + "' is not numeric", ""};
+  const std::vector<hsize_t> dims(shape.begin(), shape.end());
+  std::vector<double> values;
+  for_blocks(dims, block_shape(dims, most), [&](const auto& start, const auto& part, hsize_t n) {
+    values.resize(n);
+    const Handle memory(H5Screate_simple(1, &n, nullptr), H5Sclose);
+    if (!dims.empty())
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+    if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
+      cannot_read(name, set);
+    take(std::span<const double>(values));
+  });
+}
+
+std::vector<std::size_t> shape_of(const std::string& name, hid_t set) {
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) throw Unreadable{"the shape of '" + name + "' cannot be read", ""};
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  if (rank > 0) H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return {dims.begin(), dims.end()};
+}
+
+class Scan {
+public:
+  explicit Scan(const std::filesystem::path& file)
+      : file_(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+    if (!file_.ok())
+      throw Unreadable{"cannot be opened as HDF5",
+                       "it may be cut short or of another format; write it again, or give a CSV "
+                       "file"};
+    H5Fget_filesize(file_, &bytes_);
+  }
+
+  Hdf5Contents contents() {
+    Hdf5Contents all;
+    add_group(all, "");
+    for (const std::string& group : members("/", H5I_GROUP))
+      add_group(all, group + "/");
+    return all;
+  }
+
+  void values(const std::string& name, std::size_t most, ByteSink& out) const {
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1); // chunks that span several blocks
+    const Handle set(H5Dopen2(file_, name.c_str(), access), H5Dclose);
+    if (!set.ok()) throw Unreadable{"there is no dataset '" + name + "'", ""};
+    read_values(name, set, shape_of(name, set), most, [&](std::span<const double> values) {
+      out.number(values.size());
+      out.doubles(values);
+    });
+  }
+
+private:
+  // `group` is a path with / behind it; empty for the root.
+  void add_group(Hdf5Contents& all, const std::string& group) {
+    const std::string object = group.empty() ? "/" : group.substr(0, group.size() - 1);
+    const Handle in(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
+    all.groups[object] = attributes_of(in);
+    for (const std::string& own : members(object, H5I_DATASET))
+      all.datasets[group + own] = dataset(group + own);
+  }
+
+  std::vector<std::string> members(const std::string& group, int type) const {
+    struct Found {
+      int type;
+      std::vector<std::string> names;
+    } found{type, {}};
+    const auto visit = [](hid_t in, const char* name, const H5L_info_t*, void* into) -> herr_t {
+      Found& all = *static_cast<Found*>(into);
+      const Handle object(H5Oopen(in, name, H5P_DEFAULT), H5Oclose);
+      if (object.ok() && H5Iget_type(object) == all.type) all.names.push_back(name);
+      return 0;
+    };
+    const Handle in(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!in.ok() || H5Literate(in, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &found) < 0)
+      throw Unreadable{"its list of datasets cannot be read", "the file may be damaged"};
+    return found.names;
+  }
+
+  Hdf5Dataset dataset(const std::string& name) {
+    Hdf5Dataset out;
+    const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    try {
+      if (!set.ok()) throw Unreadable{"there is no dataset '" + name + "'", ""};
+      const Handle type(H5Dget_type(set), H5Tclose);
+      out.is_text = H5Tget_class(type) == H5T_STRING;
+      out.shape = shape_of(name, set);
+      out.attributes = attributes_of(set);
+      for (std::size_t axis = 0; axis < out.shape.size(); ++axis)
+        out.scales.push_back(scale_of(set, axis));
+      out.layout = layout_of(set);
+      out.raw_offset = raw_offset_of(set, bytes_);
+      add_values(name, set, out);
+    } catch (const Unreadable& error) {
+      out.fault = error.what;
+      out.hint = error.hint;
+    }
+    return out;
+  }
+
+  void add_values(const std::string& name, hid_t set, Hdf5Dataset& out) {
+    const std::size_t count = values_of(out.shape, bytes_);
+    if (count == SIZE_MAX)
+      throw Unreadable{"'" + name + "' claims more values than the file can hold", ""};
+    if (out.is_text) {
+      out.texts = texts_of(name, set, count);
+      out.held = true;
+      return;
+    }
+    const std::uint64_t needed = sizeof(double) * std::uint64_t{count};
+    if (needed > held_bytes || held_ + needed > held_in_all) return;
+    held_ += needed;
+    if (count > 0)
+      read_values(name, set, out.shape, values_at_once, [&](std::span<const double> values) {
+        out.values.insert(out.values.end(), values.begin(), values.end());
+      });
+    out.held = true;
+  }
+
+  Handle file_;
+  hsize_t bytes_ = 0;
+  std::uint64_t held_ = 0;
+};
+
+// ---- as bytes ----
+
+enum Kind : std::uint64_t { is_absent, is_text, is_number };
+
+void put(ByteSink& out, const Hdf5Attributes& attributes) {
+  out.number(attributes.size());
+  for (const auto& [name, value] : attributes) {
+    out.text(name);
+    const auto* text = std::get_if<std::string>(&value);
+    out.number(text ? is_text : is_number);
+    if (text)
+      out.text(*text);
+    else
+      out.doubles({&std::get<double>(value), 1});
+  }
+}
+
+void put(ByteSink& out, const std::vector<std::size_t>& numbers) {
+  out.number(numbers.size());
+  for (const std::size_t number : numbers)
+    out.number(number);
+}
+
+void put(ByteSink& out, const std::vector<std::string>& texts) {
+  out.number(texts.size());
+  for (const std::string& text : texts)
+    out.text(text);
+}
+
+void put(ByteSink& out, const Hdf5Dataset& set) {
+  put(out, set.attributes);
+  put(out, set.shape);
+  out.number(set.scales.size());
+  for (const auto& scale : set.scales) {
+    out.number(scale ? is_text : is_absent);
+    if (scale) out.text(*scale);
+  }
+  put(out, set.layout.chunk);
+  put(out, set.layout.filters);
+  out.number(set.layout.stored_bytes);
+  out.number(set.raw_offset ? is_number : is_absent);
+  out.number(set.raw_offset.value_or(0));
+  out.number(set.is_text);
+  out.number(set.held);
+  out.number(set.values.size());
+  out.doubles(set.values);
+  put(out, set.texts);
+  out.text(set.fault);
+  out.text(set.hint);
+}
+
+// Takes what `put` writes; nothing is larger than what a file of these bytes can hold.
+class Taker {
+public:
+  Taker(ByteSource& in, std::uint64_t file_bytes)
+      : in_(in), most_(file_bytes * best_ratio + 65536) {}
+
+  bool take(Hdf5Contents& all) {
+    std::uint64_t groups = 0, datasets = 0;
+    std::string name;
+    if (!text(all.fault) || !text(all.hint) || !count(groups)) return false;
+    for (std::uint64_t i = 0; i < groups; ++i)
+      if (!text(name) || !take(all.groups[name])) return false;
+    if (!count(datasets)) return false;
+    for (std::uint64_t i = 0; i < datasets; ++i)
+      if (!text(name) || !take(all.datasets[name])) return false;
+    return true;
+  }
+
+private:
+  bool text(std::string& text) { return in_.text(text, most_); }
+  bool count(std::uint64_t& count) { return in_.number(count) && count <= most_; }
+
+  bool take(Hdf5Attributes& attributes) {
+    std::uint64_t size = 0, kind = 0;
+    if (!count(size)) return false;
+    for (std::uint64_t i = 0; i < size; ++i) {
+      std::string name, words;
+      double number = 0;
+      if (!text(name) || !in_.number(kind)) return false;
+      if (!(kind == is_text ? text(words) : in_.doubles({&number, 1}))) return false;
+      if (kind == is_text)
+        attributes[name] = std::move(words);
+      else
+        attributes[name] = number;
+    }
+    return true;
+  }
+
+  bool take(std::vector<std::size_t>& numbers) {
+    std::uint64_t size = 0, number = 0;
+    if (!count(size) || size > H5S_MAX_RANK) return false;
+    for (std::uint64_t i = 0; i < size; ++i) {
+      if (!in_.number(number)) return false;
+      numbers.push_back(number);
+    }
+    return true;
+  }
+
+  bool take(std::vector<std::string>& texts) {
+    std::uint64_t size = 0;
+    if (!count(size)) return false;
+    for (std::uint64_t i = 0; i < size; ++i)
+      if (!text(texts.emplace_back())) return false;
+    return true;
+  }
+
+  bool take(std::vector<std::optional<std::string>>& scales) {
+    std::uint64_t size = 0, kind = 0;
+    if (!count(size) || size > H5S_MAX_RANK) return false;
+    for (std::uint64_t i = 0; i < size; ++i) {
+      scales.emplace_back();
+      if (!in_.number(kind)) return false;
+      if (kind == is_text && !text(scales.back().emplace())) return false;
+    }
+    return true;
+  }
+
+  bool take(Hdf5Dataset& set) {
+    std::uint64_t stored = 0, has_offset = 0, offset = 0, text_kind = 0, held = 0, values = 0;
+    if (!take(set.attributes) || !take(set.shape) || !take(set.scales) || !take(set.layout.chunk) ||
+        !take(set.layout.filters) || !in_.number(stored) || !in_.number(has_offset) ||
+        !in_.number(offset) || !in_.number(text_kind) || !in_.number(held) || !in_.number(values) ||
+        values > held_bytes / sizeof(double))
+      return false;
+    set.layout.stored_bytes = stored;
+    if (has_offset == is_number) set.raw_offset = offset;
+    set.is_text = text_kind == 1;
+    set.held = held == 1;
+    set.values.resize(values);
+    if (!in_.doubles(set.values) || !take(set.texts) || !text(set.fault) || !text(set.hint))
+      return false;
+    const std::size_t wanted = set.count();
+    return !set.fault.empty() || !set.held ||
+           (set.is_text ? set.texts.size() : set.values.size()) == wanted;
+  }
+
+  ByteSource& in_;
+  std::uint64_t most_;
+};
+
+} // namespace
+
+std::size_t Hdf5Dataset::count() const {
+  std::size_t count = 1;
+  for (const std::size_t n : shape)
+    count *= n;
+  return count;
+}
+
+void scan_hdf5(const std::filesystem::path& file, ByteSink& out) {
+  silence();
+  Hdf5Contents all;
+  try {
+    all = Scan(file).contents();
+  } catch (const Unreadable& error) {
+    all.fault = error.what;
+    all.hint = error.hint;
+  }
+  out.text(all.fault);
+  out.text(all.hint);
+  out.number(all.groups.size());
+  for (const auto& [name, attributes] : all.groups) {
+    out.text(name);
+    put(out, attributes);
+  }
+  out.number(all.datasets.size());
+  for (const auto& [name, set] : all.datasets) {
+    out.text(name);
+    put(out, set);
+  }
+}
+
+void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,
+                 ByteSink& out) {
+  silence();
+  Unreadable fault;
+  try {
+    Scan(file).values(dataset, most, out);
+  } catch (const Unreadable& error) {
+    fault = error;
+  }
+  out.number(0); // no more
+  out.text(fault.what);
+  out.text(fault.hint);
+}
+
+bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents) {
+  return Taker(in, file_bytes).take(contents);
+}
+
+bool take_values(ByteSource& in, std::size_t count, std::size_t most,
+                 const std::function<void(std::size_t, std::span<const double>)>& take,
+                 std::string& fault, std::string& hint) {
+  std::vector<double> values;
+  std::size_t first = 0;
+  std::uint64_t size = 0;
+  while (in.number(size)) {
+    if (size == 0)
+      return in.text(fault, longest_text) && in.text(hint, longest_text) &&
+             (!fault.empty() || first == count);
+    if (size > most || size > count - first) return false;
+    values.resize(size);
+    if (!in.doubles(values)) return false;
+    take(first, values);
+    first += size;
+  }
+  return false;
+}
+
+} // namespace frictab::io

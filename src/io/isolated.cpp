@@ -1,0 +1,177 @@
+// A pipe, a fork, limits.
+#include "io/isolated.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace frictab::io {
+
+namespace {
+
+constexpr std::size_t buffered = std::size_t{1} << 16;
+
+void write_all(int file, std::span<const char> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(file, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) ::_exit(1); // the parent has gone
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+}
+
+// Virtual memory that this process has already, which a limit counts as well.
+std::uint64_t own_memory() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void set_limit(int what, rlim_t value) {
+  rlimit old{};
+  if (::getrlimit(static_cast<__rlimit_resource>(what), &old) != 0) return;
+  const rlim_t most = old.rlim_max == RLIM_INFINITY ? value : std::min(value, old.rlim_max);
+  const rlimit limit{most, most};
+  ::setrlimit(static_cast<__rlimit_resource>(what), &limit);
+}
+
+[[noreturn]] void be_the_child(const ChildLimits& limits, int out,
+                               const std::function<void(ByteSink&)>& work) {
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(nowhere, STDERR_FILENO); // a sanitizer's or the C library's last words
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_CPU, limits.cpu_seconds); // a loop in a damaged file would not end
+  set_limit(RLIMIT_AS, own_memory() + limits.memory_bytes);
+  try {
+    ByteSink sink(out);
+    work(sink);
+    sink.flush();
+  } catch (...) {
+    ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+// Reaps the child however this ends.
+class Child {
+public:
+  Child(pid_t id, int from) : id_(id), from_(from) {}
+  ~Child() {
+    if (id_ > 0) ::kill(id_, SIGKILL);
+    end();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  bool end() {
+    if (id_ <= 0) return false;
+    ::close(from_);
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = 0;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+private:
+  pid_t id_;
+  int from_;
+};
+
+} // namespace
+
+void ByteSink::write(std::span<const char> bytes) {
+  buffer_.append(bytes.data(), bytes.size());
+  if (buffer_.size() >= buffered) flush();
+}
+
+void ByteSink::number(std::uint64_t value) {
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  write(bytes);
+}
+
+void ByteSink::text(const std::string& text) {
+  number(text.size());
+  write(text);
+}
+
+void ByteSink::doubles(std::span<const double> values) {
+  flush();
+  write_all(file_, {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+}
+
+void ByteSink::flush() {
+  write_all(file_, buffer_);
+  buffer_.clear();
+}
+
+bool ByteSource::read(std::span<char> bytes) {
+  while (!bytes.empty()) {
+    if (used_ < buffer_.size()) {
+      const std::size_t part = std::min(bytes.size(), buffer_.size() - used_);
+      buffer_.copy(bytes.data(), part, used_);
+      used_ += part;
+      bytes = bytes.subspan(part);
+      continue;
+    }
+    const bool small = bytes.size() < buffered;
+    if (small) buffer_.resize(buffered);
+    const ssize_t got =
+        ::read(file_, small ? buffer_.data() : bytes.data(), small ? buffer_.size() : bytes.size());
+    if (small) buffer_.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0))), used_ = 0;
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    if (!small) bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+bool ByteSource::number(std::uint64_t& value) {
+  char bytes[sizeof value];
+  if (!read(bytes)) return false;
+  std::memcpy(&value, bytes, sizeof value);
+  return true;
+}
+
+bool ByteSource::text(std::string& text, std::uint64_t most) {
+  std::uint64_t size = 0;
+  if (!number(size) || size > most) return false;
+  text.resize(size);
+  return read(text);
+}
+
+bool ByteSource::doubles(std::span<double> values) {
+  return read({reinterpret_cast<char*>(values.data()), values.size_bytes()});
+}
+
+bool run_isolated(const ChildLimits& limits, const std::function<void(ByteSink&)>& work,
+                  const std::function<bool(ByteSource&)>& take) {
+  int ends[2] = {};
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be had");
+  ::fcntl(ends[1], F_SETPIPE_SZ, 1 << 20); // fewer turns; the usual size does as well
+  const pid_t id = ::fork();
+  if (id < 0) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw std::runtime_error("no process can be started");
+  }
+  if (id == 0) {
+    ::close(ends[0]);
+    be_the_child(limits, ends[1], work);
+  }
+  ::close(ends[1]);
+  Child child(id, ends[0]);
+  ByteSource source(ends[0]);
+  const bool taken = take(source);
+  return child.end() && taken;
+}
+
+} // namespace frictab::io
