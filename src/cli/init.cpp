@@ -34,7 +34,7 @@ void write_job(const fs::path& directory, bool force, const std::string& text) {
   if (fs::exists(file, error) && !force)
     throw InputError({file.string(), 0, 0}, "is there already",
                      "name another directory, or --force to replace it");
-  io::OutputFiles files(directory);
+  io::OutputFiles files(directory, io::OutputFiles::Claim::one_file);
   files.write("job.toml", text);
   files.commit();
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/job_commands.h"
+#include "io/atomic_file.h"
 #include "io/json.h"
 #include "run/job_data.h"
 #include "run/stages.h"
@@ -35,6 +36,7 @@ std::string law_without_table(const job::Job& job) {
 }
 
 std::vector<StageStatus> status_of(const job::Job& job) {
+  io::finish_interrupted(job.directory);
   const run::JobData data = run::load_job_data(job);
   const run::Stages stages(job, job.directory);
   const std::string key = data::fingerprint(data.training, data.validation);

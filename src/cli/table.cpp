@@ -24,7 +24,8 @@ void write_result(const CommonOptions& common, const std::function<void(std::ost
     return;
   }
   const fs::path file(common.output);
-  io::OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  io::OutputFiles output(file.has_parent_path() ? file.parent_path() : fs::path("."),
+                         io::OutputFiles::Claim::one_file);
   const std::string name = file.filename().string();
   std::ofstream out(output.stage(name), std::ios::binary);
   write(out);

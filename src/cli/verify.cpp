@@ -42,7 +42,8 @@ data::Dataset load_rows(const Options& options, const CommonOptions& common) {
 void write_junit(const Options& options, const verify::Verification& verification) {
   if (options.junit.empty()) return;
   const fs::path file(options.junit);
-  io::OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  io::OutputFiles out(file.has_parent_path() ? file.parent_path() : fs::path("."),
+                      io::OutputFiles::Claim::one_file);
   out.write(file.filename().string(), verify::verification_junit(verification));
   out.commit();
 }

@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
+#include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "core/error.h"
 
@@ -19,38 +24,254 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string staging_prefix = ".frictab-";
+const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file-";
+// In a staging directory.
+const std::string new_files = "new", old_files = "old", journal_name = "journal";
 
-// Staging directories of runs that were killed.
-void remove_abandoned(const fs::path& directory) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind(staging_prefix, 0) != 0) continue;
-    const long pid = std::atol(name.c_str() + staging_prefix.size());
-    if (pid > 0 && ::kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH)
-      fs::remove_all(entry.path(), ignored);
+std::uint64_t hash_of(std::string_view text) {
+  return XXH64(text.data(), text.size(), 0);
+}
+
+[[noreturn]] void cannot(const std::string& what, const fs::path& file) {
+  throw std::runtime_error(
+      fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
+}
+
+// Onto the disk: a file's content, or the names in a directory.
+void sync(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) cannot("open", path);
+  // A file system that cannot do it for directories says so.
+  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
+  const int error = errno;
+  const bool closed = ::close(file) == 0;
+  if (!done) errno = error;
+  if (!done || !closed) cannot("write", path);
+}
+
+void rename_file(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) cannot("write", to);
+}
+
+// Relative, within the directory, and no folder on its way is a link that leads elsewhere.
+void check_inside(const fs::path& directory, const std::string& path) {
+  const fs::path given(path);
+  bool inside = !path.empty() && given.is_relative();
+  for (const fs::path& part : given)
+    inside = inside && part != ".." && part != "." && !part.empty();
+  const bool plain =
+      std::none_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+  if (!inside || !plain)
+    throw InputError({directory.string(), 0, 0}, "no file is written to such a name here: " + path,
+                     "names of laws and targets have letters, digits, '_', '.' and '-'");
+  fs::path at = directory;
+  for (const fs::path& part : given.parent_path()) {
+    at /= part;
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(at, ignored)))
+      throw InputError({at.string(), 0, 0}, "is a symbolic link, and nothing is written through it",
+                       "replace it by a directory, or choose another one with -o DIR");
   }
+}
+
+// ---- the renames of a commit ----
+
+struct Rename {
+  std::string from, to; // both relative to the directory
+};
+
+// What a commit does, in its order; as JSON it is the journal.
+struct Journal {
+  std::vector<Rename> renames;     // into place
+  std::vector<std::string> remove; // files of an earlier run
+
+  std::string text() const {
+    nlohmann::json json = {{"renames", nlohmann::json::array()}, {"remove", remove}};
+    for (const Rename& one : renames)
+      json["renames"].push_back({one.from, one.to});
+    return json.dump();
+  }
+};
+
+std::optional<Journal> read_journal(const fs::path& file, const fs::path& directory) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(in);
+    Journal journal;
+    for (const nlohmann::json& one : json.at("renames"))
+      journal.renames.push_back({one.at(0), one.at(1)});
+    journal.remove = json.at("remove");
+    for (const Rename& one : journal.renames) {
+      check_inside(directory, one.from);
+      check_inside(directory, one.to);
+    }
+    for (const std::string& path : journal.remove)
+      check_inside(directory, path);
+    return journal;
+  } catch (const std::exception&) { // not written by a commit
+    return std::nullopt;
+  }
+}
+
+void write_journal(const fs::path& staging, const Journal& journal) {
+  const fs::path draft = staging / (journal_name + ".draft");
+  std::ofstream out(draft, std::ios::binary);
+  out << journal.text();
+  out.close();
+  if (!out) cannot("write", draft);
+  sync(draft);
+  rename_file(draft, staging / journal_name);
+  sync(staging);
+}
+
+// Keeps what stands there until all is done.
+void keep_old(const fs::path& target, const fs::path& backup) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(target, error))) return;
+  fs::create_directories(backup.parent_path());
+  fs::create_hard_link(target, backup, error);
+  if (error) fs::copy_file(target, backup); // a file system without links
+}
+
+// Empty directories on the way to a file that has gone.
+void remove_empty(const fs::path& directory, fs::path at) {
+  std::error_code ignored;
+  for (at = at.parent_path(); !at.empty(); at = at.parent_path())
+    if (!fs::remove(directory / at, ignored)) return;
+}
+
+// The renames of a journal; all of them, or none.
+class Commit {
+public:
+  Commit(const fs::path& directory, const fs::path& staging, const Journal& journal)
+      : directory_(directory), old_(staging / old_files), journal_(journal) {}
+
+  void run() {
+    try {
+      for (const Rename& one : journal_.renames) {
+        keep_old(directory_ / one.to, old_ / one.to);
+        rename_file(directory_ / one.from, directory_ / one.to);
+        ++renamed_;
+      }
+      for (const std::string& path : journal_.remove) {
+        if (fs::exists(fs::symlink_status(directory_ / path))) {
+          fs::create_directories((old_ / path).parent_path());
+          rename_file(directory_ / path, old_ / path);
+        }
+        ++removed_;
+      }
+    } catch (...) {
+      take_back();
+      taken_back_ = true;
+      throw;
+    }
+  }
+  bool taken_back() const { return taken_back_; }
+
+  // Where a process died in the midst.
+  void finish() {
+    for (const Rename& one : journal_.renames)
+      if (fs::exists(directory_ / one.from)) {
+        fs::create_directories((directory_ / one.to).parent_path());
+        rename_file(directory_ / one.from, directory_ / one.to);
+      }
+    for (const std::string& path : journal_.remove)
+      if (fs::exists(fs::symlink_status(directory_ / path))) fs::remove(directory_ / path);
+  }
+
+  void tidy() const {
+    std::error_code ignored;
+    for (const Rename& one : journal_.renames)
+      if (fs::is_directory((directory_ / one.to).parent_path(), ignored))
+        sync((directory_ / one.to).parent_path());
+    for (const std::string& path : journal_.remove)
+      remove_empty(directory_, path);
+  }
+
+private:
+  void take_back() {
+    for (; removed_ > 0; --removed_)
+      if (const fs::path path = journal_.remove[removed_ - 1]; fs::exists(old_ / path))
+        rename_file(old_ / path, directory_ / path);
+    for (; renamed_ > 0; --renamed_) {
+      const Rename& one = journal_.renames[renamed_ - 1];
+      rename_file(directory_ / one.to, directory_ / one.from);
+      if (fs::exists(old_ / one.to)) rename_file(old_ / one.to, directory_ / one.to);
+    }
+  }
+
+  const fs::path& directory_;
+  fs::path old_;
+  const Journal& journal_;
+  std::size_t renamed_ = 0, removed_ = 0;
+  bool taken_back_ = false;
+};
+
+// ---- what earlier processes left ----
+
+bool is_older_than_a_day(const fs::path& path) {
+  std::error_code ignored;
+  return fs::file_time_type::clock::now() - fs::last_write_time(path, ignored) >
+         std::chrono::hours(24);
+}
+
+// Staging directories of processes that died: what they had begun to commit is finished. A lock
+// says that they died; without one they are left alone for a day.
+void clear_abandoned(const fs::path& directory, bool locked) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(directory, ignored))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with(staging_prefix) && fs::is_directory(entry.symlink_status(ignored)))
+      found.push_back(entry.path());
+  for (const fs::path& staging : found) {
+    const bool one_file = staging.filename().string().starts_with(one_file_prefix);
+    if ((one_file || !locked) && !is_older_than_a_day(staging)) continue;
+    if (const auto journal = read_journal(staging / journal_name, directory)) {
+      Commit commit(directory, staging, *journal);
+      commit.finish();
+      commit.tidy();
+    }
+    fs::remove(staging / journal_name, ignored);
+    fs::remove_all(staging, ignored);
+  }
+}
+
+fs::path make_staging(const fs::path& directory, const std::string& prefix) {
+  std::string name = (directory / (prefix + "XXXXXX")).string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw InputError({directory.string(), 0, 0},
+                     fmt::format("cannot write here: {}", std::strerror(errno)),
+                     "choose another directory with -o DIR");
+  return name;
 }
 
 } // namespace
 
-OutputFiles::OutputFiles(fs::path directory)
-    : directory_(std::move(directory)),
-      staging_(directory_ / fmt::format("{}{}", staging_prefix, ::getpid())) {
-  created_ = !fs::exists(directory_);
-  remove_abandoned(directory_);
+OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move(directory)) {
   std::error_code error;
-  fs::create_directories(staging_, error);
+  created_ = !fs::exists(directory_, error);
+  fs::create_directories(directory_, error);
   if (error)
     throw InputError({directory_.string(), 0, 0}, "cannot write here: " + error.message(),
                      "choose another directory with -o DIR");
+  if (claim == Claim::directory) {
+    lock_.emplace(directory_);
+    clear_abandoned(directory_, lock_->held());
+  }
+  staging_ = make_staging(directory_, claim == Claim::directory ? staging_prefix : one_file_prefix);
 }
 
 OutputFiles::~OutputFiles() {
   std::error_code ignored;
-  fs::remove_all(staging_, ignored);
+  if (!fs::exists(staging_ / journal_name, ignored)) fs::remove_all(staging_, ignored);
+  lock_.reset();
   if (created_) fs::remove(directory_, ignored); // only where it is empty
+}
+
+void OutputFiles::check_path(const std::string& path) const {
+  check_inside(directory_, path);
 }
 
 void OutputFiles::write(const std::string& path, std::string_view content) {
@@ -58,41 +279,59 @@ void OutputFiles::write(const std::string& path, std::string_view content) {
   std::ofstream out(file, std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) throw std::runtime_error("cannot write " + (directory_ / path).string());
+  if (!out) cannot("write", directory_ / path);
+  hashes_[path] = hash_of(content);
 }
 
 fs::path OutputFiles::stage(const std::string& path) {
+  check_path(path);
   if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
-  fs::path file = staging_ / path;
+  hashes_.erase(path);
+  fs::path file = staging_ / new_files / path;
   fs::create_directories(file.parent_path());
   return file;
 }
 
 void OutputFiles::adopt(const std::string& path, fs::path file) {
+  check_path(path);
   paths_.push_back(path);
   adopted_[path] = std::move(file);
 }
 
 void OutputFiles::remove_old(const std::string& path) {
+  check_path(path);
   old_.push_back(path);
 }
 
 void OutputFiles::commit() {
+  Journal journal;
   for (const std::string& path : paths_) {
-    const fs::path target = directory_ / path;
-    fs::create_directories(target.parent_path());
     const auto adopted = adopted_.find(path);
-    fs::rename(adopted == adopted_.end() ? staging_ / path : adopted->second, target);
+    const fs::path from = adopted == adopted_.end() ? staging_ / new_files / path : adopted->second;
+    const auto hash = hashes_.find(path);
+    sync(from);
+    if (hash != hashes_.end() && hash_of(read_file(from)) != hash->second)
+      throw std::runtime_error("the disk gives back something else than was written to " +
+                               (directory_ / path).string());
+    journal.renames.push_back({from.lexically_relative(directory_).string(), path});
+    fs::create_directories((directory_ / path).parent_path());
+    if (fs::is_directory(directory_ / path))
+      throw InputError({(directory_ / path).string(), 0, 0}, "is a directory, a file comes there",
+                       "choose another directory with -o DIR");
   }
-  for (const std::string& path : old_) {
-    if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) continue;
-    std::error_code ignored; // a directory that is not empty stays
-    fs::path at = path;
-    for (fs::remove(directory_ / at, ignored); at.has_parent_path();) {
-      at = at.parent_path();
-      fs::remove(directory_ / at, ignored);
-    }
+  for (const std::string& path : old_)
+    if (std::find(paths_.begin(), paths_.end(), path) == paths_.end())
+      journal.remove.push_back(path);
+  Commit commit(directory_, staging_, journal);
+  write_journal(staging_, journal);
+  try {
+    commit.run();
+  } catch (...) {
+    if (commit.taken_back()) fs::remove(staging_ / journal_name); // else the next one finishes it
+    throw;
   }
+  commit.tidy();
+  fs::remove(staging_ / journal_name);
   fs::remove_all(staging_);
   adopted_.clear();
   created_ = false;
@@ -101,7 +340,7 @@ void OutputFiles::commit() {
 bool OutputFiles::would_change() const {
   return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& path) {
     const fs::path target = directory_ / path;
-    return fs::exists(target) && read_file(target) != read_file(staging_ / path);
+    return fs::exists(target) && read_file(target) != read_file(staging_ / new_files / path);
   });
 }
 
@@ -109,6 +348,16 @@ std::vector<std::string> OutputFiles::paths() const {
   std::vector<std::string> sorted = paths_;
   std::sort(sorted.begin(), sorted.end());
   return sorted;
+}
+
+void finish_interrupted(const fs::path& directory) {
+  std::error_code error;
+  bool any = false;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    any = any || fs::exists(entry.path() / journal_name, error);
+  if (!any) return;
+  const DirectoryLock lock(directory, DirectoryLock::Wish::if_free);
+  if (lock.held()) clear_abandoned(directory, true);
 }
 
 std::string read_file(const fs::path& file) {

@@ -1,19 +1,31 @@
 // Output that appears complete or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/directory_lock.h"
+
 namespace frictab::io {
 
-// Files of one command, written beside the target directory and moved into place by commit();
-// without commit() nothing changes. Paths are relative to the directory.
+// Files of one command. They are written beside what is there, in a staging directory, and moved
+// into place by commit(); without commit() nothing changes. Paths are relative to the directory,
+// lead nowhere else, and through no symbolic link.
+//
+// commit() is all or nothing. It syncs the files, compares texts with what was to be written, and
+// leaves a journal of its renames in the staging directory; where one of them fails, those before
+// are taken back; where the process dies, the next one to write here finishes them.
 class OutputFiles {
 public:
-  explicit OutputFiles(std::filesystem::path directory);
+  // A directory has one such writer at a time. one_file: a single file among others' files, which
+  // keeps nobody off.
+  enum class Claim { directory, one_file };
+  explicit OutputFiles(std::filesystem::path directory, Claim claim = Claim::directory);
   ~OutputFiles(); // removes what was not committed
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
@@ -27,8 +39,7 @@ public:
   // A file of an earlier run that commit() removes unless it was written anew; directories that
   // become empty go with it.
   void remove_old(const std::string& path);
-  // Replaces what is there file by file, each by a rename; throws std::runtime_error where the disk
-  // refuses.
+  // Throws std::runtime_error where the disk refuses.
   void commit();
   // True where a staged file already exists in the directory with other content: what a command
   // that must not overwrite asks before commit().
@@ -36,13 +47,21 @@ public:
   std::vector<std::string> paths() const; // staged so far, sorted
 
 private:
+  void check_path(const std::string& path) const;
+
   std::filesystem::path directory_;
+  bool created_ = false; // the directory is ours to remove again
+  std::optional<DirectoryLock> lock_;
   std::filesystem::path staging_;
   std::vector<std::string> paths_;
+  std::map<std::string, std::uint64_t> hashes_;          // of texts, by path
   std::map<std::string, std::filesystem::path> adopted_; // by path
   std::vector<std::string> old_;
-  bool created_ = false; // the directory is ours to remove again
 };
+
+// Finishes what a process that died had begun to commit, if there is such; what reads the
+// directory calls it. Does nothing while somebody writes there.
+void finish_interrupted(const std::filesystem::path& directory);
 
 // The whole file; throws InputError where it cannot be read.
 std::string read_file(const std::filesystem::path& file);

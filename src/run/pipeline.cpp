@@ -31,7 +31,7 @@ using table::Table;
 namespace fs = std::filesystem;
 
 Pipeline::Pipeline(job::Job job)
-    : job_(std::move(job)), earlier_(job_), stages_(job_, job_.directory), output_(job_.directory) {
+    : job_(std::move(job)), output_(job_.directory), earlier_(job_), stages_(job_, job_.directory) {
 }
 
 // ---- what the stages are made of ----

@@ -84,9 +84,9 @@ private:
   std::string export_directory(const std::string& target, const table::Table& table) const;
 
   job::Job job_;
+  io::OutputFiles output_; // first: it finishes what a process that died had begun
   ResultDirectory earlier_;
   Stages stages_;
-  io::OutputFiles output_;
   std::optional<JobData> data_;
   std::optional<calibrate::Calibration> calibration_;
   bool new_calibration_ = false; // traces that lie in the directory belong to another one

@@ -1,0 +1,93 @@
+// flock on a file that comes and goes.
+#include "io/directory_lock.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace frictab::io {
+
+namespace {
+
+constexpr std::chrono::seconds patience{5};
+constexpr std::chrono::milliseconds pause{50};
+
+std::string me() {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  return fmt::format("process {} on {} since {:%Y-%m-%d %H:%M:%S}", ::getpid(), host,
+                     fmt::localtime(std::time(nullptr)));
+}
+
+// What its holder wrote, cut to a line.
+std::string holder(int file) {
+  char text[300] = {};
+  const ssize_t got = ::pread(file, text, sizeof text - 1, 0);
+  std::string line(text, got > 0 ? static_cast<std::size_t>(got) : 0);
+  line = line.substr(0, line.find('\n'));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return line.empty() ? "another process" : line;
+}
+
+// Whether the open file still has this name: its holder before removed it perhaps.
+bool is_there(int file, const std::filesystem::path& name) {
+  struct stat open {
+  }, named{};
+  return ::fstat(file, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
+} // namespace
+
+// False where nothing can be held.
+bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish wish) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (true) {
+    open_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (open_ < 0 && wish == Wish::if_free) return false;
+    if (open_ < 0)
+      throw InputError({directory.string(), 0, 0},
+                       fmt::format("cannot write here: {}", std::strerror(errno)),
+                       "choose another directory with -o DIR");
+    const bool locked = ::flock(open_, LOCK_EX | LOCK_NB) == 0;
+    if (locked && is_there(open_, file_)) return true;
+    if (!locked && errno != EWOULDBLOCK && errno != EINTR) return false; // no locks here
+    const std::string who = locked ? "" : holder(open_);
+    ::close(std::exchange(open_, -1));
+    if (!locked && wish == Wish::if_free) return false;
+    if (std::chrono::steady_clock::now() > end)
+      throw InputError({directory.string(), 0, 0}, "another frictab is writing here: " + who,
+                       "wait until it has finished, or choose another directory with -o DIR");
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Wish wish)
+    : file_(directory / ".frictab.lock"), held_(open_and_lock(directory, wish)) {
+  if (!held_) return;
+  const std::string text = me() + "\n";
+  if (::ftruncate(open_, 0) != 0 || ::pwrite(open_, text.data(), text.size(), 0) < 0) {
+    // it is held all the same
+  }
+}
+
+DirectoryLock::~DirectoryLock() {
+  if (open_ < 0) return;
+  if (held_) ::unlink(file_.c_str()); // who waits for it finds another file of this name
+  ::close(open_);
+}
+
+} // namespace frictab::io

@@ -1,0 +1,143 @@
+// Disks that fail and processes that die, at each call that changes a file: results are those of
+// before or those of after, never both, and never claimed where they are neither.
+#include <filesystem>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/atomic_file.h"
+#include "support/run_command.h"
+
+namespace frictab::failing_disk_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using test::run_command;
+using test::run_frictab;
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+
+using Files = std::map<std::string, std::string>;
+
+class SlowFailingDisk : public testing::Test {
+protected:
+  void SetUp() override {
+    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
+                           "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"})
+                  .exit_code,
+              0);
+    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
+                                "validation = \"data/validation.csv\"\n"
+                                "[models]\nuse = [\"coulomb\", \"shear\"]\n"
+                                "[table]\nmodel = \"all\"\n[export]\ntargets = []\n");
+  }
+
+  Files results() const {
+    Files files;
+    for (const auto& entry : fs::recursive_directory_iterator(directory.path("out")))
+      if (entry.is_regular_file() && entry.path().filename() != ".frictab.lock") // held by nobody
+        files[fs::relative(entry.path(), directory.path("out")).string()] =
+            io::read_file(entry.path());
+    return files;
+  }
+
+  void put_back(const Files& files) {
+    fs::remove_all(directory.path("out"));
+    for (const auto& [name, text] : files)
+      directory.write("out/" + name, text);
+  }
+
+  CommandResult frictab(const std::vector<std::string>& arguments,
+                        const std::string& preload = "") {
+    std::vector<std::string> command;
+    if (!preload.empty()) command = {"env", "LD_PRELOAD=" FRICTAB_FAILING_DISK};
+    for (std::size_t at = 0; at < preload.size();) { // words
+      const std::size_t end = std::min(preload.find(' ', at), preload.size());
+      command.push_back(preload.substr(at, end - at));
+      at = end + 1;
+    }
+    command.push_back(FRICTAB_BINARY);
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_command(command, directory.path());
+  }
+
+  // Every call of the command fails in turn. The number of calls.
+  int fail_each(const std::vector<std::string>& command, const std::string& how,
+                const Files& before, const Files& after) {
+    for (int n = 1; n < 2000; ++n) {
+      put_back(before);
+      const CommandResult result =
+          frictab(command, "FAIL_AT=" + std::to_string(n) + " FAIL_HOW=" + how);
+      const bool claimed = result.exit_code == 0;
+      if (claimed) {
+        EXPECT_TRUE(results() == after) << how << " of call " << n << " is not told";
+      }
+      EXPECT_EQ(frictab({"status", "job.toml"}).exit_code, 0);
+      Files found = results();
+      if (how == "kill") // what was never begun to be committed goes with the next that writes
+        std::erase_if(found, [](const auto& file) { return file.first.starts_with(".frictab"); });
+      EXPECT_TRUE(found == before || found == after) << how << " of call " << n << ": mixed";
+      if (claimed && how == "kill") return n; // it has fewer calls
+      if (claimed &&
+          frictab(command, "FAIL_AT=" + std::to_string(n) + " FAIL_HOW=kill").exit_code == 0)
+        return n;
+    }
+    ADD_FAILURE() << "it never ends";
+    return 0;
+  }
+
+  TemporaryDirectory directory;
+};
+
+TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
+  const std::vector<std::string> again = {
+      "calibrate", "job.toml", "-j1", "-q", "--set", "models.use=[\"coulomb\", \"orowan\"]"};
+  ASSERT_EQ(frictab({"calibrate", "job.toml", "-j1"}).exit_code, 0);
+  const Files before = results();
+  ASSERT_EQ(frictab(again).exit_code, 0);
+  const Files after = results();
+  ASSERT_NE(before, after);
+  for (const char* how : {"EIO", "kill"})
+    EXPECT_GT(fail_each(again, how, before, after), 30);
+}
+
+TEST_F(SlowFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
+  const std::vector<std::string> again = {"tabulate", "job.toml", "-j1",
+                                          "-q",       "--set",    "table.tolerance_MPa=0.1"};
+  ASSERT_EQ(frictab({"tabulate", "job.toml", "-j1"}).exit_code, 0);
+  const Files before = results();
+  ASSERT_EQ(frictab(again).exit_code, 0);
+  const Files after = results();
+  ASSERT_NE(before, after);
+  for (const char* how : {"EIO", "kill"})
+    EXPECT_GT(fail_each(again, how, before, after), 20);
+}
+
+TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
+  fs::create_directories(directory.path("out"));
+  const CommandResult result = run_command(
+      {"sh", "-c",
+       "(flock 9; echo 'process 7 on rig since noon' >&9; sleep 8) 9> out/.frictab.lock &\n"
+       "sleep 0.5; '" FRICTAB_BINARY "' calibrate job.toml"},
+      directory.path());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "out: error: another frictab is writing here: process 7 on rig since noon\n"
+                        "  hint: wait until it has finished, or choose another directory with -o "
+                        "DIR\n");
+}
+
+TEST_F(SlowFailingDisk, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
+  fs::create_directories(directory.path("victim"));
+  fs::create_directories(directory.path("out"));
+  fs::create_directory_symlink(directory.path("victim"), directory.path("out/models"));
+  const CommandResult result = frictab({"calibrate", "job.toml"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("out/models: error: is a symbolic link, and nothing is written "
+                                    "through it"));
+  EXPECT_TRUE(fs::is_empty(directory.path("victim")));
+}
+
+} // namespace
+} // namespace frictab::failing_disk_test
