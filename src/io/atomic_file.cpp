@@ -13,10 +13,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 
 namespace frictab::io {
 
@@ -27,10 +26,6 @@ namespace {
 const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file-";
 // In a staging directory.
 const std::string new_files = "new", old_files = "old", journal_name = "journal";
-
-std::uint64_t hash_of(std::string_view text) {
-  return XXH64(text.data(), text.size(), 0);
-}
 
 [[noreturn]] void cannot(const std::string& what, const fs::path& file) {
   throw std::runtime_error(

@@ -256,7 +256,7 @@ void Hdf5Writer::close() {
     const bool same = words ? text == *words
                             : number && std::bit_cast<std::uint64_t>(*number) ==
                                             std::bit_cast<std::uint64_t>(std::get<double>(given));
-    if (!same) data_->differs("attributes, " + name + " of " + object);
+    if (!same) data_->differs(fmt::format("attributes, {} of {}", name, object));
   }
 }
 

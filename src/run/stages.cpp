@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
+#include "core/hash.h"
 #include "core/text.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
@@ -33,8 +32,8 @@ const std::vector<Stage>& stages() {
   return all;
 }
 
-std::string hash_of(const std::string& text) {
-  return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
+std::string hash_text(const std::string& text) {
+  return fmt::format("{:016x}", hash_of(text));
 }
 
 const Stage& stage_named(const std::string& name) {
@@ -75,7 +74,7 @@ Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : jo
 
 std::string Stages::key(const std::string& stage) const {
   const StageInputs& made = made_.at(stage);
-  return hash_of(made.data + made.job + made.laws + made.from + made.version);
+  return hash_text(made.data + made.job + made.laws + made.from + made.version);
 }
 
 // The last stage before it whose results it goes on from: tracing need not have run.
@@ -96,7 +95,7 @@ StageInputs Stages::now(const std::string& stage, const std::string& data) const
   if (first) job += fmt::format("seed {}", job_.calibration.seed);
   const std::string laws = stage == tabulate ? join(job_.table.model, ", ") : "";
   const std::string last = before(stage);
-  return {first ? data : "", hash_of(job), laws, last.empty() ? "" : key(last), FRICTAB_VERSION};
+  return {first ? data : "", hash_text(job), laws, last.empty() ? "" : key(last), FRICTAB_VERSION};
 }
 
 void Stages::record(const std::string& stage, const std::string& data) {
