@@ -34,7 +34,9 @@ void add_model_names(std::vector<std::string>& names, const fs::path& directory)
 
 } // namespace
 
-ResultDirectory::ResultDirectory(const job::Job& job) : directory_(job.directory), job_(job.file) {}
+ResultDirectory::ResultDirectory(const job::Job& job) : directory_(job.directory), job_(job.file) {
+  io::finish_interrupted(directory_);
+}
 
 calibrate::Calibration ResultDirectory::calibration() const {
   const fs::path file = directory_ / "calibration.json";

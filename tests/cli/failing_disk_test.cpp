@@ -1,5 +1,6 @@
 // Disks that fail and processes that die, at each call that changes a file: results are those of
 // before or those of after, never both, and never claimed where they are neither.
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -31,7 +32,7 @@ protected:
     directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
                                 "validation = \"data/validation.csv\"\n"
                                 "[models]\nuse = [\"coulomb\", \"shear\"]\n"
-                                "[table]\nmodel = \"all\"\n[export]\ntargets = []\n");
+                                "[table]\nmodel = \"shear\"\n[export]\ntargets = []\n");
   }
 
   Files results() const {
@@ -74,8 +75,14 @@ protected:
       if (claimed) {
         EXPECT_TRUE(results() == after) << how << " of call " << n << " is not told";
       }
-      EXPECT_EQ(frictab({"status", "job.toml"}).exit_code, 0);
       Files found = results();
+      const bool left = std::any_of(found.begin(), found.end(), [](const auto& file) {
+        return file.first.starts_with(".frictab");
+      });
+      if (left) {
+        EXPECT_EQ(frictab({"status", "job.toml"}).exit_code, 0);
+        found = results();
+      }
       if (how == "kill") // what was never begun to be committed goes with the next that writes
         std::erase_if(found, [](const auto& file) { return file.first.starts_with(".frictab"); });
       EXPECT_TRUE(found == before || found == after) << how << " of call " << n << ": mixed";
@@ -93,7 +100,7 @@ protected:
 
 TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
   const std::vector<std::string> again = {
-      "calibrate", "job.toml", "-j1", "-q", "--set", "models.use=[\"coulomb\", \"orowan\"]"};
+      "calibrate", "job.toml", "-j1", "-q", "--set", "models.use=[\"shear\", \"orowan\"]"};
   ASSERT_EQ(frictab({"calibrate", "job.toml", "-j1"}).exit_code, 0);
   const Files before = results();
   ASSERT_EQ(frictab(again).exit_code, 0);
@@ -119,7 +126,7 @@ TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
   fs::create_directories(directory.path("out"));
   const CommandResult result = run_command(
       {"sh", "-c",
-       "(flock 9; echo 'process 7 on rig since noon' >&9; sleep 8) 9> out/.frictab.lock &\n"
+       "(flock 9; echo 'process 7 on rig since noon' >&9; sleep 6) 9> out/.frictab.lock &\n"
        "sleep 0.5; '" FRICTAB_BINARY "' calibrate job.toml"},
       directory.path());
   EXPECT_EQ(result.exit_code, 2);
