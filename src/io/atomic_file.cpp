@@ -211,16 +211,21 @@ bool is_older_than_a_day(const fs::path& path) {
          std::chrono::hours(24);
 }
 
-// Staging directories of processes that died: what they had begun to commit is finished. A lock
-// says that they died; without one they are left alone for a day.
-void clear_abandoned(const fs::path& directory, bool locked) {
+std::vector<fs::path> staging_directories(const fs::path& directory) {
   std::error_code ignored;
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(directory, ignored))
     if (const std::string name = entry.path().filename().string();
         name.starts_with(staging_prefix) && fs::is_directory(entry.symlink_status(ignored)))
       found.push_back(entry.path());
-  for (const fs::path& staging : found) {
+  return found;
+}
+
+// Those of processes that died: what they had begun to commit is finished. A lock says that they
+// died; without one they are left alone for a day.
+void clear_abandoned(const fs::path& directory, bool locked) {
+  std::error_code ignored;
+  for (const fs::path& staging : staging_directories(directory)) {
     const bool one_file = staging.filename().string().starts_with(one_file_prefix);
     if ((one_file || !locked) && !is_older_than_a_day(staging)) continue;
     if (const auto journal = read_journal(staging / journal_name, directory)) {
@@ -235,10 +240,7 @@ void clear_abandoned(const fs::path& directory, bool locked) {
 
 fs::path make_staging(const fs::path& directory, const std::string& prefix) {
   std::string name = (directory / (prefix + "XXXXXX")).string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw InputError({directory.string(), 0, 0},
-                     fmt::format("cannot write here: {}", std::strerror(errno)),
-                     "choose another directory with -o DIR");
+  if (::mkdtemp(name.data()) == nullptr) cannot_write_here(directory, std::strerror(errno));
   return name;
 }
 
@@ -248,9 +250,7 @@ OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move
   std::error_code error;
   created_ = !fs::exists(directory_, error);
   fs::create_directories(directory_, error);
-  if (error)
-    throw InputError({directory_.string(), 0, 0}, "cannot write here: " + error.message(),
-                     "choose another directory with -o DIR");
+  if (error) cannot_write_here(directory_, error.message());
   if (claim == Claim::directory) {
     lock_.emplace(directory_);
     clear_abandoned(directory_, lock_->held());
@@ -265,10 +265,6 @@ OutputFiles::~OutputFiles() {
   if (created_) fs::remove(directory_, ignored); // only where it is empty
 }
 
-void OutputFiles::check_path(const std::string& path) const {
-  check_inside(directory_, path);
-}
-
 void OutputFiles::write(const std::string& path, std::string_view content) {
   const fs::path file = stage(path);
   std::ofstream out(file, std::ios::binary);
@@ -279,7 +275,7 @@ void OutputFiles::write(const std::string& path, std::string_view content) {
 }
 
 fs::path OutputFiles::stage(const std::string& path) {
-  check_path(path);
+  check_inside(directory_, path);
   if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
   hashes_.erase(path);
   fs::path file = staging_ / new_files / path;
@@ -288,13 +284,13 @@ fs::path OutputFiles::stage(const std::string& path) {
 }
 
 void OutputFiles::adopt(const std::string& path, fs::path file) {
-  check_path(path);
+  check_inside(directory_, path);
   paths_.push_back(path);
   adopted_[path] = std::move(file);
 }
 
 void OutputFiles::remove_old(const std::string& path) {
-  check_path(path);
+  check_inside(directory_, path);
   old_.push_back(path);
 }
 
@@ -346,11 +342,12 @@ std::vector<std::string> OutputFiles::paths() const {
 }
 
 void finish_interrupted(const fs::path& directory) {
-  std::error_code error;
-  bool any = false;
-  for (const auto& entry : fs::directory_iterator(directory, error))
-    any = any || fs::exists(entry.path() / journal_name, error);
-  if (!any) return;
+  const std::vector<fs::path> found = staging_directories(directory);
+  std::error_code ignored;
+  if (std::none_of(found.begin(), found.end(), [&](const fs::path& staging) {
+        return fs::exists(staging / journal_name, ignored);
+      }))
+    return;
   const DirectoryLock lock(directory, DirectoryLock::Wish::if_free);
   if (lock.held()) clear_abandoned(directory, true);
 }

@@ -47,8 +47,6 @@ public:
   std::vector<std::string> paths() const; // staged so far, sorted
 
 private:
-  void check_path(const std::string& path) const;
-
   std::filesystem::path directory_;
   bool created_ = false; // the directory is ours to remove again
   std::optional<DirectoryLock> lock_;

@@ -52,16 +52,18 @@ bool is_there(int file, const std::filesystem::path& name) {
 
 } // namespace
 
+void cannot_write_here(const std::filesystem::path& directory, const std::string& why) {
+  throw InputError({directory.string(), 0, 0}, "cannot write here: " + why,
+                   "choose another directory with -o DIR");
+}
+
 // False where nothing can be held.
 bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish wish) {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (true) {
     open_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (open_ < 0 && wish == Wish::if_free) return false;
-    if (open_ < 0)
-      throw InputError({directory.string(), 0, 0},
-                       fmt::format("cannot write here: {}", std::strerror(errno)),
-                       "choose another directory with -o DIR");
+    if (open_ < 0) cannot_write_here(directory, std::strerror(errno));
     const bool locked = ::flock(open_, LOCK_EX | LOCK_NB) == 0;
     if (locked && is_there(open_, file_)) return true;
     if (!locked && errno != EWOULDBLOCK && errno != EINTR) return false; // no locks here

@@ -6,6 +6,9 @@
 
 namespace frictab::io {
 
+// Throws InputError: nothing can be written in this directory, and why.
+[[noreturn]] void cannot_write_here(const std::filesystem::path& directory, const std::string& why);
+
 // Holds DIRECTORY/.frictab.lock by flock(2), which ends with the process however it ends; the file
 // says who holds it and is gone afterwards. Where the file system has no locks (some network file
 // systems) nothing is held.

@@ -1,6 +1,7 @@
 // Reads HDF5 files in a child process: the library can crash on damaged ones.
 #include "io/hdf5.h"
 
+#include <algorithm>
 #include <fstream>
 #include <mutex>
 

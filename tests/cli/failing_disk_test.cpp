@@ -50,18 +50,14 @@ protected:
       directory.write("out/" + name, text);
   }
 
-  CommandResult frictab(const std::vector<std::string>& arguments,
-                        const std::string& preload = "") {
-    std::vector<std::string> command;
-    if (!preload.empty()) command = {"env", "LD_PRELOAD=" FRICTAB_FAILING_DISK};
-    for (std::size_t at = 0; at < preload.size();) { // words
-      const std::size_t end = std::min(preload.find(' ', at), preload.size());
-      command.push_back(preload.substr(at, end - at));
-      at = end + 1;
-    }
-    command.push_back(FRICTAB_BINARY);
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    return run_command(command, directory.path());
+  CommandResult frictab(const std::vector<std::string>& arguments) {
+    return run_frictab(arguments, directory.path());
+  }
+  // Its call number `at` fails.
+  CommandResult failing(const std::vector<std::string>& arguments, int at, const std::string& how) {
+    return run_frictab(
+        arguments, directory.path(),
+        {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=" + std::to_string(at), "FAIL_HOW=" + how});
   }
 
   // Every call of the command fails in turn. The number of calls.
@@ -69,8 +65,7 @@ protected:
                 const Files& before, const Files& after) {
     for (int n = 1; n < 2000; ++n) {
       put_back(before);
-      const CommandResult result =
-          frictab(command, "FAIL_AT=" + std::to_string(n) + " FAIL_HOW=" + how);
+      const CommandResult result = failing(command, n, how);
       const bool claimed = result.exit_code == 0;
       if (claimed) {
         EXPECT_TRUE(results() == after) << how << " of call " << n << " is not told";
@@ -87,9 +82,7 @@ protected:
         std::erase_if(found, [](const auto& file) { return file.first.starts_with(".frictab"); });
       EXPECT_TRUE(found == before || found == after) << how << " of call " << n << ": mixed";
       if (claimed && how == "kill") return n; // it has fewer calls
-      if (claimed &&
-          frictab(command, "FAIL_AT=" + std::to_string(n) + " FAIL_HOW=kill").exit_code == 0)
-        return n;
+      if (claimed && failing(command, n, "kill").exit_code == 0) return n;
     }
     ADD_FAILURE() << "it never ends";
     return 0;

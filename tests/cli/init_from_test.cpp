@@ -7,6 +7,7 @@
 
 #include "core/program.h"
 #include "core/text.h"
+#include "support/encoding.h"
 #include "support/json.h"
 #include "support/run_command.h"
 
@@ -16,6 +17,7 @@ namespace {
 using test::CommandResult;
 using test::run_frictab;
 using test::TemporaryDirectory;
+using test::utf16;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -42,15 +44,6 @@ std::string german(double value) {
   text[text.size() - 3] = ',';
   if (text.size() > 6) text.insert(text.size() - 6, ".");
   return text;
-}
-
-std::string utf16(const std::string& text) {
-  std::string wide = "\xFF\xFE";
-  for (const char c : text) {
-    wide += c;
-    wide += '\0';
-  }
-  return wide;
 }
 
 // "Time [s];COF;Pressure [MPa]".

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/encoding.h"
 #include "support/json.h"
 #include "support/run_command.h"
 
@@ -15,6 +16,7 @@ namespace {
 using test::CommandResult;
 using test::run_frictab;
 using test::TemporaryDirectory;
+using test::utf16;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -29,15 +31,6 @@ std::string with_comma(double value, int digits) {
   std::string text = fmt::format("{:.{}f}", value, digits);
   if (const auto point = text.find('.'); point != text.npos) text[point] = ',';
   return text;
-}
-
-std::string utf16(const std::string& text) {
-  std::string wide = "\xFF\xFE";
-  for (const char c : text) {
-    wide += c;
-    wide += '\0';
-  }
-  return wide;
 }
 
 class LookAlike : public testing::Test {
