@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "codegen/number_text.h"
+#include "core/error.h"
 #include "core/text.h"
 
 namespace frictab::codegen {
@@ -136,10 +137,15 @@ public:
   Statements out;
 
 private:
-  void count(const Expr& e) {
-    if (++uses_[e.id()] > 1) return;
-    for (const Expr& operand : e.operands())
-      count(operand);
+  void count(const Expr& formula) {
+    std::vector<const Expr*> open{&formula};
+    while (!open.empty()) {
+      const Expr& e = *open.back();
+      open.pop_back();
+      if (++uses_[e.id()] > 1) continue;
+      for (const Expr& operand : e.operands())
+        open.push_back(&operand);
+    }
   }
 
   // Numbers and named constants alone.
@@ -159,8 +165,9 @@ private:
       return {found == spelling_.symbols.end() ? e.name() : found->second};
     }
     const double value = e.value();
-    if (!std::isfinite(value))
-      throw std::logic_error("a formula holds a number that is not finite");
+    if (!std::isfinite(value)) // of a/0 or 1e308*a*10, by a
+      throw InputError({"formula", 0, 0}, "a derivative is a number that is not finite",
+                       "look for a division by 0 and for numbers near 1e308");
     const std::string text =
         spelling_.language == Language::c ? c_number(value) : fortran_number(value);
     return {std::signbit(value) ? "(" + text + ")" : text};

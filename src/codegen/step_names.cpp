@@ -72,6 +72,11 @@ public:
     for_each_part(formula, [this](const Expr& e) { name_step(e); });
   }
 
+  // Innermost first, so that none asks for more than its operands.
+  void find_symbols(const Expr& formula) {
+    inside_out(formula, [this](const Expr& e) { holds(e); });
+  }
+
   // The whole of what holds parameters of one effect and nothing of the law: its factor, or what
   // it adds.
   void name_effects(const Expr& e) {
@@ -187,6 +192,8 @@ private:
 
 StepNames step_names(const std::vector<Wanted>& formulas, const table::Table& table) {
   Namer namer(table);
+  for (const Wanted& wanted : formulas)
+    namer.find_symbols(wanted.formula);
   if (!formulas.empty()) namer.name_effects(formulas[0].formula);
   for (const Wanted& wanted : formulas)
     namer.name_steps(wanted.formula);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
 constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double largest = std::numeric_limits<double>::max();
 
 // 0 times infinity is 0 here: an end that is not reached.
 double product(double a, double b) {
@@ -39,6 +40,10 @@ Bounds power(const Bounds& a, const Bounds& b) {
 
 Bounds outward(double low, double high) {
   if (std::isnan(low) || std::isnan(high)) return whole_line;
+  // A lower end beyond all numbers is no less than the largest; less some of itself it would be
+  // NaN.
+  low = std::min(low, largest);
+  high = std::max(high, -largest);
   return {low - ulps * std::abs(low) - tiny, high + ulps * std::abs(high) + tiny};
 }
 

@@ -113,26 +113,27 @@ Expr with_monomials(Op op, const std::vector<Expr>& a) {
 
 using Done = std::unordered_map<const Expr::Node*, Expr>;
 
-Expr rewrite(const Expr& e, const std::set<std::string>& logarithmic, Done& done) {
-  if (const auto found = done.find(e.id()); found != done.end()) return found->second;
-  Expr result = e;
-  if (e.op() == Op::symbol) {
-    if (logarithmic.count(e.name())) result = exp(e);
-  } else if (!e.operands().empty()) {
-    std::vector<Expr> operands;
-    for (const Expr& operand : e.operands())
-      operands.push_back(rewrite(operand, logarithmic, done));
-    result = with_monomials(e.op(), operands);
-  }
-  done.emplace(e.id(), result);
-  return result;
+Expr rewrite(const Expr& formula, const std::set<std::string>& logarithmic) {
+  Done done;
+  inside_out(formula, [&](const Expr& e) {
+    Expr result = e;
+    if (e.op() == Op::symbol) {
+      if (logarithmic.count(e.name())) result = exp(e);
+    } else if (!e.operands().empty()) {
+      std::vector<Expr> operands;
+      for (const Expr& operand : e.operands())
+        operands.push_back(done.at(operand.id()));
+      result = with_monomials(e.op(), operands);
+    }
+    done.emplace(e.id(), result);
+  });
+  return done.at(formula.id());
 }
 
 } // namespace
 
 Expr in_coordinates(const Expr& formula, const std::set<std::string>& logarithmic) {
-  Done done;
-  return shared(rewrite(formula, logarithmic, done));
+  return shared(rewrite(formula, logarithmic));
 }
 
 Expr log_in_coordinates(const Expr& formula) {

@@ -150,7 +150,9 @@ private:
 } // namespace
 
 Expr derivative(const Expr& formula, const std::string& symbol) {
-  return Tangents(symbol).of(formula);
+  Tangents tangents(symbol);
+  inside_out(formula, [&](const Expr& e) { tangents.of(e); });
+  return tangents.of(formula);
 }
 
 std::vector<Expr> derivatives(const Expr& formula, const std::vector<std::string>& symbols) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "expr/arithmetic.h"
 #include "expr/several.h"
@@ -13,16 +14,47 @@
 namespace frictab::expr {
 
 struct Expr::Node {
+  Node(Op of, double number, std::string named, std::vector<Expr> on);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
   Op op;
   double value;
   std::string name;
   std::vector<Expr> operands;
+  std::size_t depth = 0;
 };
 
-Expr::Expr(double value) : node_(std::make_shared<Node>(Node{Op::constant, value, "", {}})) {}
+Expr::Node::Node(Op of, double number, std::string named, std::vector<Expr> on)
+    : op(of), value(number), name(std::move(named)), operands(std::move(on)) {
+  for (const Expr& operand : operands)
+    depth = std::max(depth, operand.depth() + 1);
+}
+
+// The last owner of a deep formula ends its nodes one after the other, not within each other.
+Expr::Node::~Node() {
+  if (operands.empty()) return;
+  static thread_local std::vector<Expr>* waiting = nullptr;
+  if (waiting) {
+    for (Expr& operand : operands)
+      waiting->push_back(std::move(operand));
+    return;
+  }
+  std::vector<Expr> left = std::move(operands);
+  waiting = &left;
+  while (!left.empty()) {
+    const Expr next = std::move(left.back());
+    left.pop_back();
+  }
+  waiting = nullptr;
+}
+
+Expr::Expr(double value)
+    : node_(std::make_shared<Node>(Op::constant, value, "", std::vector<Expr>())) {}
 
 Expr Expr::symbol(std::string name) {
-  return Expr(std::make_shared<Node>(Node{Op::symbol, 0, std::move(name), {}}));
+  return Expr(std::make_shared<Node>(Op::symbol, 0, std::move(name), std::vector<Expr>()));
 }
 
 Expr Expr::make(Op op, std::initializer_list<Expr> operands) {
@@ -34,7 +66,7 @@ Expr Expr::make(Op op, std::initializer_list<Expr> operands) {
     if (all_constant) values[i] = list[i].value();
   }
   if (all_constant) return Expr(apply(op, values[0], values[1], values[2], values[3]));
-  return Expr(std::make_shared<Node>(Node{op, 0, "", std::move(list)}));
+  return Expr(std::make_shared<Node>(op, 0, "", std::move(list)));
 }
 
 Op Expr::op() const {
@@ -48,6 +80,9 @@ const std::string& Expr::name() const {
 }
 const std::vector<Expr>& Expr::operands() const {
   return node_->operands;
+}
+std::size_t Expr::depth() const {
+  return node_->depth;
 }
 bool Expr::is_constant(double value) const {
   return op() == Op::constant && node_->value == value;
@@ -129,39 +164,67 @@ Expr rebuild(Op op, const std::vector<Expr>& a) {
   return Expr::make(op, {a[0], a[1], a[2], a[3]});
 }
 
-namespace {
-
-void visit(const Expr& e, const std::function<void(const Expr&)>& use,
-           std::set<const Expr::Node*>& seen) {
-  if (!seen.insert(e.id()).second) return;
-  use(e);
-  for (const Expr& operand : e.operands())
-    visit(operand, use, seen);
+void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use) {
+  std::unordered_set<const Expr::Node*> seen;
+  std::vector<const Expr*> open{&formula};
+  while (!open.empty()) {
+    const Expr& e = *open.back();
+    open.pop_back();
+    if (!seen.insert(e.id()).second) continue;
+    use(e);
+    for (std::size_t i = e.operands().size(); i-- > 0;)
+      open.push_back(&e.operands()[i]);
+  }
 }
+
+void inside_out(const Expr& formula, const std::function<void(const Expr&)>& use) {
+  struct Open {
+    const Expr* e;
+    std::size_t next; // of its operands
+  };
+  std::unordered_set<const Expr::Node*> seen;
+  std::vector<Open> open{{&formula, 0}};
+  while (!open.empty()) {
+    const Expr& e = *open.back().e;
+    const std::size_t next = open.back().next++;
+    if (next == 0 && !seen.insert(e.id()).second) {
+      open.pop_back();
+    } else if (next < e.operands().size()) {
+      open.push_back({&e.operands()[next], 0});
+    } else {
+      use(e);
+      open.pop_back();
+    }
+  }
+}
+
+namespace {
 
 using Replaced = std::unordered_map<const Expr::Node*, Expr>;
 
-Expr replace(const Expr& e, const std::map<std::string, Expr>& with, Replaced& done) {
-  if (const auto found = done.find(e.id()); found != done.end()) return found->second;
-  Expr result = e;
-  if (e.op() == Op::symbol) {
-    if (const auto found = with.find(e.name()); found != with.end()) result = found->second;
-  } else if (!e.operands().empty()) {
-    std::vector<Expr> operands;
-    for (const Expr& operand : e.operands())
-      operands.push_back(replace(operand, with, done));
-    result = rebuild(e.op(), operands);
-  }
-  done.emplace(e.id(), result);
-  return result;
+// What its operands have become.
+std::vector<Expr> replaced_operands(const Expr& e, const Replaced& done) {
+  std::vector<Expr> operands;
+  for (const Expr& operand : e.operands())
+    operands.push_back(done.at(operand.id()));
+  return operands;
+}
+
+Expr replace(const Expr& formula, const std::map<std::string, Expr>& with, Replaced& done) {
+  inside_out(formula, [&](const Expr& e) {
+    if (done.count(e.id())) return;
+    Expr result = e;
+    if (e.op() == Op::symbol) {
+      if (const auto found = with.find(e.name()); found != with.end()) result = found->second;
+    } else if (!e.operands().empty()) {
+      result = rebuild(e.op(), replaced_operands(e, done));
+    }
+    done.emplace(e.id(), result);
+  });
+  return done.at(formula.id());
 }
 
 } // namespace
-
-void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use) {
-  std::set<const Expr::Node*> seen;
-  visit(formula, use, seen);
-}
 
 std::set<std::string> symbols(const Expr& formula) {
   std::set<std::string> names;
@@ -176,25 +239,23 @@ namespace {
 // What makes two nodes equal, once their operands are shared.
 using NodeKey = std::tuple<Op, std::uint64_t, std::string, std::vector<const Expr::Node*>>;
 
-Expr share(const Expr& e, std::map<NodeKey, Expr>& known, Replaced& done) {
-  if (const auto found = done.find(e.id()); found != done.end()) return found->second;
+Expr share_node(const Expr& e, const std::vector<Expr>& operands, std::map<NodeKey, Expr>& known) {
   NodeKey key{e.op(), 0, "", {}};
   if (e.op() == Op::constant) std::get<1>(key) = std::bit_cast<std::uint64_t>(e.value());
   if (e.op() == Op::symbol) std::get<2>(key) = e.name();
-  std::vector<Expr> operands;
-  for (const Expr& operand : e.operands()) {
-    operands.push_back(share(operand, known, done));
-    std::get<3>(key).push_back(operands.back().id());
-  }
-  const auto found = known.find(key);
-  Expr result = e;
-  if (found != known.end())
-    result = found->second;
-  else if (!operands.empty())
-    result = rebuild(e.op(), operands);
+  for (const Expr& operand : operands)
+    std::get<3>(key).push_back(operand.id());
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  const Expr result = operands.empty() ? e : rebuild(e.op(), operands);
   known.emplace(std::move(key), result);
-  done.emplace(e.id(), result);
   return result;
+}
+
+Expr share(const Expr& formula, std::map<NodeKey, Expr>& known, Replaced& done) {
+  inside_out(formula, [&](const Expr& e) {
+    if (!done.count(e.id())) done.emplace(e.id(), share_node(e, replaced_operands(e, done), known));
+  });
+  return done.at(formula.id());
 }
 
 } // namespace

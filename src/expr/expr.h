@@ -47,6 +47,7 @@ public:
   double value() const;            // of a constant
   const std::string& name() const; // of a symbol
   const std::vector<Expr>& operands() const;
+  std::size_t depth() const; // operations within operations; 0 of numbers and symbols
   const Node* id() const { return node_.get(); } // equal for shared subformulas
 
   bool is_constant(double value) const;
@@ -75,6 +76,11 @@ Expr where_le(const Expr& a, const Expr& b, const Expr& x, const Expr& y);
 // Calls `use` once for each subformula, the formula itself first.
 void for_each_part(const Expr& formula, const std::function<void(const Expr&)>& use);
 
+// The same with the operands before what holds them, from left to right; walks of formulas are
+// built on it, because a function that calls itself for each operand ends the stack on a deep
+// formula.
+void inside_out(const Expr& formula, const std::function<void(const Expr&)>& use);
+
 // Names of all symbols in the formula, sorted.
 std::set<std::string> symbols(const Expr& formula);
 
@@ -94,8 +100,18 @@ Expr shared(const Expr& formula);
 // parse_expr reads it back to a formula with the same bits. Constants round-trip.
 std::string to_text(const Expr& formula);
 
+// How large a formula may be that is read from a text: ten times what frictab itself writes, and
+// far from what would end the stack (1 MB of it is enough at these limits).
+struct FormulaLimits {
+  static constexpr std::size_t text = std::size_t{1} << 20; // bytes
+  static constexpr std::size_t terms = 200000;              // numbers, names and operations
+  static constexpr std::size_t depth = 1000;                // Expr::depth: a + b + c is 2
+  static constexpr std::size_t name = 255;                  // bytes
+};
+
 // Reads what to_text writes, and anything a person would write in that grammar. Throws InputError
-// with the column of the fault; `file` and `line` are only for its message.
+// with the column of the fault, also where the formula is larger than FormulaLimits; `file` is only
+// for its message.
 Expr parse_expr(std::string_view text, std::string_view file = "formula");
 
 } // namespace frictab::expr

@@ -14,29 +14,52 @@ namespace frictab::expr {
 
 namespace {
 
-constexpr int max_depth = 200; // nested brackets; deeper is no formula a person wrote
+constexpr int max_depth = 200;    // nested brackets; deeper is no formula a person wrote
+constexpr std::size_t shown = 60; // bytes of a long formula, to either side of a fault
 
 class Parser {
 public:
   Parser(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
   Expr parse() {
+    if (text_.size() > FormulaLimits::text)
+      too_large(fmt::format("{} bytes", text_.size()), FormulaLimits::text);
     Expr e = sum();
     if (at_ < text_.size()) fail(fmt::format("unexpected '{}'", text_[at_]));
-    if (!is_finite(e)) fail("a constant term is not a finite number");
+    for_each_part(e, [this](const Expr& part) { // a division by a constant 0 is folded at once
+      if (part.op() == Op::constant && !std::isfinite(part.value()))
+        fail("a constant term is not a finite number");
+    });
     return e;
   }
 
 private:
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
-    throw InputError({std::string(file_), 1, at_ + 1},
-                     what + " in the formula '" + std::string(text_) + "'", hint);
+    throw InputError({std::string(file_), 1, at_ + 1}, what + " in the formula '" + excerpt() + "'",
+                     hint);
   }
 
-  // Division by a constant 0 and the like are folded at once.
-  static bool is_finite(const Expr& e) {
-    return (e.op() != Op::constant || std::isfinite(e.value())) &&
-           std::all_of(e.operands().begin(), e.operands().end(), is_finite);
+  [[noreturn]] void too_large(const std::string& what, std::size_t most) const {
+    fail(fmt::format("{} are too many", what),
+         fmt::format("at most {}; nothing that frictab writes comes near: is this a formula?",
+                     most));
+  }
+
+  // The formula, or what stands around the fault in a long one.
+  std::string excerpt() const {
+    if (text_.size() <= 4 * shown) return std::string(text_);
+    const std::size_t first = at_ - std::min(at_, shown);
+    const std::string part(text_.substr(first, at_ + shown - first));
+    return (first > 0 ? "... " : "") + part + (at_ + shown < text_.size() ? " ..." : "");
+  }
+
+  // What has been read, where it is not too large.
+  Expr counted(Expr e) {
+    if (++terms_ > FormulaLimits::terms)
+      too_large(fmt::format("{} numbers, names and operations", terms_), FormulaLimits::terms);
+    if (e.depth() > FormulaLimits::depth)
+      too_large(fmt::format("{} operations within each other", e.depth()), FormulaLimits::depth);
+    return e;
   }
 
   void skip() {
@@ -60,9 +83,9 @@ private:
     Expr e = product();
     for (;;) {
       if (accept("+"))
-        e = e + product();
+        e = counted(e + product());
       else if (accept("-"))
-        e = e - product();
+        e = counted(e - product());
       else
         return e;
     }
@@ -73,9 +96,9 @@ private:
     for (;;) {
       if (text_.substr(at_, 2) == "**") fail("unexpected '**'");
       if (accept("*"))
-        e = e * unary();
+        e = counted(e * unary());
       else if (accept("/"))
-        e = e / unary();
+        e = counted(e / unary());
       else
         return e;
     }
@@ -83,14 +106,14 @@ private:
 
   Expr unary() {
     if (++depth_ > max_depth) fail("too many nested terms");
-    Expr e = accept("-") ? -unary() : power();
+    Expr e = accept("-") ? counted(-unary()) : power();
     --depth_;
     return e;
   }
 
   Expr power() {
     Expr base = atom();
-    if (accept("**")) return pow(base, unary());
+    if (accept("**")) return counted(pow(base, unary()));
     return base;
   }
 
@@ -119,18 +142,21 @@ private:
     if (code != std::errc()) fail("not a number");
     at_ = static_cast<std::size_t>(end - text_.data());
     skip();
-    return value;
+    return counted(value);
   }
 
   Expr name() {
     std::size_t end = at_;
     while (end < text_.size() && (is_name(text_[end]) || (text_[end] >= '0' && text_[end] <= '9')))
       ++end;
+    if (end - at_ > FormulaLimits::name)
+      fail(fmt::format("a name of {} characters", end - at_),
+           fmt::format("at most {}", FormulaLimits::name));
     const std::string name(text_.substr(at_, end - at_));
     at_ = end;
     skip();
     if (at_ < text_.size() && text_[at_] == '(') return call(name);
-    return Expr::symbol(name);
+    return counted(Expr::symbol(name));
   }
 
   Expr call(const std::string& name) {
@@ -149,25 +175,26 @@ private:
     const Expr a = sum();
     if (const auto found = one.find(name); found != one.end()) {
       expect(")");
-      return Expr::make(found->second, {a});
+      return counted(Expr::make(found->second, {a}));
     }
     expect(is_where ? "<=" : ",");
     const Expr b = sum();
     if (!is_where) {
       expect(")");
-      return Expr::make(two.at(name), {a, b});
+      return counted(Expr::make(two.at(name), {a, b}));
     }
     expect(",");
     const Expr x = sum();
     expect(",");
     const Expr y = sum();
     expect(")");
-    return where_le(a, b, x, y);
+    return counted(where_le(a, b, x, y));
   }
 
   std::string_view text_;
   std::string_view file_;
   std::size_t at_ = 0;
+  std::size_t terms_ = 0;
   int depth_ = 0;
 };
 

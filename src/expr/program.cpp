@@ -2,8 +2,12 @@
 #include "expr/program.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 
 #include "core/parallel.h"
 #include "expr/arithmetic.h"
@@ -22,8 +26,21 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 Program::Program(const Expr& formula, std::vector<std::string> columns,
                  std::vector<std::string> scalars)
     : columns_(std::move(columns)), scalars_(std::move(scalars)) {
-  std::vector<std::pair<const Expr::Node*, std::size_t>> seen;
-  add(formula, seen);
+  // The same operation on the same operands is computed once.
+  using Same = std::tuple<Op, std::uint64_t, std::size_t, Kind, std::array<std::size_t, 4>>;
+  std::map<Same, std::size_t> known;
+  std::unordered_map<const Expr::Node*, std::size_t> index;
+  inside_out(formula, [&](const Expr& e) {
+    std::vector<std::size_t> operands;
+    for (const Expr& operand : e.operands())
+      operands.push_back(index.at(operand.id()));
+    const Instruction next = instruction(e, operands);
+    const Same same{next.op, std::bit_cast<std::uint64_t>(next.value), next.index, next.kind,
+                    std::to_array(next.a)};
+    const auto [at, is_new] = known.emplace(same, code_.size());
+    if (is_new) code_.push_back(next);
+    index.emplace(e.id(), at->second);
+  });
   assign_slots();
   assign_steps();
 }
@@ -73,10 +90,8 @@ void Program::assign_steps() {
   }
 }
 
-std::size_t Program::add(const Expr& e,
-                         std::vector<std::pair<const Expr::Node*, std::size_t>>& seen) {
-  for (const auto& [node, index] : seen)
-    if (node == e.id()) return index;
+Program::Instruction Program::instruction(const Expr& e,
+                                          std::span<const std::size_t> operands) const {
   Instruction next{.op = e.op(), .kind = Kind::scalar};
   if (e.op() == Op::constant) next.value = e.value();
   if (e.op() == Op::symbol) {
@@ -88,8 +103,7 @@ std::size_t Program::add(const Expr& e,
     next.index = column < columns_.size() ? column : scalar;
   }
   bool on_scalars = false, on_columns = false;
-  for (const Expr& operand : e.operands()) {
-    const std::size_t index = add(operand, seen);
+  for (const std::size_t index : operands) {
     const Instruction& from = code_[index];
     on_columns = on_columns || from.kind != Kind::scalar;
     on_scalars = on_scalars || from.kind == Kind::row ||
@@ -97,19 +111,7 @@ std::size_t Program::add(const Expr& e,
     next.a[next.operands++] = index;
   }
   if (on_columns) next.kind = on_scalars ? Kind::row : Kind::data;
-  for (std::size_t i = 0; i < code_.size(); ++i) { // the same operation on the same operands
-    const Instruction& other = code_[i];
-    if (other.op == next.op && other.kind == next.kind && other.index == next.index &&
-        std::equal(other.a, other.a + 4, next.a) && other.operands == next.operands &&
-        (next.op != Op::constant ||
-         (other.value == next.value && std::signbit(other.value) == std::signbit(next.value)))) {
-      seen.emplace_back(e.id(), i);
-      return i;
-    }
-  }
-  code_.push_back(next);
-  seen.emplace_back(e.id(), code_.size() - 1);
-  return code_.size() - 1;
+  return next;
 }
 
 void Program::forward(std::span<const double> row, std::span<const double> scalars,

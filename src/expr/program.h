@@ -55,7 +55,7 @@ private:
   void assign_slots();
   void assign_steps();
   void forward(std::span<const double> row, std::span<const double> scalars, double* v) const;
-  std::size_t add(const Expr& e, std::vector<std::pair<const Expr::Node*, std::size_t>>& seen);
+  Instruction instruction(const Expr& e, std::span<const std::size_t> operands) const;
 
   std::vector<Instruction> code_;
   std::vector<Step> steps_; // the operations of code_; constants and symbols are read in place

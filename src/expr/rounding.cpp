@@ -180,7 +180,9 @@ SingleBound bound_in_single(const Expr& formula,
       leaves[name] = leaf(symbols.at(name), rest % pieces, pieces);
       rest /= pieces;
     }
-    const SingleBound one = Analysis(leaves).of(formula);
+    Analysis analysis(leaves);
+    inside_out(formula, [&](const Expr& e) { analysis.of(e); });
+    const SingleBound one = analysis.of(formula);
     all.exact = hull(all.exact, one.exact);
     all.error = std::max(all.error, one.error);
   }

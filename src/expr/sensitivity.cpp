@@ -107,21 +107,18 @@ Sensitivity::Sensitivity(const Expr& formula, const std::vector<std::string>& co
     return static_cast<std::size_t>(found - columns.begin());
   };
   of_ = index(of);
-  const auto add = [&](const auto& self, const Expr& e) -> std::size_t {
-    if (const auto found = done.find(e.id()); found != done.end()) return found->second;
+  inside_out(formula, [&](const Expr& e) {
     Step step{.op = e.op()};
     if (e.op() == Op::constant) step.value = e.value();
     if (e.op() == Op::symbol) step.symbol = index(e.name());
     for (std::size_t i = 0; i < e.operands().size(); ++i)
-      step.a[i] = self(self, e.operands()[i]);
+      step.a[i] = done.at(e.operands()[i].id());
     step.changes = e.op() == Op::symbol && step.symbol == of_;
     for (std::size_t i = 0; i < e.operands().size(); ++i)
       step.changes = step.changes || steps_[step.a[i]].changes;
     steps_.push_back(step);
     done.emplace(e.id(), steps_.size() - 1);
-    return steps_.size() - 1;
-  };
-  add(add, formula);
+  });
 }
 
 Sensitivity::Result Sensitivity::operator()(std::span<const Bounds> box) const {

@@ -296,8 +296,7 @@ TaylorProgram::TaylorProgram(const Expr& formula, const std::vector<std::string>
                              const Monomials& monomials)
     : monomials_(monomials) {
   std::unordered_map<const Expr::Node*, std::size_t> done;
-  const auto add = [&](const auto& self, const Expr& e) -> std::size_t {
-    if (const auto found = done.find(e.id()); found != done.end()) return found->second;
+  inside_out(formula, [&](const Expr& e) {
     Step step{.op = e.op()};
     if (e.op() == Op::constant) step.value = e.value();
     if (e.op() == Op::symbol) {
@@ -306,13 +305,11 @@ TaylorProgram::TaylorProgram(const Expr& formula, const std::vector<std::string>
         throw std::logic_error("formula has the unknown symbol '" + e.name() + "'");
       step.symbol = static_cast<std::size_t>(column - columns.begin());
     }
-    for (std::size_t i = 0; i < e.operands().size(); ++i)
-      step.a[step.operands++] = self(self, e.operands()[i]);
+    for (const Expr& operand : e.operands())
+      step.a[step.operands++] = done.at(operand.id());
     steps_.push_back(step);
     done.emplace(e.id(), steps_.size() - 1);
-    return steps_.size() - 1;
-  };
-  add(add, formula);
+  });
   find_changes();
 }
 

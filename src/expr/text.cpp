@@ -58,51 +58,70 @@ std::string number(double value) {
   return fmt::format("{}", value);
 }
 
-std::string text_at(const Expr& e, int least) {
-  const auto& a = e.operands();
-  std::string text;
+void write(std::string& text, const Expr& e, int least);
+
+// Operands with a sign between them, each as strong as the place asks.
+void write_pair(std::string& text, const Expr& e, const char* sign, int left, int right) {
+  write(text, e.operands()[0], left);
+  text += sign;
+  write(text, e.operands()[1], right);
+}
+
+void write_call(std::string& text, const Expr& e) {
+  const bool where = e.op() == Op::where_le;
+  text += where ? "where" : function_name(e.op());
+  for (std::size_t i = 0; i < e.operands().size(); ++i) {
+    text += i == 0 ? "(" : where && i == 1 ? " <= " : ", ";
+    write(text, e.operands()[i], 1);
+  }
+  text += ")";
+}
+
+void write_bare(std::string& text, const Expr& e) {
   switch (e.op()) {
   case Op::constant:
-    text = number(e.value());
+    text += number(e.value());
     break;
   case Op::symbol:
-    text = e.name();
+    text += e.name();
     break;
   case Op::negate:
-    text = "-" + text_at(a[0], 3);
+    text += "-";
+    write(text, e.operands()[0], 3);
     break;
   case Op::add:
-    text = text_at(a[0], 1) + " + " + text_at(a[1], 2);
+    write_pair(text, e, " + ", 1, 2);
     break;
   case Op::subtract:
-    text = text_at(a[0], 1) + " - " + text_at(a[1], 2);
+    write_pair(text, e, " - ", 1, 2);
     break;
   case Op::multiply:
-    text = text_at(a[0], 2) + "*" + text_at(a[1], 3);
+    write_pair(text, e, "*", 2, 3);
     break;
   case Op::divide:
-    text = text_at(a[0], 2) + "/" + text_at(a[1], 3);
+    write_pair(text, e, "/", 2, 3);
     break;
   case Op::power:
-    text = text_at(a[0], 5) + "**" + text_at(a[1], 4);
-    break;
-  case Op::where_le:
-    text = "where(" + text_at(a[0], 1) + " <= " + text_at(a[1], 1) + ", " + text_at(a[2], 1) +
-           ", " + text_at(a[3], 1) + ")";
+    write_pair(text, e, "**", 5, 4);
     break;
   default:
-    text = std::string(function_name(e.op())) + "(" + text_at(a[0], 1);
-    for (std::size_t i = 1; i < a.size(); ++i)
-      text += ", " + text_at(a[i], 1);
-    text += ")";
+    write_call(text, e);
   }
-  return strength(e) < least ? "(" + text + ")" : text;
+}
+
+void write(std::string& text, const Expr& e, int least) {
+  const bool brackets = strength(e) < least;
+  if (brackets) text += "(";
+  write_bare(text, e);
+  if (brackets) text += ")";
 }
 
 } // namespace
 
 std::string to_text(const Expr& formula) {
-  return text_at(formula, 1);
+  std::string text;
+  write(text, formula, 1);
+  return text;
 }
 
 } // namespace frictab::expr

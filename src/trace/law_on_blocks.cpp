@@ -25,19 +25,20 @@ public:
   Smoother(double width, const std::vector<std::string>& parameters)
       : width_(width), parameters_(parameters.begin(), parameters.end()) {}
 
-  Expr operator()(const Expr& e) {
-    if (e.operands().empty()) return e;
-    if (const auto done = done_.find(e.id()); done != done_.end()) return done->second;
-    std::vector<Expr> operands;
-    for (const Expr& operand : e.operands())
-      operands.push_back((*this)(operand));
-    const bool smooth = e.op() == expr::Op::minimum && depends(e);
-    const Expr result = smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
-    done_.emplace(e.id(), result);
-    return result;
+  Expr operator()(const Expr& formula) {
+    inside_out(formula, [this](const Expr& e) { done_.emplace(e.id(), smoothed(e)); });
+    return done_.at(formula.id());
   }
 
 private:
+  Expr smoothed(const Expr& e) const {
+    if (e.operands().empty()) return e;
+    std::vector<Expr> operands;
+    for (const Expr& operand : e.operands())
+      operands.push_back(done_.at(operand.id()));
+    const bool smooth = e.op() == expr::Op::minimum && depends(e);
+    return smooth ? rounded(operands[0], operands[1]) : rebuild(e.op(), operands);
+  }
   bool depends(const Expr& e) const {
     const auto used = expr::symbols(e);
     return std::any_of(used.begin(), used.end(),

@@ -1,5 +1,6 @@
 // What encloses a formula must hold all of its values: bounds, slopes, polynomials with errors.
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,19 @@ Box random_box(Random& random) {
   const double wide = std::pow(10, random.uniform(-3, 0));
   const double x = random.uniform(0.2, 3), y = random.uniform(0.2, 3);
   return {{x, x + wide}, {y, y + wide * random.uniform()}};
+}
+
+TEST(Enclosure, NumbersBeyondTheLargestLeaveAnInterval) {
+  const double beyond = HUGE_VAL, largest = std::numeric_limits<double>::max();
+  for (const Bounds& range : {expr::outward(beyond, beyond), expr::outward(-beyond, -beyond),
+                              expr::outward(-beyond, beyond), expr::outward(largest, beyond)}) {
+    EXPECT_LE(range.low, range.high);
+    EXPECT_LE(range.low, largest);
+    EXPECT_GE(range.high, -largest);
+  }
+  const Bounds power = expr::apply(Op::power, {250, 312}, {333, 416}, {}, {});
+  EXPECT_LE(power.low, largest) << "of values that are too large for a double";
+  EXPECT_EQ(power.high, beyond);
 }
 
 class SlowEncloseFormula : public testing::TestWithParam<const char*> {};
