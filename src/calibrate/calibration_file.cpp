@@ -22,6 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* model_schema = "frictab/model/1";
+constexpr const char* calibration_schema = "frictab/calibration/1";
 
 const char* loss_name(Loss loss) {
   switch (loss) {
@@ -89,21 +90,21 @@ Json network_json(const NetworkRecord& r) {
 NetworkRecord parse_network(const Json& j) {
   NetworkRecord r;
   r.inputs = j.at("inputs").get<std::vector<std::string>>();
-  r.hidden = j.at("hidden");
-  r.members = j.at("members");
-  r.dropped = j.at("dropped");
-  r.weights = j.at("weights_per_member");
-  r.bins = j.at("bins");
-  r.folds = j.at("folds_of_experiments");
-  r.repeats = j.at("repeats");
+  r.hidden = io::count_of(j.at("hidden"));
+  r.members = io::count_of(j.at("members"));
+  r.dropped = io::count_of(j.at("dropped"));
+  r.weights = io::count_of(j.at("weights_per_member"));
+  r.bins = io::count_of(j.at("bins"));
+  r.folds = io::count_of(j.at("folds_of_experiments"));
+  r.repeats = io::count_of(j.at("repeats"));
   r.decays = j.at("decays").get<std::vector<double>>();
   r.cv_rmse_MPa = j.at("cv_rmse_MPa").get<std::vector<double>>();
   r.decay = j.at("decay");
   r.noise_MPa = j.at("noise_of_a_bin_MPa");
   r.gain = j.at("scatter_between_experiments");
   r.spread_MPa = j.at("spread_of_members_MPa");
-  r.nets = j.at("nets_trained");
-  r.iterations = j.at("iterations");
+  r.nets = io::count_of(j.at("nets_trained"));
+  r.iterations = io::count_of(j.at("iterations"));
   return r;
 }
 
@@ -150,7 +151,7 @@ Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
                                  fit.at("name").get<std::string>(), base),
                      suggest(base, models::law_names()));
   Law law = *models::find_law(base);
-  law.name = fit.at("name");
+  law.name = models::checked_model_name(fit.at("name"), file);
   law.title = fit.at("title");
   law.formula = fit.at("formula");
   law.base = base;
@@ -190,8 +191,9 @@ BandCheck parse_band(const Json& j) {
   const auto factor = [&](const char* name) {
     return j.at(name).is_null() ? std::nullopt : std::optional(j.at(name).get<double>());
   };
-  return {factor("factor_5"), factor("factor_95"), j.at("validation_experiments_inside"),
-          j.at("validation_experiments")};
+  return {factor("factor_5"), factor("factor_95"),
+          io::count_of(j.at("validation_experiments_inside")),
+          io::count_of(j.at("validation_experiments"))};
 }
 
 Json fit_json(const ModelFit& fit) {
@@ -280,7 +282,7 @@ std::string calibration_json(const Calibration& calibration) {
   Json models = Json::array();
   for (const ModelFit& fit : calibration.fits)
     models.push_back(fit_json(fit));
-  return io::json_text({{"schema", "frictab/calibration/1"},
+  return io::json_text({{"schema", calibration_schema},
                         {"tool_version", FRICTAB_VERSION},
                         {"data_hash", calibration.data_hash},
                         {"synthetic_data", calibration.synthetic},
@@ -298,11 +300,12 @@ std::string calibration_json(const Calibration& calibration) {
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
   const Json j = io::parse_json(text, file);
+  io::check_schema(j, calibration_schema, file, "calibrate again");
   Calibration calibration;
   io::read_json(file, "calibrate again", [&] {
     calibration.data_hash = j.at("data_hash");
     calibration.synthetic = j.at("synthetic_data");
-    calibration.seed = j.at("seed");
+    calibration.seed = io::count_of(j.at("seed"));
     calibration.loss = parse_loss(j.at("loss").get<std::string>());
     calibration.validation_experiments =
         j.at("validation_experiments").get<std::vector<std::string>>();
@@ -317,7 +320,8 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       ModelFit fit = parse_fit(one, file);
       fit.std_error_method = one.at("std_error_method");
       fit.termination = one.at("termination");
-      fit.evaluations = one.at("evaluations");
+      fit.evaluations = io::count_of(one.at("evaluations"));
+      fit.seconds = one.at("wall_time_below_s").get<double>() - 0.5; // is written the same again
       fit.remarks = one.at("remarks").get<std::vector<std::string>>();
       fit.training = parse_metrics(one.at("training"));
       fit.validation = parse_metrics(one.at("validation"));
@@ -344,12 +348,9 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
 
 ModelFit parse_model_fit(std::string_view text, const std::string& file) {
   const Json j = io::parse_json(text, file);
+  io::check_schema(j, model_schema, file, "give models/NAME.json of a run");
   ModelFit fit;
-  io::read_json(file, "calibrate again", [&] {
-    if (j.contains("schema") && j.at("schema") != model_schema)
-      throw InputError({file, 0, 0}, "is no file of one law", "give models/NAME.json of a run");
-    fit = parse_fit(j, file);
-  });
+  io::read_json(file, "calibrate again", [&] { fit = parse_fit(j, file); });
   return fit;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/no_value.h"
+#include "io/json.h"
 
 namespace frictab::calibrate {
 
@@ -51,9 +52,9 @@ NoiseFloor parse_floor(const Json& j) {
           number_or_nan(j.at("rmse_MPa")),
           parse_interval(j.at("mae_95")),
           parse_interval(j.at("rmse_95")),
-          j.at("n_rows"),
-          j.at("n_experiments"),
-          j.at("n_groups"),
+          io::count_of(j.at("n_rows")),
+          io::count_of(j.at("n_experiments")),
+          io::count_of(j.at("n_groups")),
           j.at("lower_bound")};
 }
 
@@ -99,14 +100,10 @@ Json metrics_json(const Metrics& m) {
 }
 
 Metrics parse_metrics(const Json& j) {
-  return {number_or_nan(j.at("mae_MPa")),
-          number_or_nan(j.at("rmse_MPa")),
-          number_or_nan(j.at("bias_MPa")),
-          parse_interval(j.at("mae_95")),
-          parse_interval(j.at("rmse_95")),
-          parse_interval(j.at("bias_95")),
-          j.at("n_rows"),
-          j.at("n_experiments")};
+  return {number_or_nan(j.at("mae_MPa")),  number_or_nan(j.at("rmse_MPa")),
+          number_or_nan(j.at("bias_MPa")), parse_interval(j.at("mae_95")),
+          parse_interval(j.at("rmse_95")), parse_interval(j.at("bias_95")),
+          io::count_of(j.at("n_rows")),    io::count_of(j.at("n_experiments"))};
 }
 
 const char* judged_by_name(JudgedBy judged_by) {
@@ -150,7 +147,7 @@ std::vector<ExperimentError> parse_unseen(const Json& j,
                                           const std::vector<std::string>& experiments) {
   std::vector<ExperimentError> errors;
   for (std::size_t e = 0; !j.is_null() && e < experiments.size(); ++e)
-    errors.push_back({experiments[e], true, j.at("n_rows").at(e),
+    errors.push_back({experiments[e], true, io::count_of(j.at("n_rows").at(e)),
                       number_or_nan(j.at("mae_MPa").at(e)), number_or_nan(j.at("rmse_MPa").at(e)),
                       number_or_nan(j.at("bias_MPa").at(e)), number_or_nan(j.at("gain").at(e))});
   return errors;
@@ -177,7 +174,7 @@ Choice parse_choice(const Json& j) {
   c.law = j.at("law");
   c.mae_MPa = number_or_nan(j.at("mae_MPa"));
   c.expected_mae_MPa = number_or_nan(j.at("expected_mae_MPa"));
-  c.draws = j.at("draws");
+  c.draws = io::count_of(j.at("draws"));
   c.splits = j.at("drawn") == "splits";
   for (const Json& one : j.at("best_in"))
     c.best_in.push_back({one.at("name"), number_or_nan(one.at("share"))});
@@ -206,8 +203,8 @@ Json comparisons_json(const Comparisons& c) {
 
 Comparisons parse_comparisons(const Json& j) {
   Comparisons c;
-  c.n_experiments = j.at("n_experiments");
-  c.resamples = j.at("resamples");
+  c.n_experiments = io::count_of(j.at("n_experiments"));
+  c.resamples = io::count_of(j.at("resamples"));
   for (const Json& law : j.at("best_of_all")) {
     c.laws.push_back(law.at("name"));
     c.best_p_values.push_back(number_or_nan(law.at("p_value")));
@@ -254,10 +251,10 @@ Conditional parse_conditional(const Json& j) {
   Conditional c;
   if (j.is_null()) return c;
   c.condition_on_mm = number_or_nan(j.at("condition_on_mm"));
-  c.usual_rows = j.at("usual_rows");
-  c.n_experiments = j.at("n_experiments");
-  c.n_without_start = j.at("n_without_start");
-  c.n_without_rest = j.at("n_without_rest");
+  c.usual_rows = io::count_of(j.at("usual_rows"));
+  c.n_experiments = io::count_of(j.at("n_experiments"));
+  c.n_without_start = io::count_of(j.at("n_without_start"));
+  c.n_without_rest = io::count_of(j.at("n_without_rest"));
   for (const Json& law : j.at("models"))
     c.laws.push_back(parse_conditional_fit(law));
   return c;

@@ -257,13 +257,18 @@ void LawProblem::add_uncertainty(LawFit& fit, Loss kind, double huber_delta_MPa,
   // For L1 the cost is the mean residual: the score is its sign, but for a thousandth of that.
   const LossFunction loss = kind == Loss::l1 ? LossFunction{kind, 1e-3 * result.cost, result.cost}
                                              : LossFunction{kind, huber_delta_MPa};
-  fit.uncertainty = cluster_sandwich(law_.parameters, result.parameters,
-                                     sums_by_experiment(all, loss, result.parameters, first_row));
+  const auto uncertainty = [&] {
+    return cluster_sandwich(law_.parameters, result.parameters,
+                            sums_by_experiment(all, loss, result.parameters, first_row));
+  };
+  fit.uncertainty = uncertainty();
   if (fit.uncertainty.settled == result.parameters) return;
   const double here = mean_cost(all, loss, result.parameters);
   const FitResult settled = fit_from(all, loss, fit.uncertainty.settled);
   result.evaluations += settled.evaluations;
-  if (settled.cost <= here * (1 + 1e-9)) result.parameters = settled.parameters;
+  if (settled.cost > here * (1 + 1e-9)) return;
+  result.parameters = settled.parameters;
+  fit.uncertainty = uncertainty(); // of these ones: one that was at a bound may have left it
 }
 
 } // namespace frictab::calibrate

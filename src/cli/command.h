@@ -39,6 +39,12 @@ struct Command {
   std::function<int()> (*declare)(CLI::App& app, const CommonOptions& common) = nullptr;
 };
 
+// In a catch block: says on stderr what was thrown, and gives the exit code for it.
+int tell_error();
+
+// To stdout, as `printable` (core/text.h) has it: what comes from files moves no cursor.
+void show(const std::string& text);
+
 // A line to stderr, unless -q.
 void note(const CommonOptions& common, const std::string& line);
 

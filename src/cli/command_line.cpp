@@ -1,9 +1,13 @@
 // Builds the CLI11 application from the registered commands.
 #include "cli/command_line.h"
 
+#include <cerrno>
+#include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -21,18 +25,45 @@ namespace frictab::cli {
 
 namespace {
 
+constexpr unsigned most_threads = 1024; // each takes memory, used or not
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max(); // as in a job file
+
 const char* const exit_codes = "Exit codes: 0 done; 1 a target was missed (drift over tolerance); "
                                "2 usage, job file or input data wrong; 3 anything else.";
+
+// Unsigned numbers wrap around or stop at their end where the library reads them.
+template <class Number>
+Number whole_number(const char* option, const std::string& text, Number most) {
+  Number value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stopped != end || text.empty() || value > most)
+    throw CLI::ConversionError(
+        fmt::format("{}: '{}' is no whole number from 0 to {}", option, text, most));
+  return value;
+}
 
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("-o,--output", common.output, "Output directory, instead of the job's")
       ->type_name("DIR");
   app.add_flag("--force", common.force, "Overwrite files that frictab would leave alone");
-  app.add_option("-j,--threads", common.threads, "Threads; 0 = all cores")->type_name("N");
+  app.add_option_function<std::string>(
+         "-j,--threads",
+         [&common](const std::string& text) {
+           common.threads = whole_number("--threads", text, most_threads);
+         },
+         "Threads; 0 = all cores")
+      ->type_name("N");
   app.add_flag("-q,--quiet", common.quiet, "Nothing on stderr unless something fails");
   app.add_flag("-v,--verbose", common.verbose, "Say more on stderr");
   app.add_flag("--json", common.json, "Print the result as JSON");
-  app.add_option("--seed", common.seed, "Seed of everything random")->type_name("N");
+  app.add_option_function<std::string>(
+         "--seed",
+         [&common](const std::string& text) {
+           common.seed = whole_number("--seed", text, largest_seed);
+         },
+         "Seed of everything random")
+      ->type_name("N");
   app.add_option("--set", common.set, "Override a job key: --set table.tolerance_MPa=0.1")
       ->type_name("KEY=VALUE")
       ->take_all()
@@ -42,6 +73,13 @@ void add_common(CLI::App& app, CommonOptions& common) {
   app.footer(exit_codes);
 }
 
+// -o "$OUT" of a script whose OUT is empty: the results belong somewhere else than the job says.
+void check_output(const CLI::App& app, const CommonOptions& common) {
+  if (app.count("--output") > 0 && common.output.empty())
+    throw InputError({"-o", 0, 0}, "the output directory has an empty name",
+                     "give -o DIR a name; without -o the job says where");
+}
+
 // The runner of the subcommand that was called.
 using Runners = std::vector<std::pair<CLI::App*, std::function<int()>>>;
 
@@ -49,7 +87,10 @@ int run_chosen(const Runners& runners, const CommonOptions& common) {
   set_threads(common.threads);
   enable_progress(common.progress.value_or(isatty(STDERR_FILENO) != 0) && !common.quiet);
   for (const auto& [app, run] : runners)
-    if (app->parsed()) return run();
+    if (app->parsed()) {
+      check_output(*app, common);
+      return run();
+    }
   return 2;
 }
 
@@ -73,20 +114,64 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
     if (names.empty()) break;
     if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
       fmt::print(stderr, "error: unknown command '{}{}{}'\n  hint: {}\n", group,
-                 group.empty() ? "" : " ", argv[i], suggest(argv[i], names));
+                 group.empty() ? "" : " ", printable(argv[i]), suggest(argv[i], names));
       return 2;
     }
     group += (group.empty() ? "" : " ") + std::string(argv[i]);
   }
-  fmt::print(stderr, "error: {}\n  hint: run `frictab {}{}--help`\n", error.what(), group,
-             group.empty() ? "" : " ");
+  fmt::print(stderr, "error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()),
+             group, group.empty() ? "" : " ");
   return 2;
+}
+
+// What was printed stays in a buffer until here: a full disk shows no earlier.
+int told_all(int exit_code) {
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exit_code;
+  const int why = errno; // 0 where it failed before
+  fmt::print(stderr,
+             "error: what was to be printed cannot be written{}\n  hint: is the disk full, "
+             "or the file or pipe behind stdout closed?\n",
+             why == 0 ? "" : std::string(": ") + std::strerror(why));
+  return 3;
+}
+
+int run_parsed(CLI::App& app, const Runners& runners, const CommonOptions& common, int argc,
+               char** argv) {
+  try {
+    app.parse(argc, argv);
+    return run_chosen(runners, common);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(app, error, argc, argv);
+  } catch (...) {
+    return tell_error();
+  }
 }
 
 } // namespace
 
+int tell_error() {
+  try {
+    throw;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
+  } catch (const std::exception& error) {
+    if (!std::ferror(stdout)) // which told_all tells
+      fmt::print(stderr, "error: {}\n", printable(error.what()));
+  }
+  return 3;
+}
+
+void show(const std::string& text) {
+  fmt::print("{}", printable(text));
+}
+
 void note(const CommonOptions& common, const std::string& line) {
-  if (!common.quiet) fmt::print(stderr, "{}\n", line);
+  if (!common.quiet) fmt::print(stderr, "{}\n", printable(line));
 }
 
 void commit(io::OutputFiles& files, const std::string& directory, const CommonOptions& common) {
@@ -117,21 +202,7 @@ int run_command_line(int argc, char** argv) {
       sub->footer(exit_codes);
     }
   }
-  try {
-    app.parse(argc, argv);
-    return run_chosen(runners, common);
-  } catch (const CLI::ParseError& error) {
-    return usage_error(app, error, argc, argv);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
-    return 3;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 3;
-  }
+  return told_all(run_parsed(app, runners, common, argc, argv));
 }
 
 } // namespace frictab::cli

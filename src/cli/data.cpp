@@ -42,7 +42,7 @@ int run(const Options& options, const CommonOptions& common) {
     data::write_hdf5_columns(run::canonical(data), files.stage("data.h5"));
   const std::vector<std::string> written = files.paths();
   files.commit();
-  fmt::print("{}", common.json ? run::data_json(data) : run::data_text(data));
+  show(common.json ? run::data_json(data) : run::data_text(data));
   std::fflush(stdout); // before the line to stderr
   note(common, fmt::format("wrote {} to {}", join(written, ", "), job.directory));
   implausible.throw_if_any();

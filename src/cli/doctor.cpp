@@ -15,6 +15,7 @@
 
 #include "cli/command.h"
 #include "codegen/exporter.h"
+#include "core/program.h"
 #include "core/text.h"
 #include "models/law.h"
 
@@ -135,9 +136,10 @@ Finding target_finding(const codegen::Exporter& target) {
 }
 
 Finding temporary_finding() {
+  const fs::path directory = temporary_place();
   std::error_code error;
-  const fs::path directory = fs::temp_directory_path(error);
-  const bool ok = !error && ::access(directory.c_str(), W_OK | X_OK) == 0;
+  const bool ok =
+      fs::is_directory(directory, error) && ::access(directory.c_str(), W_OK | X_OK) == 0;
   return {"machine",
           "temporary directory",
           ok,

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/job_commands.h"
+#include "core/interrupt.h"
+#include "core/text.h"
 #include "run/summary.h"
 
 namespace frictab::cli {
@@ -25,15 +27,25 @@ void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common) {
 
 int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
   run::Pipeline pipeline(read_job(file, common));
-  stages(pipeline);
-  pipeline.commit();
+  const auto tell_kept = [&] {
+    if (const std::string kept = pipeline.kept_text(); !kept.empty()) note(common, kept);
+  };
+  try {
+    const WhenInterrupted interrupted(tell_kept);
+    stages(pipeline);
+    pipeline.commit();
+  } catch (...) {
+    const int code = tell_error();
+    tell_kept();
+    return code;
+  }
   tell_notes(pipeline, common);
   if (common.verbose && pipeline.data())
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
-  fmt::print("{}", common.json ? run::summary_json(pipeline) : run::summary_text(pipeline));
+  show(common.json ? run::summary_json(pipeline) : run::summary_text(pipeline));
   for (const std::string& miss : pipeline.missed())
-    fmt::print(stderr, "error: {}\n", miss);
+    fmt::print(stderr, "error: {}\n", printable(miss));
   const bool verified = !pipeline.verification() || pipeline.verification()->passed();
   return verified && pipeline.missed().empty() ? 0 : 1;
 }
@@ -48,6 +60,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages 
 }
 
 void all_stages(run::Pipeline& p) {
+  p.go_on();
   p.calibrate();
   p.trace();
   p.check_sizes();

@@ -155,7 +155,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   output.write(options.law + ".json", model_file(law.model));
   write_sources(output, exporters, table, options.units);
   commit_and_list(output, common);
-  fmt::print("{}", run::drift_text(verification));
+  show(run::drift_text(verification));
   return verification.passed() ? 0 : 1;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/table_command.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "run/predict.h"
 
 namespace frictab::cli::predict_command {
@@ -33,9 +34,9 @@ int predict(const Options& options, const CommonOptions& common) {
   const run::Prediction prediction = run::predict(law_of(options, common), options.data);
   write_result(common, [&](std::ostream& out) { run::write_prediction(prediction, out); });
   if (common.json)
-    fmt::print("{}", run::prediction_json(prediction));
+    show(run::prediction_json(prediction));
   else if (!common.quiet)
-    fmt::print(stderr, "{}", run::prediction_text(prediction));
+    fmt::print(stderr, "{}", printable(run::prediction_text(prediction)));
   return 0;
 }
 

@@ -78,12 +78,12 @@ int run(const std::string& file, const CommonOptions& common) {
     nlohmann::ordered_json json = {{"directory", job.directory}, {"stages", {}}, {"next", next}};
     for (const StageStatus& one : all)
       json["stages"].push_back({{"stage", one.name}, {"state", one.state}, {"why", one.why}});
-    fmt::print("{}", io::json_text(json));
+    show(io::json_text(json));
     return 0;
   }
   for (const StageStatus& one : all)
-    fmt::print("{:<10} {}{}\n", one.name, one.state, one.why.empty() ? "" : ": " + one.why);
-  fmt::print("{}\n", next.empty() ? "nothing is left to do" : "next: " + next);
+    show(fmt::format("{:<10} {}{}\n", one.name, one.state, one.why.empty() ? "" : ": " + one.why));
+  show((next.empty() ? "nothing is left to do" : "next: " + next) + "\n");
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/table_command.h"
+#include "core/text.h"
 #include "table/info.h"
 
 namespace frictab::cli::table_info_command {
@@ -21,7 +22,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   return [file, &common] {
     const table::TableDescription table = table::read_description(*file);
     write_result(common, [&](std::ostream& out) {
-      out << (common.json ? table::info_json(table, *file) : table::info_text(table, *file));
+      out << printable(common.json ? table::info_json(table, *file)
+                                   : table::info_text(table, *file));
     });
     return 0;
   };

@@ -28,7 +28,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
         for (const trace::Trace& trace : p.traces())
           power += trace::detectable_text(trace);
     });
-    fmt::print("{}", power);
+    show(power);
     return code;
   };
 }

@@ -29,6 +29,7 @@ struct Options {
   std::string junit;
   std::optional<double> max_drift_MPa;
   bool require_proof = false;
+  bool require_run = false;
 };
 
 // Data for the rows alone: canonical column names, or the mapping of a job file.
@@ -61,18 +62,17 @@ int verify_alone(const Options& options, const CommonOptions& common) {
       verify::verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
   write_junit(options, verification);
   if (common.json)
-    fmt::print("{}", verify::verification_json(verification));
+    show(verify::verification_json(verification));
   else
-    fmt::print("{}", run::drift_text(verification));
+    show(run::drift_text(verification));
   return verification.passed() ? 0 : 1;
 }
 
 int verify_together(const Options& options, const CommonOptions& common) {
-  const verify::Verification verification =
-      verify_combined(options.combined, options.max_drift_MPa);
+  verify::Verification verification = verify_combined(options.combined, options.max_drift_MPa);
+  verification.require_run = options.require_run;
   write_junit(options, verification);
-  fmt::print("{}", common.json ? verify::verification_json(verification)
-                               : combined_drift_text(verification));
+  show(common.json ? verify::verification_json(verification) : combined_drift_text(verification));
   return verification.passed() ? 0 : 1;
 }
 
@@ -80,13 +80,13 @@ int verify_job(const Options& options, const CommonOptions& common) {
   job::Job job = read_job(options.job, common);
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
   if (options.require_proof) job.verify.require_proof = true;
+  if (options.require_run) job.verify.require_run = true;
   run::Pipeline pipeline(std::move(job));
   pipeline.verify();
   pipeline.commit();
   tell_notes(pipeline, common);
   write_junit(options, *pipeline.verification());
-  fmt::print("{}",
-             common.json ? run::summary_json(pipeline) : run::drift_text(*pipeline.verification()));
+  show(common.json ? run::summary_json(pipeline) : run::drift_text(*pipeline.verification()));
   return pipeline.verification()->passed() ? 0 : 1;
 }
 
@@ -111,6 +111,8 @@ const Registered<Command> registered{[] {
         ->check(CLI::PositiveNumber);
     app.add_flag("--require-proof", options->require_proof,
                  "A table passes only where a bound within the tolerance is proven");
+    app.add_flag("--require-run", options->require_run,
+                 "A routine that cannot be compiled and run on this machine has failed");
     app.add_option("--junit", options->junit, "Write the result as JUnit XML")->type_name("FILE");
     return [options, &common]() -> int {
       if (!options->combined.empty()) {

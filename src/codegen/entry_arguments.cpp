@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/text.h"
 #include "data/meaning.h"
 #include "data/quantity.h"
 
@@ -18,12 +19,14 @@ std::string replace_ending(const std::string& name, std::string_view from, std::
   return name.substr(0, name.size() - from.size()) + std::string(to);
 }
 
+constexpr std::size_t longest_argument = 40; // Fortran takes 63, with what stands around it
+
 // A column's own name may hold anything; the prefix keeps it off keywords and generated names.
 std::string identifier(const std::string& name) {
   std::string text = data::find_quantity(name) ? "" : "in_";
   for (const char c : name)
     text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return text;
+  return text.substr(0, longest_argument);
 }
 
 std::string argument_name(const InputArgument& input) {
@@ -76,9 +79,11 @@ std::vector<InputArgument> entry_arguments(const table::Table& table, std::strin
     else
       found->used = true;
   }
-  for (InputArgument& a : arguments)
-    while (!taken.insert(a.argument).second)
-      a.argument += "_";
+  for (InputArgument& a : arguments) { // Fortran does not tell capital letters from small ones
+    const std::string first = a.argument;
+    for (int n = 2; !taken.insert(lower_case(a.argument)).second; ++n)
+      a.argument = first + "_" + std::to_string(n);
+  }
   return arguments;
 }
 

@@ -44,14 +44,14 @@ std::string locks(const std::string& stem, bool windows) {
 }
 
 std::string in_apostrophes(std::string_view name) {
-  std::string out = comment_text(name).substr(0, 30);
+  std::string out(utf8_start(comment_text(name), 30));
   std::replace(out.begin(), out.end(), '\'', ' ');
   return out;
 }
 
 std::string clip(const std::string& text, std::size_t indent) {
   const std::size_t width = comment_width - indent;
-  return wrap_text(comment_text(text), width)[0].substr(0, width);
+  return wrap_text(comment_text(text), width)[0];
 }
 
 std::string place_of(const Table& table, const std::string& state) {

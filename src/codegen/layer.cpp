@@ -102,7 +102,8 @@ bool holds_tanh(const Expr& formula) {
 bool add_unit(UnitLayer& layer, const Expr& unit, double gain) {
   const Sum sum = sum_of(unit.operands()[0]);
   const std::size_t u = layer.units();
-  for (const auto& [feature, factor] : sum.terms) {
+  for (const auto& term : sum.terms) {
+    const Expr& feature = term.first;
     if (holds_tanh(feature)) return false;
     const auto known = std::find_if(layer.features.begin(), layer.features.end(),
                                     [&](const Expr& f) { return f.id() == feature.id(); });
@@ -112,7 +113,7 @@ bool add_unit(UnitLayer& layer, const Expr& unit, double gain) {
       layer.weight.emplace_back(u, 0.0);
     }
     layer.weight[f].resize(u, 0.0);
-    layer.weight[f].push_back(factor);
+    layer.weight[f].push_back(term.second);
   }
   for (auto& weight : layer.weight)
     weight.resize(u + 1, 0.0);

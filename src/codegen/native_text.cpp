@@ -88,7 +88,7 @@ std::vector<std::string> native_comments(const Exporter& exporter, const ExportR
   for (const std::string& text : texts) {
     std::string indent;
     for (const std::string& piece : wrap_text(comment_text(text), 88)) {
-      lines.push_back(indent + piece.substr(0, 88));
+      lines.push_back(indent + piece);
       indent = "  ";
     }
   }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
+
 namespace frictab::codegen {
 
 std::string c_number(double value) {
@@ -44,9 +46,10 @@ std::vector<std::string> wrap_text(std::string_view text, std::size_t width) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t end = std::min(text.find(' ', i), text.size());
     std::string word(text.substr(i, end - i));
-    for (; word.size() > width; word.erase(0, width)) { // a formula without blanks
+    while (word.size() > width) { // a formula without blanks
       if (!lines.back().empty()) lines.emplace_back();
-      lines.back() = word.substr(0, width);
+      lines.back() = utf8_start(word, width);
+      word.erase(0, lines.back().size());
     }
     if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width)
       lines.emplace_back();

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codegen/combine.h"
 #include "codegen/entry_arguments.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
@@ -18,6 +19,8 @@ namespace frictab::codegen {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+constexpr const char* schema = "frictab/recipe/1";
 
 json unit_names(std::string_view units) {
   return {{"system", units},
@@ -46,7 +49,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
   for (const auto& [path, content] : files)
     names.push_back(path);
   names.push_back("recipe.json");
-  json out = {{"schema", "frictab/recipe/1"},
+  json out = {{"schema", schema},
               {"target", exporter.name},
               {"title", exporter.title},
               {"tool_version", FRICTAB_VERSION},
@@ -96,24 +99,36 @@ json recipe_table(const ExportRequest& request) {
   const table::TableRecord& record = table.record;
   if (record.worst_case_MPa) out["worst_case_MPa"] = *record.worst_case_MPa;
   if (record.proven_drift_MPa) out["proven_drift_MPa"] = *record.proven_drift_MPa;
+  if (table.drift_is_claimed && record.worst_case_MPa)
+    out["drift_is_claimed_by"] = "the table's file";
   return out;
 }
 
+namespace {
+
+// Of one law, or of several in one user file.
+json read_recipe(const std::string& text, const std::string& file) {
+  json recipe = io::parse_json(text, file);
+  const bool combined = recipe.is_object() && recipe.value("schema", json()) == combined_schema;
+  io::check_schema(recipe, combined ? combined_schema : schema, file, "export again");
+  return recipe;
+}
+
+} // namespace
+
 bool is_direct_recipe(const std::string& text, const std::string& file) {
-  const json recipe = io::parse_json(text, file);
-  return recipe.is_object() && recipe.value("form", json("table")) == "direct";
+  return read_recipe(text, file).value("form", json("table")) == "direct";
 }
 
 std::string model_of_recipe(const std::string& text, const std::string& file) {
-  const json recipe = io::parse_json(text, file);
-  const json model = recipe.is_object() ? recipe.value("model", json("")) : json("");
+  const json model = read_recipe(text, file).value("model", json(""));
   return model.is_string() ? model.get<std::string>() : "";
 }
 
 std::vector<std::string> files_of_recipe(const std::string& text, const std::string& file) {
-  const json recipe = io::parse_json(text, file);
+  const json recipe = read_recipe(text, file);
   std::vector<std::string> files;
-  if (recipe.is_object() && recipe.contains("files") && recipe.at("files").is_array())
+  if (recipe.contains("files") && recipe.at("files").is_array())
     for (const json& name : recipe.at("files"))
       if (name.is_string()) files.push_back(name.get<std::string>());
   for (const std::string& name : files) {

@@ -62,6 +62,7 @@ std::string drift_text(const table::Table& table) {
   if (record.proven_drift_MPa)
     text += fmt::format("; proven: nowhere above {:.3g} MPa",
                         table::rounded_up(*record.proven_drift_MPa));
+  if (table.drift_is_claimed) text += " (so says the table's file)";
   return text;
 }
 

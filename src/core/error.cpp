@@ -23,6 +23,7 @@ std::string format_faults(const std::vector<Fault>& faults) {
     text += fault.what;
     if (!fault.hint.empty()) text += "\n  hint: " + fault.hint;
   }
+  text = printable(text);
   if (faults.size() > FaultList::shown)
     text += fmt::format("\n... and {} more faults", faults.size() - FaultList::shown);
   return text;

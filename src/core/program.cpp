@@ -1,18 +1,23 @@
 // By posix_spawn, without a shell.
 #include "core/program.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/error.h"
 #include "core/text.h"
 
 extern char** environ;
@@ -23,32 +28,84 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string file_text(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
+constexpr std::chrono::milliseconds longest_pause{5};
+constexpr std::size_t shown_at_each_end = 4000;
+
+// A compiler may say the same a million times.
+std::string beginning_and_end(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text(2 * shown_at_each_end + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() <= 2 * shown_at_each_end) return text;
+  in.clear();
+  in.seekg(-static_cast<std::streamoff>(shown_at_each_end), std::ios::end);
+  std::string end(shown_at_each_end, '\0');
+  in.read(end.data(), static_cast<std::streamsize>(end.size()));
+  std::error_code ignored;
+  const auto size = static_cast<double>(fs::file_size(file, ignored));
+  return text.substr(0, shown_at_each_end) + "\n[... " + human_bytes(size) + " in all ...]\n" + end;
 }
 
-// Standard output and error of the program go to `log`. Gives the exit status of waitpid.
-int run(const std::vector<std::string>& command, const fs::path& log) {
+class SpawnSettings {
+public:
+  explicit SpawnSettings(const fs::path& log) {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_adddup2(&actions, 1, 2);
+    posix_spawnattr_init(&attributes);
+    sigset_t none; // the thread that waits for signals (interrupt.h) is not there
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  posix_spawn_file_actions_t actions{};
+  posix_spawnattr_t attributes{};
+};
+
+// Its status; nothing where it does not end in time.
+std::optional<int> wait_for(pid_t child, std::chrono::seconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (std::chrono::milliseconds pause(1);; pause = std::min(2 * pause, longest_pause)) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) throw std::runtime_error("lost a program while it ran");
+    if (std::chrono::steady_clock::now() > end) return std::nullopt;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+// Gives the exit status of waitpid.
+int run(const std::vector<std::string>& command, const fs::path& log,
+        std::chrono::seconds patience) {
   std::vector<char*> argv;
   for (const std::string& word : command)
     argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  const SpawnSettings settings(log);
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const int failed =
+      posix_spawnp(&child, argv[0], &settings.actions, &settings.attributes, argv.data(), environ);
   if (failed != 0)
     throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(failed));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw std::runtime_error("lost " + command[0] + " while it ran");
-  return status;
+  const WhenInterrupted killed([child] { ::kill(-child, SIGKILL); });
+  const std::optional<int> status = wait_for(child, patience);
+  ::kill(-child, SIGKILL); // what it has started goes with it
+  if (status) return *status;
+  ::waitpid(child, nullptr, 0);
+  throw std::runtime_error(fmt::format("{}\ndid not end within {} s and was stopped\n{}",
+                                       join(command, " "), patience.count(),
+                                       beginning_and_end(log)));
 }
 
 } // namespace
@@ -63,21 +120,43 @@ bool have_program(const std::string& name) {
   return false;
 }
 
-void run_program(const std::vector<std::string>& command, const fs::path& log) {
-  const int status = run(command, log);
+void run_program(const std::vector<std::string>& command, const fs::path& log,
+                 std::chrono::seconds patience) {
+  const int status = run(command, log, patience);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(join(command, " ") + "\n" + file_text(log));
+    throw std::runtime_error(join(command, " ") + "\n" + beginning_and_end(log));
 }
 
+fs::path temporary_place() {
+  const char* const said = std::getenv("TMPDIR");
+  return said && *said ? said : "/tmp";
+}
+
+namespace {
+
+// Twice: something may still be written to it when the process is interrupted.
+void remove_tree(const fs::path& path) noexcept {
+  std::error_code ignored;
+  for (int time = 0; time < 2; ++time)
+    fs::remove_all(path, ignored);
+}
+
+} // namespace
+
 TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (fs::temp_directory_path() / "frictab-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary directory");
+  const fs::path place = temporary_place();
+  std::string name = (place / "frictab-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw InputError({"TMPDIR", 0, 0},
+                     fmt::format("no temporary directory can be made in {}: {}", place.string(),
+                                 std::strerror(errno)),
+                     "set TMPDIR to a directory that can be written; unset, it is /tmp");
   path_ = name;
+  when_interrupted_.emplace([path = path_] { remove_tree(path); });
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  remove_tree(path_);
 }
 
 } // namespace frictab

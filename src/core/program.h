@@ -1,9 +1,13 @@
 // Other programs (compilers, xlsx2csv) and the directories they work in.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "core/interrupt.h"
 
 namespace frictab {
 
@@ -11,14 +15,22 @@ namespace frictab {
 // asked for.
 bool have_program(const std::string& name);
 
-// Runs a program without a shell; its output goes to `log`. Throws std::runtime_error with that
-// output where it fails.
-void run_program(const std::vector<std::string>& command, const std::filesystem::path& log);
+// A program that does not end: a compiler that waits for a licence, say.
+inline constexpr std::chrono::seconds usual_patience{600};
 
-// A directory of our own below the system's temporary directory, removed with everything in it.
+// Runs a program without a shell; its output goes to `log`. Throws std::runtime_error with the
+// beginning and the end of that output where it fails, or where it does not end in time: it is then
+// killed, with all that it has started.
+void run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
+                 std::chrono::seconds patience = usual_patience);
+
+// TMPDIR; /tmp where that is not set or empty.
+std::filesystem::path temporary_place();
+
+// A directory of our own below that place, removed with everything in it.
 class TemporaryDirectory {
 public:
-  TemporaryDirectory();
+  TemporaryDirectory(); // throws InputError where none can be made
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
@@ -26,6 +38,7 @@ public:
 
 private:
   std::filesystem::path path_;
+  std::optional<WhenInterrupted> when_interrupted_;
 };
 
 } // namespace frictab

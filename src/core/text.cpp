@@ -59,6 +59,34 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+std::string_view utf8_start(std::string_view text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  for (std::size_t back = 0; back < std::min<std::size_t>(4, bytes); ++back)
+    if ((static_cast<unsigned char>(text[bytes - back]) & 0xC0) != 0x80)
+      return text.substr(0, bytes - back);
+  return text.substr(0, bytes); // no UTF-8
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0, length = 0; i < text.size(); i += std::max<std::size_t>(length, 1)) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    length = utf8_length(text.substr(i));
+    // U+0080 to U+009F are control characters as well: \xc2\x80 to \xc2\x9f.
+    const bool control =
+        (byte < ' ' && byte != '\n' && byte != '\t') || byte == 0x7f ||
+        (length == 2 && byte == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0);
+    if (length > 0 && !control) {
+      out += text.substr(i, length);
+      continue;
+    }
+    for (std::size_t b = 0; b < std::max<std::size_t>(length, 1); ++b)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i + b]));
+  }
+  return out;
+}
+
 std::string replace_all(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);

@@ -24,6 +24,13 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 // Bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
+// The beginning of the text of at most so many bytes that cuts no UTF-8 sequence.
+std::string_view utf8_start(std::string_view text, std::size_t bytes);
+
+// For a terminal: control characters but line ends and tabs, and bytes that are no UTF-8, become
+// "\\x1b". What a file says reaches people as text, and moves no cursor.
+std::string printable(std::string_view text);
+
 std::string replace_all(std::string text, std::string_view from, std::string_view to);
 
 // Shortest text that reads back to the same bits: 0.1, 1e-20, nan, inf.

@@ -2,6 +2,9 @@
 #include "data/append.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -12,18 +15,25 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
       faults.add({file, 0, 0}, fmt::format("experiment '{}' is in another file as well", name),
                  "give experiments different names, or join the files");
+  std::unordered_map<std::string_view, const Column*> others; // a file may have many
   for (const Column& column : more.columns)
-    if (!all.find(column.name))
+    others.emplace(column.name, &column);
+  std::set<std::string_view> known;
+  for (const Column& column : all.columns)
+    known.insert(column.name);
+  for (const Column& column : more.columns)
+    if (known.count(column.name) == 0)
       faults.add({file, 0, 0}, fmt::format("column {} is not in {}", column.name, all.sources[0]),
                  "all files of a list need the same columns; see data.bystanders");
   for (Column& column : all.columns) {
-    const Column* other = more.find(column.name);
-    if (!other) {
+    const auto found = others.find(column.name);
+    if (found == others.end()) {
       faults.add({file, 0, 0},
                  fmt::format("there is no column {}, which {} has", column.name, all.sources[0]),
                  "all files of a list need the same columns; see data.bystanders");
       continue;
     }
+    const Column* const other = found->second;
     if (column.levels.empty() != other->levels.empty()) {
       faults.add({file, 0, 0},
                  fmt::format("column {} is text in one file and numbers in another", column.name),

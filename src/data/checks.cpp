@@ -38,6 +38,11 @@ void check_values(Part& part) {
         causes.add("no load",
                    {part.place(i), "F_N_N is 0: there is no friction coefficient",
                     "leave rows without load out: data.drop = { F_N_N = { below = 1 } }"});
+      if (column.name == "sigma_f_MPa" && column.values[i] == 0)
+        causes.add("no flow stress",
+                   {part.place(i), "sigma_f_MPa is 0: no metal flows without stress",
+                    "was it not measured there? leave such rows out: data.drop = { sigma_f_MPa = { "
+                    "below = 1 } }"});
       if (!(column.values[i] < quantity->lowest)) continue;
       std::string hint =
           fmt::format("a {} cannot be below {}{}", quantity->meaning, quantity->lowest,

@@ -40,8 +40,11 @@ public:
   Mapper(const io::CsvTable& raw, const DataOptions& options, const std::string& label,
          FaultList& faults)
       : raw_(raw), options_(options), label_(label), faults_(faults) {
-    for (const CsvColumn& column : raw_.columns)
+    for (const CsvColumn& column : raw_.columns) {
       headers_.push_back(io::read_header_name(column.name));
+      whole_names_[column.name].push_back(headers_.size());
+      bare_names_[headers_.back().name].push_back(headers_.size());
+    }
     out_.notes = raw.notes;
   }
 
@@ -51,6 +54,7 @@ public:
     map_experiment();
     map_bystanders();
     add_same_for_all();
+    tell_nameless();
     return std::move(out_);
   }
 
@@ -93,22 +97,28 @@ private:
 
   // By the whole name; where there is none, by the name in front of a unit.
   const CsvColumn* by_name(const std::string& name) {
-    const CsvColumn* found = nullptr;
-    std::vector<std::size_t> column_numbers;
-    for (const bool whole : {true, false}) {
-      for (std::size_t i = 0; i < raw_.columns.size(); ++i)
-        if ((whole ? raw_.columns[i].name : headers_[i].name) == name) {
-          if (!found) found = &raw_.columns[i];
-          column_numbers.push_back(i + 1);
-        }
-      if (found) break;
-    }
-    if (column_numbers.size() > 1 && ambiguous_.insert(name).second)
+    const std::vector<std::size_t>& numbers = numbers_of(name);
+    if (numbers.empty()) return nullptr;
+    if (numbers.size() > 1 && ambiguous_.insert(name).second)
       faults_.add(header(),
-                  fmt::format("there are {} columns '{}': {}", column_numbers.size(), name,
-                              fmt::join(column_numbers, ", ")),
-                  fmt::format("take one by its number: {{ column = {} }}", column_numbers.front()));
-    return found;
+                  fmt::format("there are {} columns '{}': {}", numbers.size(), name, list(numbers)),
+                  fmt::format("take one by its number: {{ column = {} }}", numbers.front()));
+    return &raw_.columns[numbers.front() - 1];
+  }
+
+  const std::vector<std::size_t>& numbers_of(const std::string& name) const {
+    static const std::vector<std::size_t> none;
+    for (const auto* names : {&whole_names_, &bare_names_})
+      if (const auto found = names->find(name); found != names->end()) return found->second;
+    return none;
+  }
+
+  // The first few of a thousand.
+  static std::string list(const std::vector<std::size_t>& numbers) {
+    constexpr std::size_t shown = 20;
+    const auto end = numbers.begin() + static_cast<long>(std::min(shown, numbers.size()));
+    return fmt::format("{}{}", fmt::join(numbers.begin(), end, ", "),
+                       numbers.size() > shown ? ", ..." : "");
   }
 
   // What can be wrong with a cell.
@@ -175,8 +185,7 @@ private:
     if (!column) {
       if (const auto constant = options_.constants.find(quantity.name);
           constant != options_.constants.end())
-        out_.columns.push_back(
-            {quantity.name, quantity.unit, std::vector<double>(raw_.rows(), constant->second), {}});
+        add_constant(quantity, constant->second);
       return;
     }
     used_.insert(column);
@@ -186,6 +195,20 @@ private:
     convert_unit(mapped, quantity, *column,
                  found == options_.columns.end() ? plain : found->second);
     out_.columns.push_back(std::move(mapped));
+  }
+
+  // What the job says goes before what a file says; nobody shall believe the file was read.
+  void add_constant(const Quantity& quantity, double value) {
+    out_.columns.push_back(
+        {quantity.name, quantity.unit, std::vector<double>(raw_.rows(), value), {}});
+    if (const auto& numbers = numbers_of(quantity.name); !numbers.empty()) {
+      const CsvColumn& own = raw_.columns[numbers.front() - 1];
+      used_.insert(&own);
+      out_.notes.push_back(fmt::format("{} is {} in all {} rows, as the job says: the file's own "
+                                       "column '{}' is not read",
+                                       quantity.name, shortest(value), thousands(raw_.rows()),
+                                       own.name));
+    }
   }
 
   void convert_unit(Column& column, const Quantity& quantity, const CsvColumn& raw,
@@ -267,6 +290,8 @@ private:
   }
 
   void map_bystanders() {
+    std::set<std::string> keep;
+    if (options_.bystanders) keep.insert(options_.bystanders->begin(), options_.bystanders->end());
     if (options_.bystanders)
       for (const std::string& name : *options_.bystanders)
         if (!by_name(name))
@@ -275,13 +300,46 @@ private:
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
-      const auto& keep = options_.bystanders;
-      if (keep && std::find(keep->begin(), keep->end(), column.name) == keep->end() &&
+      if (options_.bystanders && !keep.count(column.name) &&
           !is_formula_input(options_, column.name))
         continue;
       if (by_name(column.name) != &column) continue; // a duplicate: the fault is told already
+      check_case(column);
       add_bystander(column);
     }
+  }
+
+  // "TAU_R_MPA" would be one more column among which tracing looks for a cause of tau_R_MPa.
+  void check_case(const CsvColumn& column) {
+    const std::string& name = headers_[std::size_t(&column - raw_.columns.data())].name;
+    const std::string lower = lower_case(name);
+    for (const Quantity& quantity : quantities())
+      if (lower == lower_case(quantity.name))
+        faults_.add(header(),
+                    fmt::format("column '{}' is called {} but for upper and lower case{}",
+                                column.name, quantity.name,
+                                find(quantity.name) ? ", which is there as well" : ""),
+                    fmt::format("take one of the two: [data.columns] {} = \"{}\"; or list the "
+                                "columns to keep beside quantities in data.bystanders",
+                                quantity.name, column.name));
+  }
+
+  // Columns without a name that hold something. Empty ones are what delimiters at the end of a line
+  // leave.
+  void tell_nameless() {
+    std::vector<std::size_t> nameless;
+    for (std::size_t i = 0; i < raw_.columns.size(); ++i) {
+      const CsvColumn& column = raw_.columns[i];
+      const auto is_empty = [](const CsvColumn::Text& cell) { return cell.text.empty(); };
+      const bool holds = column.texts.size() < column.numbers.size() ||
+                         !std::all_of(column.texts.begin(), column.texts.end(), is_empty);
+      if (column.name.empty() && !used_.count(&column) && holds) nameless.push_back(i + 1);
+    }
+    if (nameless.empty()) return;
+    out_.notes.push_back(
+        fmt::format("{} without a name {} not read: number {}",
+                    nameless.size() == 1 ? "a column" : thousands(nameless.size()) + " columns",
+                    nameless.size() == 1 ? "is" : "are", list(nameless)));
   }
 
   void add_bystander(const CsvColumn& raw) {
@@ -292,6 +350,7 @@ private:
     Column column{raw.name, "", raw.numbers, {}};
     if (words > 0 && words >= raw_.rows() / 2) {
       make_categorical(column, raw);
+      if (missing > 0) tell_empty(raw.name, missing, ": a level of their own");
       out_.columns.push_back(std::move(column));
       return;
     }
@@ -305,10 +364,13 @@ private:
       if (std::isinf(raw.numbers[i])) not_finite(i, 0, raw.name, shortest(raw.numbers[i]));
     const auto empty = std::count_if(raw.numbers.begin(), raw.numbers.end(),
                                      [](double value) { return std::isnan(value); });
-    if (empty > 0)
-      out_.notes.push_back(fmt::format("{}: {} cells are empty", raw.name,
-                                       thousands(static_cast<std::size_t>(empty))));
+    if (empty > 0) tell_empty(raw.name, static_cast<std::size_t>(empty), "");
     out_.columns.push_back(std::move(column));
+  }
+
+  void tell_empty(const std::string& name, std::size_t rows, const char* then) {
+    out_.notes.push_back(fmt::format("{}: {} of {} rows without a value{}", name, thousands(rows),
+                                     thousands(raw_.rows()), then));
   }
 
   // What the job says of the whole file: constants that are no quantities, and labels.
@@ -349,6 +411,8 @@ private:
   const std::string& label_;
   FaultList& faults_;
   std::vector<io::HeaderName> headers_; // of each column
+  // Numbers, from 1, of the columns of a name.
+  std::unordered_map<std::string, std::vector<std::size_t>> whole_names_, bare_names_;
   MappedFile out_;
   std::set<const CsvColumn*> used_;
   std::set<std::string> ambiguous_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -19,6 +21,10 @@ constexpr double least_mu = 0.001, largest_mu = 1;
 constexpr double largest_pressure_MPa = 20000;
 constexpr double largest_psi = 100;
 constexpr double kelvin_low = 270, room_in_kelvin = 330;
+// Between a stress and the forces that it comes from: what rounding and smoothing make.
+constexpr double same_coefficient = 1.1;
+// Steps of a path that go back now and then are no noise.
+constexpr double rare_share = 0.05;
 // A factor between two units of speed, not between two ways to measure it; over so many rows, of
 // which a noisy path goes back and forth and still gets on.
 constexpr double same_speed = 5;
@@ -70,7 +76,44 @@ std::string coefficient_hint(const Dataset& data, double typical) {
 
 // ---- the checks ----
 
+bool nothing_rubs(const Dataset& data) {
+  const auto tau = data.values("tau_R_MPa");
+  return std::all_of(tau.begin(), tau.end(), [](double value) { return value == 0; });
+}
+
+Implausible no_friction(const Dataset& data) {
+  if (!nothing_rubs(data)) return {};
+  return {"", data.rows(), data.rows(), "tau_R_MPa is 0 in every row: nothing was measured",
+          "a channel that was not connected, or another column that holds the friction: map it in "
+          "[data.columns]"};
+}
+
+// Where a file gives the stress and both forces: eq. 1 holds between them.
+Implausible forces(const Dataset& data) {
+  if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
+  const auto friction = data.values("F_R_N"), normal = data.values("F_N_N"),
+             tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
+  const double load = quantile({normal.begin(), normal.end()}, 0.9);
+  std::size_t rows = 0, of = 0;
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    if (!(normal[i] > half_load * load) || !(pressure[i] > 0) || !(tau[i] > 0)) continue;
+    const double ratio = friction[i] / normal[i] / (tau[i] / pressure[i]);
+    ratios.push_back(ratio);
+    ++of;
+    rows += ratio > same_coefficient || ratio < 1 / same_coefficient;
+  }
+  return {
+      "", rows, of,
+      fmt::format("F_R_N/F_N_N is {:.3g} times tau_R_MPa/sigma_n_MPa in the middle: they "
+                  "contradict each other",
+                  median(ratios)),
+      "a shear stress of another column, or a force in another unit? Leave out which of the two "
+      "is wrong: without tau_R_MPa it is computed from the forces"};
+}
+
 Implausible friction_coefficient(const Dataset& data) {
+  if (nothing_rubs(data)) return {}; // told already
   const std::vector<double> mu = coefficients(data, 0, data.rows());
   const double typical = median(mu);
   return {"", count(mu, [](double x) { return !(x >= least_mu && x <= largest_mu); }), mu.size(),
@@ -140,6 +183,54 @@ Implausible speed(const Dataset& data) {
   return {"", rows, of,
           fmt::format("s_mm grows {:.3g} times as fast as v_rel_mm_s says", median(ratios)),
           "a speed in m/s, a path in m or um, a time in ms? `unit` where it is mapped"};
+}
+
+// Rows in pieces of `width` whose mean lies behind that of an earlier piece, by more than `by`.
+std::size_t rows_behind(std::span<const double> distance, std::size_t width, double by) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  std::size_t behind = 0;
+  for (std::size_t begin = 0; begin < distance.size(); begin += width) {
+    const auto piece = distance.subspan(begin, std::min(width, distance.size() - begin));
+    const double mean = std::accumulate(piece.begin(), piece.end(), 0.0) / double(piece.size());
+    if (mean < farthest - by) behind += piece.size();
+    farthest = std::max(farthest, mean);
+  }
+  return behind;
+}
+
+// Of a test, by more than a usual step. Where many steps go back, noise may do it: then pieces are
+// compared, not rows; and where no clock says that rows are in order, nothing can be said.
+std::size_t rows_behind(std::span<const double> distance, bool has_clock) {
+  std::vector<double> steps;
+  std::size_t back = 0;
+  for (std::size_t i = 1; i < distance.size(); ++i) {
+    steps.push_back(std::abs(distance[i] - distance[i - 1]));
+    back += distance[i] < distance[i - 1];
+  }
+  if (back == 0) return 0;
+  const bool may_be_noise = rare_share * double(distance.size()) < double(back);
+  if (may_be_noise && !has_clock) return 0;
+  return rows_behind(distance, may_be_noise ? std::max<std::size_t>(1, distance.size() / 10) : 1,
+                     median(std::move(steps)));
+}
+
+// A sliding distance since first contact only grows; a position goes back and forth.
+Implausible path(const Dataset& data) {
+  if (!data.has("s_mm") || speed(data).most()) return {}; // told already
+  std::size_t rows = 0, tests = 0;
+  std::string first;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t begin = data.first_row[e];
+    const std::size_t behind = rows_behind(
+        data.values("s_mm").subspan(begin, data.first_row[e + 1] - begin), data.has("time_s"));
+    if (behind > 0 && tests++ == 0) first = data.experiments[e];
+    rows += behind;
+  }
+  if (tests == 0) return {};
+  return {"", rows, data.rows(),
+          fmt::format("s_mm runs backwards in test '{}'{}", first, and_more(tests - 1, "test")),
+          "a position, not the distance slid? Without a column s_mm it is integrated from "
+          "v_rel_mm_s and time_s"};
 }
 
 Implausible surface_expansion(const Dataset& data) {
@@ -261,6 +352,7 @@ bool is_coarse(const Dataset& data, std::span<const double> values, const std::v
 
 // The same number again and again where others change: a channel that is stuck.
 Implausible stuck_channel(const Dataset& data) {
+  if (nothing_rubs(data)) return {}; // told already
   Implausible out;
   out.of = data.rows();
   std::string where;
@@ -405,15 +497,18 @@ struct Check {
   Implausible (*find)(const Dataset& data);
 };
 
-constexpr Check checks[] = {{"pressure", pressure},
+constexpr Check checks[] = {{"no_friction", no_friction},
+                            {"pressure", pressure},
                             {"friction_coefficient", friction_coefficient},
                             {"shear_yield", shear_yield},
                             {"temperature", temperature},
                             {"speed", speed},
+                            {"path", path},
                             {"surface_expansion", surface_expansion},
                             {"clipped_channel", clipped_channel},
                             {"stuck_channel", stuck_channel},
                             {"force_offset", force_offset},
+                            {"forces", forces},
                             {"test_apart", test_apart}};
 
 } // namespace

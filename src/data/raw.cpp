@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "data/wide.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
+#include "io/text_file.h"
 
 namespace frictab::data {
 
@@ -33,7 +35,7 @@ public:
     if (groups_.empty()) {
       read_datasets("", nullptr);
     } else {
-      table_.columns.push_back({"experiment", "", {}, {}});
+      column("experiment", "", 0);
       for (const std::string& group : groups_)
         read_group(group);
     }
@@ -108,13 +110,14 @@ private:
 
   // The column of this name; one that comes in behind row `first` lacks the rows before.
   io::CsvColumn& column(const std::string& name, const std::string& unit, std::size_t first) {
-    for (io::CsvColumn& there : table_.columns)
-      if (there.name == name) {
-        if (there.unit != unit || there.numbers.size() != first)
-          faults_.add({table_.file, 0, 0},
-                      fmt::format("column '{}' is there twice, or in two units", name));
-        return there;
-      }
+    const auto [known, is_new] = number_of_.emplace(name, table_.columns.size());
+    if (!is_new) {
+      io::CsvColumn& there = table_.columns[known->second];
+      if (there.unit != unit || there.numbers.size() != first)
+        faults_.add({table_.file, 0, 0},
+                    fmt::format("column '{}' is there twice, or in two units", name));
+      return there;
+    }
     if (first > 0)
       faults_.add({table_.file, 0, 0},
                   fmt::format("column '{}' is not in group '{}'", name, groups_.front()),
@@ -126,6 +129,7 @@ private:
   FaultList& faults_;
   std::vector<std::string> groups_;
   io::CsvTable table_;
+  std::unordered_map<std::string, std::size_t> number_of_; // of the columns, from 0
 };
 
 // ---- workbooks ----
@@ -177,7 +181,7 @@ bool is_workbook(const std::string& path) {
 }
 
 std::string raw_text(const std::string& path, const std::string& named, const std::string& sheet) {
-  return is_workbook(path) ? sheet_text(path, named, sheet) : io::read_file(path);
+  return is_workbook(path) ? sheet_text(path, named, sheet) : io::read_text_file(path, named);
 }
 
 Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -77,9 +78,12 @@ void add_test_columns(Part& part, const TestTable& table) {
                     fmt::format("test '{}' of {} is not in this table", name, part.raw.file),
                     "add a row for it (a cell may be empty); " + suggest(name, known));
   if (!missing.empty()) return;
+  std::set<std::string> there;
+  for (const Column& column : part.data.columns)
+    there.insert(column.name);
   std::vector<std::string> names;
   for (const Column& column : table.columns.columns) {
-    if (part.find(column.name)) {
+    if (there.count(column.name) > 0) {
       part.faults.add({table.file, table.header_line, 0},
                       fmt::format("column {} is in {} as well", column.name, part.raw.file),
                       "keep one of the two");

@@ -25,7 +25,8 @@ namespace {
 
 const std::string staging_prefix = ".frictab-", one_file_prefix = ".frictab-file-";
 // In a staging directory.
-const std::string new_files = "new", old_files = "old", journal_name = "journal";
+const std::string new_files = "new", old_files = "old", journal_name = "journal",
+                  keep_name = "keep";
 
 [[noreturn]] void cannot(const std::string& what, const fs::path& file) {
   throw std::runtime_error(
@@ -203,6 +204,13 @@ private:
   bool taken_back_ = false;
 };
 
+void write_text(const fs::path& file, std::string_view content) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) cannot("write", file);
+}
+
 // ---- what earlier processes left ----
 
 bool is_older_than_a_day(const fs::path& path) {
@@ -216,9 +224,21 @@ std::vector<fs::path> staging_directories(const fs::path& directory) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(directory, ignored))
     if (const std::string name = entry.path().filename().string();
-        name.starts_with(staging_prefix) && fs::is_directory(entry.symlink_status(ignored)))
+        name.starts_with(staging_prefix) && name != kept_name &&
+        fs::is_directory(entry.symlink_status(ignored)))
       found.push_back(entry.path());
   return found;
+}
+
+// What an unfinished run had staged: kept where that was asked for, in place of what was.
+void keep_or_remove(const fs::path& directory, const fs::path& staging) noexcept {
+  std::error_code error;
+  if (fs::exists(staging / keep_name, error)) {
+    const fs::path kept = directory / kept_name;
+    fs::remove_all(kept, error);
+    fs::rename(staging / new_files, kept, error);
+  }
+  fs::remove_all(staging, error);
 }
 
 // Those of processes that died: what they had begun to commit is finished. A lock says that they
@@ -232,9 +252,11 @@ void clear_abandoned(const fs::path& directory, bool locked) {
       Commit commit(directory, staging, *journal);
       commit.finish();
       commit.tidy();
+      fs::remove(staging / keep_name, ignored);
+      fs::remove_all(directory / kept_name, ignored);
     }
     fs::remove(staging / journal_name, ignored);
-    fs::remove_all(staging, ignored);
+    keep_or_remove(directory, staging);
   }
 }
 
@@ -251,26 +273,58 @@ OutputFiles::OutputFiles(fs::path directory, Claim claim) : directory_(std::move
   created_ = !fs::exists(directory_, error);
   fs::create_directories(directory_, error);
   if (error) cannot_write_here(directory_, error.message());
+  if (created_)
+    directory_when_interrupted_.emplace([this] {
+      std::error_code ignored;
+      fs::remove(directory_, ignored); // only where it is empty
+    });
   if (claim == Claim::directory) {
     lock_.emplace(directory_);
     clear_abandoned(directory_, lock_->held());
   }
   staging_ = make_staging(directory_, claim == Claim::directory ? staging_prefix : one_file_prefix);
+  when_interrupted_.emplace([this] {
+    abandon();
+    abandon(); // other threads may have been writing
+  });
 }
 
 OutputFiles::~OutputFiles() {
-  std::error_code ignored;
-  if (!fs::exists(staging_ / journal_name, ignored)) fs::remove_all(staging_, ignored);
+  when_interrupted_.reset();
+  abandon();
   lock_.reset();
+  std::error_code ignored;
   if (created_) fs::remove(directory_, ignored); // only where it is empty
+}
+
+// Nothing is left to do behind commit().
+void OutputFiles::abandon() noexcept {
+  std::error_code ignored;
+  if (fs::exists(staging_ / journal_name, ignored)) return; // the next one finishes it
+  keep_or_remove(directory_, staging_);
+}
+
+void OutputFiles::keep(const std::string& name, std::string_view record) {
+  stage(name);
+  const fs::path file = staging_ / new_files / name, draft = file.string() + ".draft";
+  write_text(draft, record);
+  rename_file(draft, file);
+  hashes_[name] = hash_of(record);
+  std::ofstream(staging_ / keep_name);
+}
+
+void OutputFiles::take_kept(const std::string& path) {
+  const fs::path kept = directory_ / kept_name / path, file = stage(path);
+  std::error_code error;
+  fs::create_hard_link(kept, file, error);
+  if (error) fs::copy_file(kept, file, fs::copy_options::overwrite_existing);
 }
 
 void OutputFiles::write(const std::string& path, std::string_view content) {
   const fs::path file = stage(path);
-  std::ofstream out(file, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (!out) cannot("write", directory_ / path);
+  std::error_code ignored;
+  fs::remove(file, ignored); // a second name of a file that was kept
+  write_text(file, content);
   hashes_[path] = hash_of(content);
 }
 
@@ -281,6 +335,11 @@ fs::path OutputFiles::stage(const std::string& path) {
   fs::path file = staging_ / new_files / path;
   fs::create_directories(file.parent_path());
   return file;
+}
+
+fs::path OutputFiles::staged(const std::string& path) const {
+  const auto adopted = adopted_.find(path);
+  return adopted == adopted_.end() ? staging_ / new_files / path : adopted->second;
 }
 
 void OutputFiles::adopt(const std::string& path, fs::path file) {
@@ -297,8 +356,7 @@ void OutputFiles::remove_old(const std::string& path) {
 void OutputFiles::commit() {
   Journal journal;
   for (const std::string& path : paths_) {
-    const auto adopted = adopted_.find(path);
-    const fs::path from = adopted == adopted_.end() ? staging_ / new_files / path : adopted->second;
+    const fs::path from = staged(path);
     const auto hash = hashes_.find(path);
     sync(from);
     if (hash != hashes_.end() && hash_of(read_file(from)) != hash->second)
@@ -313,6 +371,7 @@ void OutputFiles::commit() {
   for (const std::string& path : old_)
     if (std::find(paths_.begin(), paths_.end(), path) == paths_.end())
       journal.remove.push_back(path);
+  const Uninterrupted whole;
   Commit commit(directory_, staging_, journal);
   write_journal(staging_, journal);
   try {
@@ -324,6 +383,7 @@ void OutputFiles::commit() {
   commit.tidy();
   fs::remove(staging_ / journal_name);
   fs::remove_all(staging_);
+  if (lock_) fs::remove_all(directory_ / kept_name);
   adopted_.clear();
   created_ = false;
 }
@@ -348,6 +408,11 @@ void finish_interrupted(const fs::path& directory) {
         return fs::exists(staging / journal_name, ignored);
       }))
     return;
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw InputError({directory.string(), 0, 0},
+                     "a command died while it put its results in place, and nothing can be written "
+                     "here to finish that",
+                     "let its owner run any frictab command on it, `frictab status JOB` say");
   const DirectoryLock lock(directory, DirectoryLock::Wish::if_free);
   if (lock.held()) clear_abandoned(directory, true);
 }

@@ -253,10 +253,24 @@ std::vector<char> text_columns(const CsvTable& table, const CsvFormat& format) {
   return is_text;
 }
 
-// Reads one line's cells into row `row` of the columns; returns how many there are, without empty
-// ones behind the last column.
-std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
-                       const std::vector<char>& is_text, std::size_t row) {
+// How many cells a line has, without empty ones behind the last column, and how many of them were
+// put into columns.
+struct Cells {
+  std::size_t filled = 0, kept = 0;
+};
+
+// Empty cells where the column has none in front of this row.
+void pad(CsvColumn& column, std::size_t row) {
+  for (std::size_t i = column.numbers.size(); i < row; ++i) {
+    column.numbers.push_back(no_value);
+    column.texts.push_back({i, "", 0});
+  }
+}
+
+// Reads one line's cells into row `row` of the columns. Empty ones behind the last name are left
+// out until a filled one follows: a header may end with a thousand delimiters.
+Cells read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& format,
+                 const std::vector<char>& is_text, std::size_t named, std::size_t row) {
   std::string storage;
   std::size_t cells = 0, filled = 0;
   for (bool last = false; !last; ++cells) {
@@ -264,6 +278,7 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& forma
     if (known) filled = cells + 1;
     double value = no_value;
     if (known && !is_text[cells] && scanner.number(format.decimal, value, last)) {
+      pad(table.columns[cells], row);
       table.columns[cells].numbers.push_back(value);
       continue;
     }
@@ -273,13 +288,15 @@ std::size_t read_cells(CsvTable& table, Scanner& scanner, const CsvFormat& forma
       if (!cell.empty()) filled = cells + 1;
       continue;
     }
+    if (cells >= named && cell.empty()) continue;
+    pad(table.columns[cells], row);
     if (is_text[cells] || !parse_number(cell, format, value)) {
       table.columns[cells].texts.push_back({row, to_utf8(cell), place});
       value = no_value;
     }
     table.columns[cells].numbers.push_back(value);
   }
-  return filled;
+  return {filled, std::min(cells, is_text.size())};
 }
 
 // Without those behind the last name: a header may end with delimiters that its rows do not have.
@@ -290,12 +307,12 @@ std::size_t named_columns(const CsvTable& table) {
   return count == 0 ? table.columns.size() : count;
 }
 
-// Empty cells behind the ones that are there.
-void fill_row(CsvTable& table, std::size_t cells, std::size_t row) {
-  for (std::size_t i = cells; i < table.columns.size(); ++i) {
-    table.columns[i].numbers.push_back(no_value);
-    table.columns[i].texts.push_back({row, "", 0});
-  }
+// Columns behind the last name that hold nothing are none; the others get their empty cells.
+void settle_nameless(CsvTable& table, std::size_t named) {
+  while (table.columns.size() > named && table.columns.back().numbers.empty())
+    table.columns.pop_back();
+  for (std::size_t i = named; i < table.columns.size(); ++i)
+    pad(table.columns[i], table.rows());
 }
 
 bool starts_with_line(std::string_view text, std::size_t at, std::string_view line) {
@@ -317,9 +334,11 @@ void skip_header(Scanner& scanner, std::string_view text, bool units_row) {
   if (!scanner.at_end()) scanner.take_line();
 }
 
-void forget_row(CsvTable& table, std::size_t row) {
-  for (CsvColumn& column : table.columns) {
-    column.numbers.resize(row);
+// Of as many columns as it reached: a short line in a wide file costs no more than it holds.
+void forget_row(CsvTable& table, std::size_t row, std::size_t columns) {
+  for (std::size_t i = 0; i < columns; ++i) {
+    CsvColumn& column = table.columns[i];
+    if (column.numbers.size() > row) column.numbers.resize(row);
     while (!column.texts.empty() && column.texts.back().row == row)
       column.texts.pop_back();
   }
@@ -370,19 +389,19 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
       ++again;
       continue;
     }
-    const std::size_t cells = read_cells(table, scanner, format, is_text, row);
-    if (cells >= named && cells <= width) {
-      fill_row(table, cells, row);
+    const Cells cells = read_cells(table, scanner, format, is_text, named, row);
+    if (cells.filled >= named && cells.filled <= width) {
       tell();
       table.line.push_back(line);
       table.interval.push_back(again);
       continue;
     }
-    since_row.push_back({line, cells});
-    forget_row(table, row);
+    since_row.push_back({line, cells.filled});
+    forget_row(table, row, cells.kept);
   }
   tell();
   tell_ragged(ragged, table, faults);
+  settle_nameless(table, named);
   if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
   if (in_front > 0)
     table.notes.push_back(fmt::format("{} lines in front of it are no rows", in_front));
@@ -509,10 +528,12 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
     scanner.take_line();
   read_header(table, scanner, format);
   if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
-  const std::size_t estimate = text.size() / (below.size() + 1) + 16;
+  // A row has a sign per column at least, whatever the line below the header looks like.
+  const std::size_t estimate =
+      std::min(text.size() / (below.size() + 1), text.size() / table.columns.size()) + 16;
   for (CsvColumn& column : table.columns)
-    column.numbers.reserve(std::min(estimate, text.size()));
-  table.line.reserve(std::min(estimate, text.size()));
+    column.numbers.reserve(estimate);
+  table.line.reserve(estimate);
   read_rows(table, scanner, text, header_text, format, faults);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");

@@ -51,7 +51,8 @@ struct CsvTable {
 
 // Handles UTF-8 and UTF-16 with a BOM, Latin-1 names and texts, CRLF and CR line ends, quoted cells
 // with delimiters and line breaks inside, lines that are blank or hold delimiters alone, empty
-// column names, delimiters behind the last cell. Where the header line comes again a new interval
+// column names (columns behind the last name that hold nothing are left out), delimiters behind the
+// last cell. Where the header line comes again a new interval
 // starts; lines in front of it that are no rows belong to it. Other ragged rows (once per number of
 // cells, with their count) and an unclosed quote are added to `faults`; they are left out of the
 // result (the caller throws). Throws InputError where there is no header or no row.

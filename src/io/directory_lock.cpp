@@ -80,6 +80,7 @@ bool DirectoryLock::open_and_lock(const std::filesystem::path& directory, Wish w
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, Wish wish)
     : file_(directory / ".frictab.lock"), held_(open_and_lock(directory, wish)) {
   if (!held_) return;
+  when_interrupted_.emplace([file = file_] { ::unlink(file.c_str()); });
   const std::string text = me() + "\n";
   if (::ftruncate(open_, 0) != 0 || ::pwrite(open_, text.data(), text.size(), 0) < 0) {
     // it is held all the same

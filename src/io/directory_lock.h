@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "core/interrupt.h"
 
 namespace frictab::io {
 
@@ -30,6 +33,7 @@ private:
   std::filesystem::path file_;
   int open_ = -1;
   bool held_;
+  std::optional<WhenInterrupted> when_interrupted_;
 };
 
 } // namespace frictab::io

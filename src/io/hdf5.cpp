@@ -46,7 +46,8 @@ struct Hdf5Reader::Data {
       work(out);
     };
     if (!run_isolated(limits, of_child, take))
-      fail("is damaged: the HDF5 library crashes on it", "write it again from its source");
+      fail("is damaged: the HDF5 library crashes on it or comes to no end",
+           "write it again from its source");
   }
 };
 
@@ -60,6 +61,12 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, std::string named)
   data_->ask([&](ByteSink& out) { scan_hdf5(file, out); },
              [&](ByteSource& in) { return take_contents(in, data_->file_bytes, data_->contents); });
   if (!data_->contents.fault.empty()) data_->fail(data_->contents.fault, data_->contents.hint);
+}
+
+Hdf5Reader::Hdf5Reader(const Hdf5Contents& contents, std::string named)
+    : data_(std::make_unique<Data>()) {
+  data_->named = std::move(named);
+  data_->contents = contents;
 }
 
 Hdf5Reader::~Hdf5Reader() = default;

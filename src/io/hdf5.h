@@ -65,6 +65,8 @@ struct Hdf5Layout {
   std::uint64_t stored_bytes = 0;
 };
 
+struct Hdf5Contents; // hdf5_scan.h
+
 // What an HDF5 file holds, as a child process reads it: the library can crash or hang on a damaged
 // file, and this process never opens it. Datasets of up to 16 MiB are read with the description,
 // larger ones where they are asked for. Throws InputError where the file is no HDF5 file, is
@@ -73,6 +75,8 @@ class Hdf5Reader {
 public:
   // `named` is how messages call the file.
   Hdf5Reader(const std::filesystem::path& file, std::string named);
+  // What a child has found; all its datasets are held.
+  Hdf5Reader(const Hdf5Contents& contents, std::string named);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -45,6 +46,10 @@ void set_limit(int what, rlim_t value) {
 
 [[noreturn]] void be_the_child(const ChildLimits& limits, int out,
                                const std::function<void(ByteSink&)>& work) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // nobody is left to read from it
+  sigset_t none;                      // the thread that waits for signals is the parent's
+  sigemptyset(&none);
+  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDERR_FILENO); // a sanitizer's or the C library's last words
   set_limit(RLIMIT_CORE, 0);

@@ -2,6 +2,7 @@
 #include "io/json.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,14 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& file
   }
 }
 
+std::uint64_t count_of(const nlohmann::ordered_json& value) {
+  constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+  const bool whole =
+      value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+  if (whole && value.get<std::uint64_t>() <= most) return value.get<std::uint64_t>();
+  throw nlohmann::ordered_json::type_error::create(302, value.dump() + " is no count", &value);
+}
+
 void read_json(const std::string& file, const std::string& mends,
                const std::function<void()>& read) {
   try {
@@ -41,6 +50,16 @@ void read_json(const std::string& file, const std::string& mends,
     what = what.substr(std::min(what.size(), what.find("] ") + 2));
     throw InputError({file, 0, 0}, "not as frictab writes it: " + what, mends);
   }
+}
+
+void check_schema(const nlohmann::ordered_json& json, const std::string& schema,
+                  const std::string& file, const std::string& mends) {
+  const bool stated = json.is_object() && json.contains("schema");
+  if (stated && json.at("schema") == schema) return;
+  throw InputError({file, 0, 0},
+                   stated ? "its schema is " + json.at("schema").dump() + ", not \"" + schema + "\""
+                          : "it has no \"schema\": \"" + schema + "\"",
+                   mends);
 }
 
 } // namespace frictab::io

@@ -109,11 +109,33 @@ void check_column(JobReader& reader, const std::string& section, const std::stri
   check_formula(reader, source, path);
 }
 
+// a times b, b times a: each is told once, at the first of its columns.
+template <class Rules>
+void check_circle(JobReader& reader, const std::string& section, const Rules& rules,
+                  const std::string& first) {
+  std::string path = first, at = first;
+  for (std::size_t steps = 0; steps <= rules.columns.size(); ++steps) {
+    const auto found = rules.columns.find(at);
+    if (found == rules.columns.end() || found->second.times.empty()) return;
+    at = found->second.times;
+    path += " times " + at;
+    if (at < first) return; // told there, or no circle
+    if (at != first) continue;
+    if (steps > 0) // else it names itself
+      reader.fault(reader.place_of(section + ".columns." + first + ".times"),
+                   "the columns are multiplied in a circle: " + path,
+                   "one of them is measured itself: leave its `times` out");
+    return;
+  }
+}
+
 // `section` is "data", or "data.files[1]".
 template <class Rules>
 void check_mapping(JobReader& reader, const std::string& section, Rules& rules) {
   for (auto& [name, source] : rules.columns)
     check_column(reader, section + ".columns", name, source);
+  for (const auto& [name, source] : rules.columns)
+    check_circle(reader, section, rules, name);
   for (const auto& [name, value] : rules.constants)
     if (rules.columns.count(name))
       reader.fault(reader.place_of(section + ".constants." + name),

@@ -281,7 +281,7 @@ std::vector<KeyRule> table_keys() {
           "values of one table that are held in memory; a larger linear table of which every axis "
           "has its nodes is sampled to disk in chunks (a killed run goes on where it was) and "
           "looked up there") |
-          above(0),
+          ValueBounds{0, 1e9, true, false},
       key<std::size_t>(
           "table.hdf5.chunk", [](Job & job) -> auto& { return job.table.hdf5.chunk; },
           "values per HDF5 chunk, whole along the last axes; 0 = in one piece, or 65536 where "
@@ -355,8 +355,10 @@ std::vector<KeyRule> proof_keys() {
       key<bool>(
           "verify.require_proof", [](Job & job) -> auto& { return job.verify.require_proof; },
           "a table passes only where a bound within the tolerance is proven, not by what the "
-          "search "
-          "found alone"),
+          "search found alone"),
+      key<bool>(
+          "verify.require_run", [](Job & job) -> auto& { return job.verify.require_run; },
+          "a routine that cannot be compiled and run on this machine has failed"),
       key<std::vector<std::string>>(
           "trace.models", [](Job & job) -> auto& { return job.trace.models; },
           "laws whose residuals are searched: best, a name, a list, or all") |

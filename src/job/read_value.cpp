@@ -60,6 +60,10 @@ struct ValueReader {
   // The text as the schema spells it.
   std::optional<std::string> text(const TomlNode& node) const {
     if (node.type != Type::text) return refuse(node);
+    if (node.text.find('\0') != node.text.npos) { // a path would end there, unseen
+      reader.fault(node.place, path + " holds a NUL character (\\u0000)", "leave it out");
+      return std::nullopt;
+    }
     if (!rule.allowed.names) {
       if (!node.text.empty()) return node.text;
       reader.fault(node.place, path + " must not be an empty text", about());

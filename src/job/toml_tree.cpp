@@ -215,10 +215,7 @@ std::string describe(const TomlNode& node) {
   case TomlNode::Type::text: {
     constexpr std::size_t longest = 60;
     if (node.text.size() <= longest) return "the text " + toml_quoted(node.text);
-    std::size_t end = longest; // not within a UTF-8 sequence
-    while (end > 0 && (static_cast<unsigned char>(node.text[end]) & 0xC0) == 0x80)
-      --end;
-    return "the text " + toml_quoted(node.text.substr(0, end) + "...");
+    return "the text " + toml_quoted(std::string(utf8_start(node.text, longest)) + "...");
   }
   case TomlNode::Type::whole:
     return std::to_string(node.whole);

@@ -1,8 +1,12 @@
 // Formulas every law shares: k, the shear limit, the composition of piece and combination.
 #include "models/law.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "data/quantity.h"
 
 namespace frictab::models {
@@ -90,6 +94,17 @@ std::string Model::name() const {
 
 std::string traced_name(std::string_view base) {
   return std::string(base) + std::string(traced_suffix);
+}
+
+std::string checked_model_name(const std::string& name, const std::string& file) {
+  const auto is_plain = [](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';
+  };
+  if (name.empty() || name.size() > 100 || name.front() == '.' ||
+      !std::all_of(name.begin(), name.end(), is_plain))
+    throw InputError({file, 0, 0}, "the model is called '" + name + "'",
+                     "a name of 1 to 100 letters, digits, '_', '.' and '-'");
+  return name;
 }
 
 ModelName read_model_name(std::string_view name) {

@@ -129,6 +129,9 @@ struct ModelName {
 };
 // Of log_coulomb, log_coulomb_q05 and log_coulomb_traced_q05 the base is log_coulomb.
 ModelName read_model_name(std::string_view name);
+// A name from a file; it becomes part of file names and of generated text. Throws InputError that
+// names `file` unless it is 1 to 100 letters, digits, '_', '.' and '-', the first no '.'.
+std::string checked_model_name(const std::string& name, const std::string& file);
 
 const std::vector<Law>& all_laws();
 const Law* find_law(std::string_view name);

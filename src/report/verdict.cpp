@@ -128,6 +128,7 @@ void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) 
     (r.subject == "table" ? tables : sources).add(r);
   const std::size_t ran = tables.ran + sources.ran;
   const std::size_t failed = tables.failed + sources.failed;
+  const std::size_t not_run = tables.not_run + sources.not_run;
   std::string& summary = page.text["drift_summary"];
   if (input.verification.records.empty()) {
     summary = "No table or source was compared with its law.";
@@ -139,6 +140,9 @@ void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) 
   }
   if (ran == 0) {
     page.text["drift_badge"] = "Drift not checked";
+    page.text["drift_class"] = "none";
+  } else if (failed == 0 && not_run > 0) {
+    page.text["drift_badge"] = fmt::format("Drift passed, {} untested", not_run);
     page.text["drift_class"] = "none";
   } else {
     page.text["drift_badge"] = failed > 0 ? "Drift failed" : "Drift passed";

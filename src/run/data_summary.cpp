@@ -136,8 +136,12 @@ std::string data_text(const JobData& data) {
     add_lines(out, "implausible", part->implausible);
   }
   add_lines(out, "in none of the data", data.training.unused);
-  if (const auto names = bystanders(data.training); !names.empty())
-    out += "other columns: " + join(names, ", ") + "\n";
+  if (auto names = bystanders(data.training); !names.empty()) {
+    constexpr std::size_t shown = 100;
+    const std::size_t more = names.size() - std::min(names.size(), shown);
+    names.resize(names.size() - more);
+    out += "other columns: " + join(names, ", ") + and_more(more, "column") + "\n";
+  }
   return out + report::size_text(data.judged_by, data.training, data.validation) +
          (calibrate::is_synthetic(data.training) ? " - SYNTHETIC data\n" : "\n");
 }

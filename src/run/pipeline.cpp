@@ -2,6 +2,7 @@
 #include "run/pipeline.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -32,6 +33,9 @@ namespace fs = std::filesystem;
 
 Pipeline::Pipeline(job::Job job)
     : job_(std::move(job)), output_(job_.directory), earlier_(job_), stages_(job_, job_.directory) {
+  if (!output_.keeps_others_off())
+    notes_.push_back(job_.directory + " is on a file system without locks: run one frictab at a "
+                                      "time there");
 }
 
 // ---- what the stages are made of ----
@@ -49,6 +53,17 @@ void Pipeline::check_fresh(const std::string& stage, const std::string& files) c
                                stage, job_.file));
 }
 
+// Hints say what makes a file anew.
+void Pipeline::check_as_written(const std::string& stage, const std::string& path) const {
+  if (stages_.is_as_written(path).value_or(true)) return;
+  throw InputError(
+      {(fs::path(job_.directory) / path).string(), 0, 0},
+      fmt::format("was changed since `frictab {}` wrote it", stage),
+      fmt::format("`frictab {} {}` makes it anew; for a law with constants of your own "
+                  "or a table from elsewhere: `frictab export --law` or `--table`",
+                  stage, job_.file));
+}
+
 void Pipeline::load_data() {
   if (!data_) data_ = load_job_data(job_);
 }
@@ -61,7 +76,13 @@ void Pipeline::load_calibration() {
     return;
   }
   check_fresh("calibrate", "calibration.json");
+  check_as_written("calibrate", "calibration.json");
   calibration_ = earlier_.calibration();
+  // What stages.json says, where there is none.
+  if (data_ && calibration_->data_hash != data::fingerprint(data_->training, data_->judged()))
+    throw InputError({(fs::path(job_.directory) / "calibration.json").string(), 0, 0},
+                     "was made from other data: their fingerprint is " + calibration_->data_hash,
+                     "`frictab calibrate " + job_.file + "` makes it anew");
 }
 
 namespace {
@@ -99,20 +120,97 @@ void Pipeline::load_tables() {
   check_fresh("tabulate", "tables");
   tables_ = earlier_.tables(job_.table.memory_limit_MiB);
   keep_named(tables_, job_.table);
+  load_calibration();
+  for (Table& table : tables_)
+    check_origin(table);
+}
+
+// Verification measures a changed table; what goes on from it does not take it for the law.
+void Pipeline::check_origin(Table& table) {
+  const std::string path = "tables/" + table.model + ".h5";
+  const fs::path file = fs::path(job_.directory) / path;
+  const std::string hash = table.record.data_hash.value_or(calibration_->data_hash);
+  if (hash != calibration_->data_hash)
+    throw InputError({file.string(), 0, 0},
+                     fmt::format("was made from other data: their fingerprint is {}, that of "
+                                 "calibration.json is {}",
+                                 hash, calibration_->data_hash),
+                     "`frictab tabulate " + job_.file + "` makes it anew");
+  const std::optional<bool> as_written = stages_.is_as_written(path);
+  table.drift_is_claimed = !as_written.value_or(false);
+  if (as_written.value_or(true)) return;
+  if (!verifying_) check_as_written("tabulate", path);
+  notes_.push_back(file.string() + " was changed since `frictab tabulate` wrote it");
+}
+
+// ---- what outlives a run that does not end ----
+
+void Pipeline::go_on() {
+  kept_.emplace(job_);
+}
+
+std::string Pipeline::kept_text() const {
+  if (!keeps_) return "";
+  return fmt::format("what was finished is kept in {}; `frictab run {}` goes on from there",
+                     (fs::path(job_.directory) / io::kept_name).string(), job_.file);
+}
+
+void Pipeline::record_files() {
+  for (const std::string& path : output_.old())
+    stages_.forget_file(path);
+  for (const std::string& path : output_.paths())
+    if (path != "stages.json" && path != "report.html") // which lists what its command wrote
+      stages_.record_file(path, output_.staged(path));
+}
+
+void Pipeline::keep_so_far() {
+  if (!kept_) return;
+  record_files();
+  output_.keep("stages.json", stages_.json());
+  keeps_ = true;
+}
+
+void Pipeline::take_kept_calibration() {
+  for (const std::string& path : kept_->calibration_files())
+    output_.take_kept(path);
+  calibration_ = kept_->files().calibration();
+  notes_.push_back("the calibration is that of a run that did not end");
+}
+
+Table Pipeline::staged_table(const std::string& model) const {
+  Table table =
+      table::read_table(output_.staged("tables/" + model + ".h5"),
+                        static_cast<std::size_t>(job_.table.memory_limit_MiB * (1 << 20)));
+  table.drift_is_claimed = false;
+  return table;
+}
+
+bool Pipeline::take_kept_table(const std::string& model, Table& table) {
+  const std::string path = "tables/" + model + ".h5";
+  if (!kept_ || !kept_->has_file("tabulate", path, data_key())) return false;
+  output_.take_kept(path);
+  table = staged_table(model);
+  notes_.push_back("the table of " + table.model + " is that of a run that did not end");
+  return true;
 }
 
 // ---- calibrate ----
 
 void Pipeline::calibrate() {
   load_data();
-  calibration_ = calibrate::calibrate(data_->calibration_input(job_));
+  const bool is_kept = kept_ && kept_->has_calibration(data_key());
+  if (!is_kept) calibration_ = calibrate::calibrate(data_->calibration_input(job_));
   new_calibration_ = true;
   laws_.clear();
   for (const std::string& file : earlier_.model_files())
     output_.remove_old(file);
   output_.remove_old("trace.json"); // of another calibration
-  write_calibration();
+  if (is_kept)
+    take_kept_calibration();
+  else
+    write_calibration();
   stages_.record("calibrate", data_key());
+  if (!is_kept) keep_so_far();
 }
 
 void Pipeline::write_calibration() {
@@ -130,6 +228,12 @@ void Pipeline::write_calibration() {
 void Pipeline::trace() {
   load_data();
   load_calibration();
+  if (kept_ && kept_->has_calibration(data_key()) && kept_->has("trace", data_key())) {
+    traces_ = kept_->files().traces();
+    stages_.record("trace", data_key());
+    keep_so_far();
+    return;
+  }
   std::erase_if(calibration_->fits, // of an earlier trace
                 [](const ModelFit& fit) { return fit.model.traced(); });
   for (const std::string& file : earlier_.model_files())
@@ -145,6 +249,7 @@ void Pipeline::trace() {
   laws_.clear();
   output_.write("trace.json", trace::trace_json(traces_, calibration_->synthetic));
   stages_.record("trace", data_key());
+  keep_so_far();
 }
 
 namespace {
@@ -247,6 +352,22 @@ void Pipeline::write_table_file(const Table& table) {
     table::write_table(table, output_.stage(name), job_.table.hdf5);
 }
 
+Table Pipeline::made_table(const models::AssembledLaw& law) {
+  Table table;
+  if (take_kept_table(law.model.name(), table)) {
+    measure_drift(law, table);
+    return table;
+  }
+  table = sample_table(law);
+  table.record.tool_version = FRICTAB_VERSION;
+  table.record.data_hash = calibration_->data_hash;
+  table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";
+  measure_drift(law, table);
+  write_table_file(table);
+  if (!table.stored) table = staged_table(table.model); // what is verified is what users get
+  return table;
+}
+
 void Pipeline::tabulate() {
   load_data();
   load_calibration();
@@ -254,16 +375,11 @@ void Pipeline::tabulate() {
     output_.remove_old(file);
   tables_.clear();
   const std::vector<models::Model> models = models_to_tabulate(*calibration_, job_.table);
+  stages_.begin("tabulate", data_key());
   Progress progress("tabulating", models.size());
   for (const models::Model& model : models) {
-    const models::AssembledLaw& law = assembled(model);
-    Table table = sample_table(law);
-    table.record.tool_version = FRICTAB_VERSION;
-    table.record.data_hash = calibration_->data_hash;
-    table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";
-    measure_drift(law, table);
-    write_table_file(table);
-    tables_.push_back(std::move(table));
+    tables_.push_back(made_table(assembled(model)));
+    keep_so_far();
     progress.tick();
   }
   // As a later stage reads them: by name.
@@ -323,6 +439,8 @@ Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportO
 } // namespace
 
 void Pipeline::generate() {
+  load_data();
+  load_calibration();
   const auto targets = codegen::exporters_named(job_.exports.targets);
   for (const auto& [target, inputs] : job_.exports.inputs_of_target)
     if (std::find(targets.begin(), targets.end(), codegen::find_exporter(target)) == targets.end())
@@ -404,14 +522,26 @@ void Pipeline::load_sources() {
 }
 
 void Pipeline::verify() {
+  verifying_ = true;
   load_data();
   load_calibration();
   load_tables();
   const double allowed = drift_allowed();
   load_sources();
-  verification_ = verify::Verification{allowed, {}, job_.verify.require_proof};
+  verification_ =
+      verify::Verification{allowed, {}, job_.verify.require_proof, job_.verify.require_run};
+  stages_.begin("verify", data_key());
+  std::vector<verify::DriftRecord> kept; // of whole tables
+  if (kept_ && kept_->has_file("verify", "verify.json", data_key()))
+    kept = kept_->files().verification()->records;
   Progress progress("verifying", tables_.size());
   for (const Table& table : tables_) {
+    const auto of_table = [&](const verify::DriftRecord& r) { return r.model == table.model; };
+    if (std::any_of(kept.begin(), kept.end(), of_table)) {
+      std::copy_if(kept.begin(), kept.end(), std::back_inserter(verification_->records), of_table);
+      progress.tick();
+      continue;
+    }
     const Table direct = direct_for_sources(table);
     const auto known = compared_.find(table.model);
     const verify::VerifyInput input{law_of(table),
@@ -423,6 +553,8 @@ void Pipeline::verify() {
                                     known == compared_.end() ? nullptr : &known->second};
     const auto records = verify::verify(input, sources_of(table, direct));
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
+    output_.write("verify.json", verify::verification_json(*verification_));
+    keep_so_far();
     progress.tick();
   }
   output_.write("verify.json", verify::verification_json(*verification_));
@@ -447,6 +579,7 @@ void Pipeline::report() {
   load_tables();
   if (!verification_) {
     const std::string why = stages_.stale("verify", data_key());
+    check_as_written("verify", "verify.json");
     if (why.empty())
       verification_ = earlier_.verification().value_or(verify::Verification{});
     else {
@@ -454,7 +587,10 @@ void Pipeline::report() {
       verification_ = verify::Verification{};
     }
   }
-  if (traces_.empty() && !new_calibration_) traces_ = earlier_.traces();
+  if (traces_.empty() && !new_calibration_) {
+    check_as_written("trace", "trace.json");
+    traces_ = earlier_.traces();
+  }
   std::vector<std::vector<double>> predicted;
   for (const ModelFit& fit : calibration_->fits)
     predicted.push_back(calibrate::predict(fit.model, data_->judged()));
@@ -479,6 +615,7 @@ void Pipeline::report() {
 }
 
 void Pipeline::commit() {
+  record_files();
   output_.write("stages.json", stages_.json());
   output_.commit();
 }

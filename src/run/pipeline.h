@@ -2,6 +2,7 @@
 // stage before it wrote.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "job/job.h"
 #include "models/assembled_law.h"
 #include "run/job_data.h"
+#include "run/kept_work.h"
 #include "run/result_directory.h"
 #include "run/stages.h"
 #include "table/table.h"
@@ -25,6 +27,12 @@ namespace frictab::run {
 class Pipeline {
 public:
   explicit Pipeline(job::Job job);
+
+  // Goes on from what an earlier run of this job had finished, if it did not end, and keeps what
+  // this one finishes. Of a run of all stages, before the first.
+  void go_on();
+  // What is kept, for who sees this run fail or stops it; empty where nothing is.
+  std::string kept_text() const;
 
   // Stages; each stages its files in the output directory. Nothing appears there before commit().
   void calibrate();
@@ -62,10 +70,20 @@ private:
   void load_tables();
   void load_sources();
   void check_fresh(const std::string& stage, const std::string& files) const;
-  std::string data_key() const; // empty where the data were not read
+  void check_as_written(const std::string& stage, const std::string& path) const;
+  void check_origin(table::Table& table); // of a table of an earlier run
+  std::string data_key() const;           // empty where the data were not read
+
+  void take_kept_calibration();
+  bool take_kept_table(const std::string& model, table::Table& table);
+  table::Table staged_table(const std::string& model) const; // as it was written
+  // What is finished so far outlives the process.
+  void keep_so_far();
+  void record_files(); // their fingerprints
 
   void write_calibration();
   void add_traced_laws();
+  table::Table made_table(const models::AssembledLaw& law); // and its file
   table::Table sample_table(const models::AssembledLaw& law);
   void measure_drift(const models::AssembledLaw& law, table::Table& table);
   void write_table_file(const table::Table& table);
@@ -87,6 +105,8 @@ private:
   io::OutputFiles output_; // first: it finishes what a process that died had begun
   ResultDirectory earlier_;
   Stages stages_;
+  std::optional<KeptWork> kept_;    // of a run of all stages
+  std::atomic<bool> keeps_ = false; // read when the run is interrupted
   std::optional<JobData> data_;
   std::optional<calibrate::Calibration> calibration_;
   bool new_calibration_ = false; // traces that lie in the directory belong to another one
@@ -94,7 +114,8 @@ private:
   std::map<std::string, models::AssembledLaw> laws_; // those that have met a table, by model name
   std::vector<table::Table> tables_;
   std::map<std::string, verify::DriftRecord>
-      compared_; // each new table with its law, by model name
+      compared_;           // each new table with its law, by model name
+  bool verifying_ = false; // a changed table is what verification is there to measure
   std::vector<std::string> missed_;
   std::map<std::string, codegen::SourceBundle> sources_; // by export directory
   std::optional<verify::Verification> verification_;

@@ -38,6 +38,19 @@ ResultDirectory::ResultDirectory(const job::Job& job) : directory_(job.directory
   io::finish_interrupted(directory_);
 }
 
+ResultDirectory::ResultDirectory(const job::Job& job, fs::path directory)
+    : directory_(std::move(directory)), job_(job.file) {}
+
+std::vector<std::string> ResultDirectory::all_files() const {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(directory_, ignored))
+    if (entry.is_regular_file(ignored))
+      files.push_back(entry.path().lexically_relative(directory_).string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 calibrate::Calibration ResultDirectory::calibration() const {
   const fs::path file = directory_ / "calibration.json";
   if (!fs::exists(file))
@@ -73,18 +86,33 @@ std::vector<fs::path> ResultDirectory::all_tables() const {
   return files;
 }
 
+namespace {
+
+// Its file's name is the one that every other stage knows it by.
+void check_model(const table::Table& table, const fs::path& file) {
+  if (table.model == file.stem()) return;
+  throw InputError({file.string(), 0, 0}, "holds a table of '" + table.model + "'",
+                   "tabulate again; a table from elsewhere is for `frictab export --table`");
+}
+
+} // namespace
+
 std::vector<table::Table> ResultDirectory::tables(double memory_limit_MiB) const {
   std::vector<table::Table> tables;
-  for (const fs::path& file : all_tables())
+  for (const fs::path& file : all_tables()) {
     tables.push_back(
         table::read_table(file, static_cast<std::size_t>(memory_limit_MiB * (1 << 20))));
+    check_model(tables.back(), file);
+  }
   return tables;
 }
 
 std::vector<table::Table> ResultDirectory::table_descriptions() const {
   std::vector<table::Table> tables;
-  for (const fs::path& file : all_tables())
+  for (const fs::path& file : all_tables()) {
     tables.push_back(table::read_description(file).table);
+    check_model(tables.back(), file);
+  }
   return tables;
 }
 

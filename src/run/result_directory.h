@@ -19,6 +19,7 @@ namespace frictab::run {
 class ResultDirectory {
 public:
   explicit ResultDirectory(const job::Job& job);
+  ResultDirectory(const job::Job& job, std::filesystem::path directory);
 
   // Results. Those that a stage cannot do without throw InputError where they are missing, with the
   // command that makes them; the others are empty.
@@ -28,6 +29,8 @@ public:
   std::vector<table::Table>
   tables(double memory_limit_MiB) const;                // by name; larger ones stay on disk
   std::vector<table::Table> table_descriptions() const; // without values
+  // All files below it, as paths in it, sorted.
+  std::vector<std::string> all_files() const;
   codegen::SourceBundle sources(const std::string& directory) const; // export/c, export/c/coulomb
   // The one of these two that holds this model's sources; where none does, the second.
   std::string source_directory(const std::string& target, const std::string& model) const;

@@ -2,6 +2,7 @@
 #include "run/stages.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,22 @@ std::string hash_text(const std::string& text) {
   return fmt::format("{:016x}", hash_of(text));
 }
 
+// Of a large file, a table that is streamed, its size and its ends: to read all of it takes longer
+// than many a stage.
+constexpr std::uintmax_t largest_read_whole = std::uintmax_t{256} << 20;
+constexpr std::size_t end_bytes = std::size_t{1} << 20;
+
+std::string file_fingerprint(const std::filesystem::path& file) {
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  if (size <= largest_read_whole) return hash_text(io::read_file(file));
+  std::ifstream in(file, std::ios::binary);
+  std::string ends(2 * end_bytes, '\0');
+  in.read(ends.data(), end_bytes);
+  in.seekg(-static_cast<std::streamoff>(end_bytes), std::ios::end);
+  in.read(ends.data() + end_bytes, end_bytes);
+  return hash_text(fmt::format("{} {}", size, ends));
+}
+
 const Stage& stage_named(const std::string& name) {
   return *std::find_if(stages().begin(), stages().end(),
                        [&](const Stage& stage) { return name == stage.name; });
@@ -60,7 +77,8 @@ const std::vector<std::string>& stage_names() {
   return names;
 }
 
-Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : job_(job) {
+Stages::Stages(const job::Job& job, const std::filesystem::path& directory)
+    : job_(job), directory_(directory) {
   const auto file = directory / "stages.json";
   if (!std::filesystem::exists(file)) return;
   const auto json = io::parse_json(io::read_file(file), file.string());
@@ -69,6 +87,8 @@ Stages::Stages(const job::Job& job, const std::filesystem::path& directory) : jo
     for (const auto& [name, inputs] : json.at("stages").items())
       made_[name] = {inputs.at("data"), inputs.at("job"), inputs.at("laws"), inputs.at("from"),
                      inputs.at("version")};
+    open_ = json.value("unfinished", "");
+    files_ = json.value("files", std::map<std::string, std::string>()); // none: of 0.1
   });
 }
 
@@ -98,9 +118,25 @@ StageInputs Stages::now(const std::string& stage, const std::string& data) const
   return {first ? data : "", hash_text(job), laws, last.empty() ? "" : key(last), FRICTAB_VERSION};
 }
 
+void Stages::begin(const std::string& stage, const std::string& data) {
+  made_[stage] = now(stage, data);
+  open_ = stage;
+}
+
 void Stages::record(const std::string& stage, const std::string& data) {
   made_[stage] = now(stage, data);
+  open_.clear();
   if (stage == "calibrate") made_.erase("trace");
+}
+
+void Stages::record_file(const std::string& path, const std::filesystem::path& file) {
+  files_[path] = file_fingerprint(file);
+}
+
+std::optional<bool> Stages::is_as_written(const std::string& path) const {
+  const auto known = files_.find(path);
+  if (known == files_.end() || !std::filesystem::exists(directory_ / path)) return std::nullopt;
+  return file_fingerprint(directory_ / path) == known->second;
 }
 
 std::string Stages::stale(const std::string& stage, const std::string& data) const {
@@ -129,6 +165,8 @@ std::string Stages::json() const {
                              {"laws", found->second.laws},
                              {"from", found->second.from},
                              {"version", found->second.version}};
+  if (!open_.empty()) out["unfinished"] = open_;
+  out["files"] = files_;
   return io::json_text(out);
 }
 

@@ -30,10 +30,20 @@ public:
   // is damaged.
   Stages(const job::Job& job, const std::filesystem::path& directory);
 
+  // A stage has begun; what it has made so far is known as such.
+  void begin(const std::string& stage, const std::string& data);
   // A stage has run on data of this fingerprint. Calibration drops what tracing had added.
   void record(const std::string& stage, const std::string& data);
 
-  bool has(const std::string& stage) const { return made_.count(stage) > 0; }
+  bool has(const std::string& stage) const { return made_.count(stage) > 0 && open_ != stage; }
+  bool has_begun(const std::string& stage) const { return made_.count(stage) > 0; }
+
+  // A file that later stages read, by its path in the directory, as it was written to `file`.
+  void record_file(const std::string& path, const std::filesystem::path& file);
+  void forget_file(const std::string& path) { files_.erase(path); }
+  // Whether the file is the one that was recorded; nothing where none was.
+  std::optional<bool> is_as_written(const std::string& path) const;
+
   // In words, how what a stage was made from differs from what it would be made from now: "[table]
   // of the job has changed since"; empty where it does not, or nothing is known of it. A
   // table.model that names laws picks among the tables there are. `data` empty: they were not read,
@@ -48,7 +58,10 @@ private:
   std::string before(const std::string& stage) const;
 
   const job::Job& job_;
+  std::filesystem::path directory_;
   std::map<std::string, StageInputs> made_;
+  std::string open_;                         // the stage that has begun and not ended
+  std::map<std::string, std::string> files_; // fingerprints by path
 };
 
 } // namespace frictab::run

@@ -184,7 +184,7 @@ struct DriftLine {
   double table = 0, on_rows = 0, share = 0;
   std::string proven = "-";
   double routines = 0; // the furthest of them
-  std::size_t count = 0;
+  std::size_t count = 0, untested = 0;
   bool passed = true, found_passed = true, over_by_proof = false;
   std::string notes; // what did not run, or is over the tolerance
 };
@@ -193,6 +193,7 @@ void add_to(DriftLine& line, const verify::Verification& verification,
             const verify::DriftRecord& r) {
   if (!r.ran) {
     line.notes += fmt::format("  {} {} not run: {}\n", r.model, r.subject, r.why_not);
+    ++line.untested;
     return;
   }
   line.passed = line.passed && !verification.failed(r);
@@ -220,7 +221,8 @@ void add_to(DriftLine& line, const verify::Verification& verification,
     line.notes += fmt::format("  {} not proven: {}\n", r.model, r.not_proven);
 }
 
-const char* result_of(const DriftLine& line) {
+std::string result_of(const DriftLine& line) {
+  if (line.untested > 0 && line.passed) return fmt::format("ok, {} UNTESTED", line.untested);
   if (!line.found_passed) return "OVER TOLERANCE";
   if (line.over_by_proof)
     return line.passed ? "ok as found, over tolerance by proof" : "OVER TOLERANCE BY PROOF";

@@ -11,9 +11,8 @@ namespace frictab::table {
 
 std::size_t nodes_beyond_data(const TableAxis& axis) {
   if (!axis.data) return 0;
-  const auto [low, high] = *axis.data;
-  return static_cast<std::size_t>(std::count_if(axis.nodes.begin(), axis.nodes.end(),
-                                                [&](double x) { return x < low || x > high; }));
+  const auto beyond = [&](double x) { return x < axis.data->first || x > axis.data->second; };
+  return static_cast<std::size_t>(std::count_if(axis.nodes.begin(), axis.nodes.end(), beyond));
 }
 
 double share_beyond_data(const TableAxis& axis) {

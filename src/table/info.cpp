@@ -78,11 +78,14 @@ void add_drift(std::string& out, const Table& table) {
   const std::string state = worst_state(table);
   if (const auto tolerance = stated(table.record.tolerance_MPa))
     out += fmt::format("Tolerance: {:g} MPa\n", *tolerance);
-  if (const auto worst = stated(table.record.worst_case_MPa))
-    out += fmt::format("Drift: {:.4g} MPa, the largest found{}\n", *worst,
+  const auto worst = stated(table.record.worst_case_MPa);
+  if (worst)
+    out += fmt::format("Drift, as the file says: {:.4g} MPa, the largest found{}\n", *worst,
                        state.empty() ? "" : ", at " + state);
-  if (const auto proven = stated(table.record.proven_drift_MPa))
-    out += fmt::format("Proven: nowhere above {:.3g} MPa\n", rounded_up(*proven));
+  const auto proven = stated(table.record.proven_drift_MPa);
+  if (proven)
+    out += fmt::format("Proven, as the file says: nowhere above {:.3g} MPa\n", rounded_up(*proven));
+  if (worst || proven) out += "  (`frictab verify --table FILE --model MODEL` measures it anew)\n";
 }
 
 } // namespace

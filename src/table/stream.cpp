@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -243,6 +244,23 @@ void write_head(const Table& table, const fs::path& file) {
 
 } // namespace
 
+namespace {
+
+// What users get, read back.
+void compare_with_work_file(const fs::path& packed, const io::StoredValues& values) {
+  std::vector<double> sampled;
+  io::Hdf5Reader(packed, packed.string())
+      .blocks("value", chunk_nodes, [&](std::size_t first, std::span<const double> part) {
+        sampled.resize(part.size());
+        values.read(first, sampled);
+        if (std::memcmp(sampled.data(), part.data(), part.size_bytes()) != 0)
+          throw std::runtime_error("the disk gives back something else than was written to " +
+                                   packed.string());
+      });
+}
+
+} // namespace
+
 fs::path finish_stream(const Table& table, const io::Hdf5Storage& storage, const fs::path& file) {
   if (!storage.chunked()) {
     write_head(table, file);
@@ -260,6 +278,7 @@ fs::path finish_stream(const Table& table, const io::Hdf5Storage& storage, const
       storage);
   write_description(out, table);
   out.close();
+  compare_with_work_file(packed, *table.stored);
   return packed;
 }
 

@@ -69,6 +69,7 @@ struct Table {
       extension; // the law's own "value" (never its logarithm) of axes and constants
   std::map<std::string, double> constants; // of combine and extension
   TableRecord record;
+  bool drift_is_claimed = false; // the record was read from a file that nothing here vouches for
 
   // States the table needs, canonical order: axes and the states of combine.
   std::vector<std::string> inputs() const;

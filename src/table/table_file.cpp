@@ -2,7 +2,6 @@
 #include "table/table_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "data/meaning.h"
 #include "data/quantity.h"
 #include "io/number.h"
+#include "models/law.h"
 #include "table/beyond_data.h"
 #include "table/frictab_kernel.h"
 #include "table/spline.h"
@@ -136,6 +136,8 @@ class TableReader {
 public:
   explicit TableReader(const std::filesystem::path& file)
       : file_(file), named_(file.string()), in_(file, file.string()) {}
+  TableReader(const io::Hdf5Contents& contents, const std::string& named)
+      : named_(named), in_(contents, named) {}
 
   Table read(std::size_t in_memory) {
     Table table = describe();
@@ -159,6 +161,8 @@ public:
     read_extension();
     faults_.throw_if_any();
     read_record();
+    check_numbers();
+    faults_.throw_if_any();
     return std::move(table_);
   }
 
@@ -182,24 +186,13 @@ private:
     return *found;
   }
 
-  // The name becomes part of file names.
-  std::string checked_name(const std::string& name) {
-    const bool plain = !name.empty() && name.size() <= 100 && name.front() != '.' &&
-                       std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                         return std::isalnum(c) || c == '_' || c == '.' || c == '-';
-                       });
-    if (!plain)
-      throw InputError({named_, 0, 0}, "the attribute model is '" + name + "'",
-                       "a name of letters, digits, '_', '.' and '-'");
-    return name;
-  }
-
   void read_record() {
     table_.model = foreign_model;
+    table_.drift_is_claimed = true;
     for (const std::string& name : in_.attributes("/")) {
       const auto text = in_.text_attribute("/", name);
       if (text && name == "model")
-        table_.model = checked_name(*text);
+        table_.model = models::checked_model_name(*text, named_);
       else if (text && name != "schema")
         take_attribute(table_.record, name, *text);
       else if (const auto number = in_.number_attribute("/", name))
@@ -219,7 +212,7 @@ private:
                           : models::PieceQuantity::mu;
     table_.log_value = text("value", "transform", {"linear", "log"}) == "log";
     const std::string layout = in_.text_attribute("/", "schema").value_or("");
-    if (layout.starts_with("frictab/table/") && layout != schema && layout != schema_of_logarithms)
+    if (layout.starts_with("frictab/") && layout != schema && layout != schema_of_logarithms)
       fault("the layout is " + layout,
             fmt::format("this version reads {} and {}", schema, schema_of_logarithms));
     holds_logarithms_ = table_.log_value && layout == schema_of_logarithms;
@@ -374,6 +367,22 @@ private:
                                             in_.number_attribute("/", "range_high_" + name));
   }
 
+  // What generated sources would compute with.
+  void check_numbers() {
+    for (const auto& [name, number] : table_.constants)
+      if (!std::isfinite(number)) fault(fmt::format("the constant '{}' is {}", name, number));
+    for (const TableAxis& axis : table_.axes)
+      if (axis.data && !(axis.data->first <= axis.data->second))
+        fault(fmt::format("the data of axis '{}' reach from {} to {}", axis.name, axis.data->first,
+                          axis.data->second));
+    for (const auto& [name, input] : table_.record.inputs)
+      if (input.low && input.high && !(*input.low <= *input.high))
+        fault(fmt::format("the range of '{}' is from {} to {}", name, *input.low, *input.high));
+    const double quantile = table_.quantile(), gain = table_.record.gain.value_or(1);
+    if (!(quantile > 0 && quantile < 1)) fault(fmt::format("the quantile is {}", quantile));
+    if (!(gain > 0) || !std::isfinite(gain)) fault(fmt::format("the gain is {}", gain));
+  }
+
   void read_extension() {
     std::string formula;
     for (std::size_t part = 0; const auto more = in_.text_attribute("value", part_name(part));
@@ -430,6 +439,10 @@ private:
 
 Table read_table(const std::filesystem::path& file, std::size_t in_memory) {
   return TableReader(file).read(in_memory);
+}
+
+Table read_table(const io::Hdf5Contents& contents, const std::string& named) {
+  return TableReader(contents, named).read(most_bytes_in_memory);
 }
 
 TableDescription read_description(const std::filesystem::path& file) {

@@ -31,6 +31,8 @@ inline constexpr std::size_t most_bytes_in_memory = std::size_t{256} << 20;
 // linear table of more than `in_memory` bytes are left in the file (Table::stored); those in chunks
 // are unpacked into a nameless file beside it, which takes as much disk while the table lives.
 Table read_table(const std::filesystem::path& file, std::size_t in_memory = most_bytes_in_memory);
+// The same of what a child has read in the file; `named` is how messages call it.
+Table read_table(const io::Hdf5Contents& contents, const std::string& named);
 
 // The same without values, and how they lie in the file.
 struct TableDescription {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -23,10 +26,16 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Rows = std::span<const double>;
 
-constexpr std::size_t most_levels = 12; // a text column with more names experiments
+constexpr std::size_t most_in_pairs = 100; // columns of which every pair is a candidate
+constexpr std::size_t most_levels = 12;    // a text column with more names experiments
 
 bool is_constant(Rows values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+std::size_t count_empty(Rows values) {
+  return static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
 }
 
 bool varies_within(Rows values, const Dataset& data) {
@@ -74,6 +83,24 @@ double likeness(const VectorXd& a, const VectorXd& b) {
 
 constexpr double the_same = 1 - 1e-9, alike = 0.98; // likeness
 
+// Where a column stands along a direction that no column has by chance: columns that are the same
+// stand together, so that of a thousand others few are compared with it. The sign of a correlation
+// does not count.
+double standing(const VectorXd& values) {
+  const VectorXd x = values.array() - values.mean();
+  const double size = x.norm();
+  if (!(size > 0)) return 0;
+  double along = 0, length = 0, next = 0.5;
+  for (Index i = 0; i < x.size(); ++i) {
+    next = std::fmod(next + 0.6180339887498949, 1.0); // golden ratio: even, and never periodic
+    along += (next - 0.5) * x(i);
+    length += (next - 0.5) * (next - 0.5);
+  }
+  return std::abs(along) / (size * std::sqrt(length));
+}
+// Unit vectors of columns that are the same are at most sqrt(1e-9) apart.
+constexpr double together = 4e-5;
+
 std::vector<double> quantiles_of(Rows values) {
   constexpr std::size_t parts = 30;
   std::vector<double> sorted(values.begin(), values.end()), at;
@@ -111,7 +138,10 @@ public:
                   Rows predicted, const std::vector<std::string>& inputs,
                   const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
-        inputs_(inputs), options_(options) {}
+        inputs_(inputs), options_(options) {
+    for (const Column& column : validation.columns)
+      validation_columns_.emplace(column.name, &column);
+  }
 
   Candidates run() {
     check_names();
@@ -156,11 +186,22 @@ private:
                                  : column.name == options_.order)
         order = &column;
     }
-    if (!order) return;
+    if (!order || order_has_gaps(*order)) return;
     // Time stamps are text. Levels are sorted, and stamps with the year first sort by time.
     for (std::size_t e = 0; e < training_.experiments.size(); ++e)
       found_.order.push_back(order->values[training_.first_row[e]]);
     found_.order_column = order->name;
+  }
+
+  bool order_has_gaps(const Column& order) {
+    const std::size_t empty = count_empty(order.values);
+    if (empty == 0) return false;
+    const std::string text = fmt::format("{}, the order of tests: {} of {} rows without a value",
+                                         order.name, thousands(empty), thousands(training_.rows()));
+    if (order.name == options_.order)
+      throw InputError(options_.order_place, text, "fill them in, or name another column");
+    found_.notes.push_back(text + ": not used");
+    return true;
   }
 
   bool allowed(const Column& column) {
@@ -181,10 +222,22 @@ private:
       found_.constant.push_back(column.name);
       return false;
     }
-    if (!validation_.has(column.name)) {
+    const auto in_validation = validation_columns_.find(column.name);
+    if (in_validation == validation_columns_.end()) {
       found_.notes.push_back(column.name + " is not in the validation data: left out");
       return false;
     }
+    return !has_empty_cells(column, *in_validation->second);
+  }
+
+  // Nothing is made up for a cell without a value, and rows are not left out for a column that may
+  // have nothing to do with friction.
+  bool has_empty_cells(const Column& training, const Column& validation) {
+    const std::size_t empty = count_empty(training.values) + count_empty(validation.values);
+    if (empty == 0) return false;
+    found_.notes.push_back(
+        fmt::format("{}: {} of {} rows without a value{}", training.name, thousands(empty),
+                    thousands(training_.rows() + validation_.rows()), not_searched));
     return true;
   }
 
@@ -212,13 +265,26 @@ private:
     column.in_law =
         std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
     found_.by_symbol[effects::symbol_of(name)] = column.values;
-    if (const auto twin = std::find_if(
-            found_.columns.begin(), found_.columns.end(),
-            [&](const CandidateColumn& c) { return likeness(c.values, column.values) > the_same; });
-        twin != found_.columns.end()) {
+    if (const CandidateColumn* twin = twin_of(column.values)) {
       found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
       return;
     }
+    keep(std::move(column));
+  }
+
+  // The first column that is the same but for zero and scale; nullptr where there is none.
+  const CandidateColumn* twin_of(const VectorXd& values) const {
+    const double at = standing(values);
+    std::size_t first = found_.columns.size();
+    for (auto near = standings_.lower_bound(at - together);
+         near != standings_.end() && near->first <= at + together; ++near)
+      if (near->second < first && likeness(found_.columns[near->second].values, values) > the_same)
+        first = near->second;
+    return first < found_.columns.size() ? &found_.columns[first] : nullptr;
+  }
+
+  void keep(CandidateColumn column) {
+    standings_.emplace(standing(column.values), found_.columns.size());
     found_.columns.push_back(std::move(column));
   }
 
@@ -240,7 +306,7 @@ private:
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
     found_.by_symbol[effects::symbol_of(column.name)] = text.values;
-    found_.columns.push_back(std::move(text));
+    keep(std::move(text));
   }
 
   bool possible(const data::DerivedQuantity& quantity) const {
@@ -265,8 +331,16 @@ private:
   Rows predicted_;
   const std::vector<std::string>& inputs_;
   const TraceOptions& options_;
+  std::unordered_map<std::string_view, const Column*> validation_columns_;
+  std::multimap<double, std::size_t> standings_; // of found columns
   Candidates found_;
 };
+
+// Each pair has a dozen shapes, each as long as the data: of a thousand columns they would fill the
+// memory, and nothing could stand out among half a million.
+bool pairs_every_column(const Candidates& candidates) {
+  return candidates.columns.size() <= most_in_pairs;
+}
 
 // Whether a column may act together with others. Of histories only four may: the others nearly
 // follow these, and each further column multiplies the pairs.
@@ -285,6 +359,11 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
                            const TraceOptions& options) {
   Candidates found =
       CandidateFinder(training, validation, blocks, predicted, inputs, options).run();
+  if (!pairs_every_column(found))
+    found.notes.push_back(fmt::format("pairs without a state of the law, of {} columns (of all up "
+                                      "to {}; data.bystanders or trace.ignore leave some out){}",
+                                      thousands(found.columns.size()), most_in_pairs,
+                                      not_searched));
   if (training.has("sigma_n_MPa")) { // which effects that are added fade with
     const auto sigma = training.values("sigma_n_MPa");
     found.by_symbol.try_emplace("sigma_n_MPa", blocks.mean(sigma));
@@ -336,17 +415,19 @@ std::vector<Cause> all_causes(const Candidates& candidates) {
     Cause more = joined_cause(cause, column, candidates);
     if (may_act_together(more, candidates)) all.push_back(std::move(more));
   };
+  const bool every_pair = pairs_every_column(candidates);
   for (std::size_t a = 0; a < columns.size(); ++a)
     for (std::size_t b = a + 1; b < columns.size(); ++b)
-      add({{a}}, b);
-  const auto is_state = [&](std::size_t c) { return columns[c].in_law && columns[c].within; };
+      if (every_pair || columns[a].in_law || columns[b].in_law) add({{a}}, b);
+  std::vector<std::size_t> states;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c].in_law && columns[c].within) states.push_back(c);
   std::set<Cause> seen;
-  for (std::size_t a = 0; a < columns.size(); ++a)
-    for (std::size_t b = a + 1; b < columns.size(); ++b)
+  for (std::size_t i = 0; i < states.size(); ++i)
+    for (std::size_t j = i + 1; j < states.size(); ++j)
       for (std::size_t c = 0; c < columns.size(); ++c) {
-        if (!is_state(a) || !is_state(b) || c == a || c == b || !columns[c].levels.empty() ||
-            !columns[c].within)
-          continue;
+        const std::size_t a = states[i], b = states[j];
+        if (c == a || c == b || !columns[c].levels.empty() || !columns[c].within) continue;
         const Cause three = joined_cause(joined_cause({{a}}, b, candidates), c, candidates);
         if (may_act_together(three, candidates) && seen.insert(three).second) all.push_back(three);
       }

@@ -27,13 +27,15 @@ struct CandidateColumn {
   bool between = false;            // may differ between tests: no history, time or distance
 };
 
+inline constexpr const char* not_searched = ": not searched";
+
 struct Candidates {
   std::vector<CandidateColumn> columns;
-  BlockColumns by_symbol;         // all of them, and the law's inputs
-  std::string order_column;       // column that gives the order of tests; empty: nobody said it
-  std::vector<double> order;      // per experiment, by that column; empty without one
-  double lowest_pressure_MPa = 0; // of contact in a training row; 0: not recorded
-  std::vector<std::string> notes;
+  BlockColumns by_symbol;            // all of them, and the law's inputs
+  std::string order_column;          // column that gives the order of tests; empty: nobody said it
+  std::vector<double> order;         // per experiment, by that column; empty without one
+  double lowest_pressure_MPa = 0;    // of contact in a training row; 0: not recorded
+  std::vector<std::string> notes;    // those of what is left out end with not_searched
   std::vector<std::string> constant; // recorded, but never varied: nothing can be said
 };
 

@@ -30,6 +30,7 @@ constexpr float share_of_most = 0.05f; // ... each at least so much of what the 
 // A fit follows each experiment a little, which makes the residuals of experiments with leverage
 // too small. (I - H_ee)^-1/2 r, H_ee = Q_e Q_e', undoes that (CR2: Bell and McCaffrey 2002).
 void undo_leverage(const MatrixXd& q, std::span<const std::size_t> first, VectorXd& residual) {
+  if (q.cols() == 0) return; // no parameter moves any row
   for (std::size_t e = 0; e + 1 < first.size(); ++e) {
     const auto begin = static_cast<Index>(first[e]);
     const auto count = static_cast<Index>(first[e + 1]) - begin;

@@ -1,6 +1,8 @@
 // Traces to JSON and back.
 #include "trace/trace_file.h"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -17,6 +19,8 @@ using calibrate::number_or_nan;
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "frictab/trace/1";
 
 // (JSON has no infinity: null.)
 double limit(const Json& value) {
@@ -154,6 +158,21 @@ effects::ActsOn parse_acts_on(const std::string& name) {
   throw InputError({"trace.json", 0, 0}, "an effect acts on '" + name + "'", "trace again");
 }
 
+// As many columns, knots, levels and parameters as the form asks for.
+void check_placed(const effects::PlacedEffect& p) {
+  const auto ascend = [](const std::vector<double>& knots) {
+    return !knots.empty() &&
+           std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>()) == knots.end();
+  };
+  bool fits = p.inputs.size() == p.form->columns;
+  for (std::size_t i = 0; fits && i < p.form->knots.size() && i < p.inputs.size(); ++i)
+    fits = p.form->knots[i] == 0 || ascend(p.inputs[i].knots);
+  fits = fits && (!p.form->categorical || !p.inputs[0].levels.empty());
+  if (!fits || p.parameters.size() != effects::parameters_of(p).size())
+    throw InputError({"trace.json", 0, 0}, "an effect has not the parts of its form",
+                     "trace again");
+}
+
 effects::PlacedEffect parse_placed(const Json& j, const Json& effect) {
   effects::PlacedEffect p;
   p.form = effects::find_effect(effect.at("form").get<std::string>());
@@ -165,6 +184,7 @@ effects::PlacedEffect parse_placed(const Json& j, const Json& effect) {
   if (j.contains("unit_MPa")) p.tau_scale_MPa = j.at("unit_MPa");
   if (j.contains("fades_below_MPa")) p.pressure_MPa = j.at("fades_below_MPa");
   p.acts_on = parse_acts_on(effect.at("acts_on"));
+  check_placed(p);
   return p;
 }
 
@@ -357,12 +377,12 @@ Trace parse_one(const Json& j) {
   t.as_calibrated = parse_errors(j.at("as_calibrated"));
   t.before = parse_errors(j.at("before"));
   const Json& nested = j.at("nested_cross_validation");
-  t.nested = {nested.at("folds"),
+  t.nested = {io::count_of(nested.at("folds")),
               number_or_nan(nested.at("gain")),
               number_or_nan(nested.at("std_error")),
               number_or_nan(nested.at("log_score")),
               number_or_nan(nested.at("log_score_std_error")),
-              nested.at("effects_offered")};
+              io::count_of(nested.at("effects_offered"))};
   t.validation_shift = parse_worlds(j.at("validation_against_training"));
   t.leads = parse_leads(j.at("leads"));
   t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
@@ -389,9 +409,9 @@ Trace parse_one(const Json& j) {
     t.detectable.push_back({d.at("column"), parse_derived(d.at("derived")),
                             parse_acts_on(d.at("acts_on")), number_or_nan(d.at("size_MPa")),
                             number_or_nan(d.at("share")), d.at("identifiable")});
-  t.n_columns = j.at("tried").at("columns");
-  t.n_candidates = j.at("tried").at("directions");
-  t.n_flips = j.at("tried").at("sign_flips");
+  t.n_columns = io::count_of(j.at("tried").at("columns"));
+  t.n_candidates = io::count_of(j.at("tried").at("directions"));
+  t.n_flips = io::count_of(j.at("tried").at("sign_flips"));
   t.least_p_value = j.at("tried").at("least_p_value");
   t.not_identifiable = j.at("not_identifiable").get<std::vector<std::string>>();
   t.rejected = j.at("rejected").get<std::vector<std::string>>();
@@ -402,9 +422,7 @@ Trace parse_one(const Json& j) {
 } // namespace
 
 std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
-  Json j = {{"schema", "frictab/trace/1"},
-            {"tool_version", FRICTAB_VERSION},
-            {"synthetic_data", synthetic}};
+  Json j = {{"schema", schema}, {"tool_version", FRICTAB_VERSION}, {"synthetic_data", synthetic}};
   j.update(one_json(traces.front()));
   Json others = Json::array();
   for (std::size_t i = 1; i < traces.size(); ++i)
@@ -415,6 +433,7 @@ std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
 
 std::vector<Trace> parse_traces(std::string_view text, const std::string& file) {
   const Json j = io::parse_json(text, file);
+  io::check_schema(j, schema, file, "trace again");
   std::vector<Trace> traces;
   io::read_json(file, "trace again", [&] {
     traces.push_back(parse_one(j));

@@ -1,12 +1,14 @@
 // Sentences and tables of a trace.
 #include "trace/trace_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
 #include "data/derived.h"
+#include "trace/candidates.h"
 
 namespace frictab::trace {
 
@@ -127,6 +129,18 @@ std::string unseen_line(const Trace& t) {
                      t.after.validation.n_experiments, t.nested.folds);
 }
 
+// What was left out though it is recorded; the first few of a thousand columns.
+std::string not_searched_text(const std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 5;
+  std::string out;
+  std::size_t count = 0;
+  for (const std::string& note : notes)
+    if (note.ends_with(not_searched) && ++count <= shown) out += "  " + note + "\n";
+  if (count > shown)
+    out += fmt::format("  ({} more of these in trace.json)\n", thousands(count - shown));
+  return out;
+}
+
 } // namespace
 
 const char* site_text(effects::ActsOn acts_on) {
@@ -222,7 +236,7 @@ std::string trace_text(const Trace& t) {
   out += fmt::format("  tried: {} quantities in {} directions; a false alarm has a probability of "
                      "{:g}, over all of them\n",
                      t.n_columns, thousands(t.n_candidates), t.alpha);
-  return out;
+  return out + not_searched_text(t.notes);
 }
 
 std::string detectable_text(const Trace& t) {

@@ -10,6 +10,7 @@ struct VerifyOptions {
   std::optional<double> max_drift_MPa; // absent: table.tolerance_MPa
   std::size_t samples = 200000;        // points over the whole range
   bool require_proof = false;          // a table has to be proven to keep the tolerance
+  bool require_run = false;            // every routine has to be compiled and run
 };
 
 } // namespace frictab::verify

@@ -1,4 +1,5 @@
 // verify.json and JUnit XML.
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@ namespace frictab::verify {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "frictab/verify/1";
 
 std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
   std::string state;
@@ -93,27 +96,53 @@ Json record_json(const DriftRecord& record) {
   return j;
 }
 
+// null: nothing failed, but something was not tested.
+Json passed_json(const Verification& verification) {
+  if (verification.passed() && verification.untested() > 0) return nullptr;
+  return verification.passed();
+}
+
 } // namespace
 
 std::string verification_json(const Verification& verification) {
   Json records = Json::array();
   for (const DriftRecord& record : verification.records)
     records.push_back(record_json(record));
-  Json j = {{"schema", "frictab/verify/1"},
+  Json j = {{"schema", schema},
             {"tool_version", FRICTAB_VERSION},
             {"max_drift_MPa", verification.max_drift_MPa},
-            {"passed", verification.passed()}};
+            {"passed", passed_json(verification)},
+            {"untested", verification.untested()}};
   if (verification.require_proof) j["require_proof"] = true;
+  if (verification.require_run) j["require_run"] = true;
   j["records"] = records;
   return io::json_text(j);
 }
 
+namespace {
+
+std::size_t count_or_0(const Json& j, const char* key) {
+  return j.contains(key) ? io::count_of(j.at(key)) : 0;
+}
+
+// Of that many rows.
+std::size_t share_of(const Json& j, std::size_t rows) {
+  const double share = j.get<double>();
+  if (!(share >= 0 && share <= 1) || rows > (std::size_t{1} << 50))
+    throw Json::type_error::create(302, "a share of rows is a number from 0 to 1", &j);
+  return static_cast<std::size_t>(share * static_cast<double>(rows) + 0.5);
+}
+
+} // namespace
+
 Verification parse_verification(std::string_view text, const std::string& file) {
   const Json j = io::parse_json(text, file);
+  io::check_schema(j, schema, file, "run frictab verify again");
   try {
     Verification verification;
     verification.max_drift_MPa = j.at("max_drift_MPa");
     verification.require_proof = j.value("require_proof", false);
+    verification.require_run = j.value("require_run", false);
     for (const Json& one : j.at("records")) {
       DriftRecord r;
       r.model = one.at("model");
@@ -123,20 +152,19 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.passed = one.at("passed");
         r.rows = {one.at("max_abs_MPa"), one.at("mean_abs_MPa"), one.at("rms_MPa"),
                   one.at("p99_MPa")};
-        r.n_rows = one.at("n_rows");
-        r.n_outside = static_cast<std::size_t>(
-            one.at("share_outside").get<double>() * static_cast<double>(r.n_rows) + 0.5);
+        r.n_rows = io::count_of(one.at("n_rows"));
+        r.n_outside = share_of(one.at("share_outside"), r.n_rows);
         for (const Json& end : one.at("outside"))
           r.beyond.push_back({end.at("axis"), end.at("side"), end.at("outside"), end.at("end"),
-                              end.at("rows"), end.at("largest_excess")});
+                              io::count_of(end.at("rows")), end.at("largest_excess")});
         r.max_abs_outside_MPa = one.at("max_abs_outside_MPa");
-        r.n_refused = one.at("n_refused");
-        r.n_rows_not_posed = one.value("n_rows_not_posed", std::size_t{0});
-        r.n_points_not_posed = one.value("n_points_not_posed", std::size_t{0});
-        r.n_not_refused = one.value("n_not_refused", std::size_t{0});
+        r.n_refused = io::count_of(one.at("n_refused"));
+        r.n_rows_not_posed = count_or_0(one, "n_rows_not_posed");
+        r.n_points_not_posed = count_or_0(one, "n_points_not_posed");
+        r.n_not_refused = count_or_0(one, "n_not_refused");
         r.worst_case_MPa = one.at("worst_case_MPa");
         r.worst_state = one.at("worst_case_at").get<std::map<std::string, double>>();
-        r.n_points = one.at("n_points");
+        r.n_points = io::count_of(one.at("n_points"));
         r.unit_roundoff = one.value("unit_roundoff", 0.0);
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
@@ -144,8 +172,8 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.over_by_proof = one.value("over_by_proof", false);
         if (one.contains("below")) {
           const Json& below = one.at("below");
-          r.below = {below.at("low"), below.at("high"), below.at("outside"), below.at("n_points"),
-                     below.at("max_abs_MPa")};
+          r.below = {below.at("low"), below.at("high"), below.at("outside"),
+                     io::count_of(below.at("n_points")), below.at("max_abs_MPa")};
         }
         if (one.contains("held")) {
           r.held = one.at("held").get<std::map<std::string, double>>();
@@ -163,13 +191,22 @@ Verification parse_verification(std::string_view text, const std::string& file) 
   }
 }
 
+namespace {
+
+std::string why_failed(const DriftRecord& record, double max_drift_MPa) {
+  if (!record.ran) return "not run: " + record.why_not;
+  return record.passed ? proof_text(record, max_drift_MPa) : failure_text(record, max_drift_MPa);
+}
+
+} // namespace
+
 std::string verification_junit(const Verification& verification) {
   pugi::xml_document document;
   pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
   std::size_t failures = 0, skipped = 0;
   for (const DriftRecord& record : verification.records) {
     failures += verification.failed(record);
-    skipped += !record.ran;
+    skipped += !record.ran && !verification.failed(record);
   }
   suite.append_attribute("name") = "frictab verify";
   suite.append_attribute("tests") = static_cast<unsigned>(verification.records.size());
@@ -179,13 +216,11 @@ std::string verification_junit(const Verification& verification) {
     pugi::xml_node test = suite.append_child("testcase");
     test.append_attribute("classname") = record.model.c_str();
     test.append_attribute("name") = record.subject.c_str();
-    if (!record.ran)
+    if (verification.failed(record))
+      test.append_child("failure").append_attribute("message") =
+          why_failed(record, verification.max_drift_MPa).c_str();
+    else if (!record.ran)
       test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
-    if (verification.failed(record)) {
-      const std::string text = record.passed ? proof_text(record, verification.max_drift_MPa)
-                                             : failure_text(record, verification.max_drift_MPa);
-      test.append_child("failure").append_attribute("message") = text.c_str();
-    }
   }
   std::ostringstream out;
   document.save(out, "  ");

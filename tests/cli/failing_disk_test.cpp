@@ -67,6 +67,8 @@ protected:
       put_back(before);
       const CommandResult result = failing(command, n, how);
       const bool claimed = result.exit_code == 0;
+      EXPECT_TRUE(result.exit_code <= 3 || how == "kill")
+          << how << " of call " << n << " ends with " << result.exit_code;
       if (claimed) {
         EXPECT_TRUE(results() == after) << how << " of call " << n << " is not told";
       }
@@ -126,6 +128,13 @@ TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
   EXPECT_EQ(result.err, "out: error: another frictab is writing here: process 7 on rig since noon\n"
                         "  hint: wait until it has finished, or choose another directory with -o "
                         "DIR\n");
+}
+
+TEST_F(SlowFailingDisk, WithoutLocksItIsSaidThatNobodyIsKeptOff) {
+  const CommandResult result = run_frictab({"calibrate", "job.toml"}, directory.path(),
+                                           {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "NO_LOCKS=1"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "out is on a file system without locks: run one frictab at a time there\n");
 }
 
 TEST_F(SlowFailingDisk, NothingIsWrittenThroughALinkThatLeadsElsewhere) {

@@ -248,7 +248,10 @@ TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAt
                         "[export.marc_ufric.inputs]\n"
                         "--set 2: error: qform_lua: 'field:1' is no source of a state\n"
                         "  hint: known: constant:VALUE, property; for this target alone: "
-                        "[export.qform_lua.inputs]\n");
+                        "[export.qform_lua.inputs]\n"
+                        "what was finished is kept in " +
+                            directory.path("out/.frictab-kept") + "; `frictab run " + job +
+                            "` goes on from there\n");
 }
 
 TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {

@@ -222,7 +222,8 @@ TEST_F(PredictCommand, EveryFaultSaysWhereAndHowToMendIt) {
   EXPECT_THAT(fault(model("orowan"), directory->path("none.csv")), HasSubstr("none.csv"));
   EXPECT_THAT(fault(directory->path("none.json"), data), HasSubstr("none.json"));
   EXPECT_THAT(fault(in_twin("out/calibration.json"), data),
-              HasSubstr("calibration.json: error: is no file of one law\n  hint: give models/"));
+              HasSubstr("calibration.json: error: its schema is \"frictab/calibration/1\", not "
+                        "\"frictab/model/1\"\n  hint: give models/"));
   EXPECT_THAT(fault(directory->write("other/job.toml", "[data]\ntraining = \"a.csv\"\n"), data),
               HasSubstr("there is no calibration yet\n  hint: run `frictab calibrate "));
 

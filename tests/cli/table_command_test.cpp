@@ -83,7 +83,10 @@ TEST_F(TableCommand, InfoDescribesATable) {
                                    "tau_R_MPa = minimum(value*sigma_n_MPa, m*(0.5*sigma_f_MPa))\n"
                                    "  m = 0.8\n"
                                    "Tolerance: 0.5 MPa\n"
-                                   "Drift: 0.25 MPa, the largest found, at psi=1.5\n"
+                                   "Drift, as the file says: 0.25 MPa, the largest found, at "
+                                   "psi=1.5\n"
+                                   "  (`frictab verify --table FILE --model MODEL` measures it "
+                                   "anew)\n"
                                    "Nodes: 6, 48 B of values; 48 B in the file, in one piece\n");
 }
 

@@ -54,6 +54,7 @@ protected:
     fit.model = truth;
     fit.std_error.assign(truth.parameters.size(), 0.001);
     calibration.fits.push_back(fit);
+    fs::remove(directory.path("out/stages.json")); // which knows what was changed
     directory.write("out/calibration.json", calibrate::calibration_json(calibration));
     directory.write("out/models/log_coulomb_traced.json", calibrate::model_json(fit, calibration));
   }

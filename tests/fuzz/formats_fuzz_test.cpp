@@ -100,6 +100,21 @@ TEST(FormatsFuzz, DamagedJsonFilesAreFaults) {
        [](const std::string& text) { codegen::files_of_recipe(text, "recipe.json"); });
 }
 
+TEST(FormatsFuzz, ACountBelowZeroOrOfNoWholeNumberIsAFault) {
+  verify::DriftRecord record;
+  record.model = "orowan";
+  record.subject = "table";
+  record.ran = true;
+  record.n_rows = 5;
+  const std::string good = verify::verification_json({0.5, {record}}), count = "\"n_rows\": 5";
+  ASSERT_NO_THROW(verify::parse_verification(good, "verify.json"));
+  for (const char* none : {"-1", "2.5", "1e300", "null", "\"5\""}) {
+    std::string bad = good;
+    bad.replace(bad.find(count), count.size(), std::string("\"n_rows\": ") + none);
+    EXPECT_THROW(verify::parse_verification(bad, "verify.json"), InputError) << none;
+  }
+}
+
 TEST(FormatsFuzz, DamagedFormulasAreFaults) {
   const models::Law& law = *models::find_law("wanheim_bay");
   fuzz(expr::to_text(models::tau_formula(law, {})), 20000,

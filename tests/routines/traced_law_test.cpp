@@ -122,12 +122,13 @@ TEST(TracedLaw, ModelFileOfAnUnknownLawIsRefused) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal(R"({"name": "log_coulomb_tracd"})"),
+  EXPECT_EQ(refusal(R"({"schema": "frictab/model/1", "name": "log_coulomb_tracd"})"),
             "m.json: error: unknown friction law 'log_coulomb_tracd'\n"
             "  hint: did you mean 'log_coulomb'?");
-  EXPECT_THAT(refusal(R"({"name": "mine", "law": {"base": "log_colomb"}})"),
-              HasSubstr("law 'mine' extends 'log_colomb', which is no friction law\n"
-                        "  hint: did you mean 'log_coulomb'?"));
+  EXPECT_THAT(
+      refusal(R"({"schema": "frictab/model/1", "name": "mine", "law": {"base": "log_colomb"}})"),
+      HasSubstr("law 'mine' extends 'log_colomb', which is no friction law\n"
+                "  hint: did you mean 'log_coulomb'?"));
 }
 
 TEST(TracedLaw, ModelFileOfAnUnknownShearYieldIsRefused) {

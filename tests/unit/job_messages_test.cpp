@@ -368,6 +368,12 @@ TEST(JobMessages, SayWhatContradictsItself) {
             "job.toml:3:16: error: data.drop.psi leaves out every row: below 3 and above 2\n"
             "  hint: `below` is the smaller one");
   EXPECT_EQ(with("[data.columns]\n"
+                 "tau_R_MPa = { times = \"sigma_n_MPa\" }\n"
+                 "sigma_n_MPa = { times = \"tau_R_MPa\" }"),
+            "job.toml:5:25: error: the columns are multiplied in a circle: sigma_n_MPa times "
+            "tau_R_MPa times sigma_n_MPa\n"
+            "  hint: one of them is measured itself: leave its `times` out");
+  EXPECT_EQ(with("[data.columns]\n"
                  "psi = { times = \"psi\" }"),
             "job.toml:4:17: error: data.columns.psi.times names the column itself\n"
             "  hint: a friction coefficient is multiplied with sigma_n_MPa");

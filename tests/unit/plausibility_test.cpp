@@ -244,6 +244,14 @@ TEST(Plausibility, FindsZeroPointsThatWereNotSet) {
               testing::StartsWith("force_offset! F_N_N is 401 N before contact in test '"));
 }
 
+// In contact by eq. 1, as where a rig records no stress.
+void follow_forces(Dataset& data) {
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    if (data.values("v_rel_mm_s")[i] > 0)
+      values(data, "tau_R_MPa")[i] =
+          data.values("F_R_N")[i] / data.values("F_N_N")[i] * data.values("sigma_n_MPa")[i];
+}
+
 TEST(Plausibility, TakesALoadAtRestOrOnItsWayForNoOffset) {
   EXPECT_EQ(found_after([](Dataset& d) { // pressed before it slides
               add_forces(d);
@@ -251,6 +259,7 @@ TEST(Plausibility, TakesALoadAtRestOrOnItsWayForNoOffset) {
               for (std::size_t e = 0; e < d.experiments.size(); ++e)
                 for (std::size_t i = d.first_row[e]; i < d.first_row[e] + 15; ++i)
                   values(d, "v_rel_mm_s")[i] = 0;
+              follow_forces(d);
             }),
             "nothing");
   EXPECT_EQ(found_after([](Dataset& d) { // a slow ramp, with the higher coefficient of low loads
@@ -320,6 +329,56 @@ TEST(Plausibility, TakesNominalLoadsPlateausAndCoarseChannelsForNoEndOfAnAmplifi
       for (std::size_t i = d.first_row[e]; i < d.first_row[e] + 15; ++i)
         values(d, "tau_R_MPa")[i] = 0;
   });
+}
+
+TEST(Plausibility, FindsAStressThatContradictsItsForces) {
+  EXPECT_THAT(found_after([](Dataset& d) {
+                add_forces(d);
+                scale(d, "F_R_N", 2);
+              }),
+              testing::StartsWith("forces! F_R_N/F_N_N is 2 times tau_R_MPa/sigma_n_MPa in the "
+                                  "middle: they contradict each other; "));
+  EXPECT_EQ(found_after([](Dataset& d) { // as a display rounds them
+              add_forces(d);
+              for (const char* force : {"F_R_N", "F_N_N"})
+                for (double& value : values(d, force))
+                  value = std::round(value);
+            }),
+            "nothing");
+}
+
+TEST(Plausibility, FindsAPathThatRunsBackwardsAndTakesNoNoiseForOne) {
+  const auto reverse = [](Dataset& d, std::size_t tests) {
+    for (std::size_t e = 0; e < tests; ++e)
+      std::reverse(values(d, "s_mm").begin() + long(d.first_row[e]),
+                   values(d, "s_mm").begin() + long(d.first_row[e + 1]));
+  };
+  EXPECT_THAT(found_after([&](Dataset& d) { reverse(d, d.experiments.size()); }),
+              testing::StartsWith("path! s_mm runs backwards in test '"));
+  EXPECT_THAT(found_after([&](Dataset& d) { reverse(d, 2); }),
+              testing::StartsWith("path: s_mm runs backwards in test '" +
+                                  campaign().experiments[0] + "' (and 1 more test); a position"));
+  EXPECT_THAT(found_after([](Dataset& d) { values(d, "s_mm")[30] = 0; }),
+              testing::StartsWith("path: s_mm runs backwards in test '"))
+      << "a single row";
+  EXPECT_EQ(found_after([](Dataset& d) {
+              Random random(7);
+              for (double& s : values(d, "s_mm"))
+                s += random.normal() * 0.3; // 1 step
+            }),
+            "nothing");
+}
+
+TEST(Plausibility, SaysInItsOwnWordsThatNothingWasMeasured) {
+  Dataset data = campaign();
+  std::erase_if(data.columns, [](const auto& c) { return c.name == "F_R_N" || c.name == "F_N_N"; });
+  for (double& value : values(data, "tau_R_MPa"))
+    value = 0;
+  const std::vector<Implausible> found = data::find_implausible(data);
+  ASSERT_EQ(found.size(), 1u) << found.back().what;
+  EXPECT_EQ(found[0].check, "no_friction");
+  EXPECT_TRUE(found[0].most());
+  EXPECT_EQ(found[0].what, "tau_R_MPa is 0 in every row: nothing was measured");
 }
 
 TEST(Plausibility, WhatMostRowsFailIsAnErrorUnlessItIsAllowed) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "trace/trace_file.h"
 #include "trace/trace_text.h"
@@ -65,6 +66,29 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   EXPECT_EQ(again.front().effects[1].placed.tau_scale_MPa, 37.5);
   EXPECT_EQ(again.front().effects[1].placed.pressure_MPa, 12);
   EXPECT_EQ(trace_json(again, true), text);
+}
+
+TEST(TraceFile, AnEffectWithoutThePartsOfItsFormIsRefused) {
+  PlacedEffect whole;
+  whole.form = find_effect("spline_by_level");
+  whole.inputs = {{"tool", {"A", "B"}}, {"s_mm", {}, 0, 20, {0, 5, 20}}};
+  whole.parameters = {0, 0.1, 0.2, 0, -0.1, 0.3};
+  Trace trace;
+  trace.model = "coulomb";
+  trace.effects = {traced(whole)};
+  const auto good = nlohmann::json::parse(trace_json({trace}, true));
+  ASSERT_NO_THROW(parse_traces(good.dump(), "trace.json"));
+  const std::vector<std::pair<const char*, nlohmann::json>> damages = {
+      {"/values", {0, 0.1}},
+      {"/inputs/1/knots", {5, 0, 20}},
+      {"/inputs/1/knots", nlohmann::json::array()},
+      {"/inputs/0/levels", nlohmann::json::array()},
+      {"/inputs", nlohmann::json::array()}};
+  for (const auto& [part, damage] : damages) {
+    nlohmann::json bad = good;
+    bad["effects"][0]["in_the_law"][nlohmann::json::json_pointer(part)] = damage;
+    EXPECT_THROW(parse_traces(bad.dump(), "trace.json"), InputError) << part;
+  }
 }
 
 TEST(TraceFile, AnEffectThatActsNowhereIsRefused) {

@@ -1,0 +1,90 @@
+// A list of what to undo, and the thread that waits for signals.
+#include "core/interrupt.h"
+
+#include <algorithm>
+#include <csignal>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+namespace frictab {
+
+namespace {
+
+struct ToUndo {
+  std::mutex mutex; // held while a commit runs, and by the thread that undoes
+  std::vector<std::pair<const WhenInterrupted*, std::function<void()>>> all;
+};
+
+ToUndo& to_undo() {
+  static auto* const list = new ToUndo; // never destroyed: the thread may outlive main
+  return *list;
+}
+
+sigset_t interruptions() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    sigaddset(&signals, signal);
+  return signals;
+}
+
+[[noreturn]] void end_by(int signal) {
+  std::signal(signal, SIG_DFL);
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, signal);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  ::kill(::getpid(), signal);
+  ::_exit(128 + signal);
+}
+
+void wait_for_interruption() {
+  const sigset_t signals = interruptions();
+  int signal = 0;
+  if (sigwait(&signals, &signal) != 0) return;
+  ToUndo& list = to_undo();
+  const std::lock_guard lock(list.mutex); // never given back
+  for (auto at = list.all.rbegin(); at != list.all.rend(); ++at)
+    at->second();
+  end_by(signal);
+}
+
+} // namespace
+
+void tidy_up_when_interrupted() {
+  sigset_t signals = interruptions();
+  // nohup and a shell's background jobs ignore some: then they stay ignored.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)
+      sigdelset(&signals, signal);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(wait_for_interruption).detach();
+}
+
+WhenInterrupted::WhenInterrupted(std::function<void()> undo) {
+  ToUndo& list = to_undo();
+  const std::lock_guard lock(list.mutex);
+  list.all.emplace_back(this, std::move(undo));
+}
+
+WhenInterrupted::~WhenInterrupted() {
+  ToUndo& list = to_undo();
+  const std::lock_guard lock(list.mutex);
+  std::erase_if(list.all, [&](const auto& one) { return one.first == this; });
+}
+
+Uninterrupted::Uninterrupted() {
+  to_undo().mutex.lock();
+}
+
+Uninterrupted::~Uninterrupted() {
+  to_undo().mutex.unlock();
+}
+
+} // namespace frictab

@@ -1,0 +1,88 @@
+// Block by block, so that a disk image is not read to its end before it is refused.
+#include "io/text_file.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace frictab::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t{1} << 20;
+
+std::ifstream open_file(const fs::path& file, const std::string& named) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw InputError({named, 0, 0}, "is a directory, a file is needed");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({named, 0, 0}, "cannot be read",
+                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
+  return in;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  return human_bytes(static_cast<double>(bytes));
+}
+
+// What has been read so far, judged.
+class Judge {
+public:
+  Judge(const std::string& named, const TextLimits& limits) : named_(named), limits_(limits) {}
+
+  void size(std::uint64_t bytes) const {
+    if (bytes > limits_.bytes)
+      throw InputError({named_, 0, 0}, fmt::format("is larger than {}", bytes_text(limits_.bytes)),
+                       "give one file per test: data.training takes a folder or a list; or thin "
+                       "the rows");
+  }
+
+  void block(const std::string& text, std::size_t first) {
+    const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+    if (!wide && text.find('\0', first) != text.npos)
+      throw InputError({named_, 0, 0}, "this is no text file", "give CSV text or HDF5");
+    const std::size_t last = text.find_last_of("\r\n");
+    if (last != text.npos) line_start_ = last + 1;
+    if (text.size() - line_start_ > limits_.line_bytes)
+      throw InputError({named_, 0, 0},
+                       fmt::format("a line is longer than {}", bytes_text(limits_.line_bytes)),
+                       "a data file has a row of the table per line; is this one?");
+  }
+
+private:
+  const std::string& named_;
+  const TextLimits& limits_;
+  std::size_t line_start_ = 0; // of the last line so far
+};
+
+} // namespace
+
+std::string read_text_file(const fs::path& file, const std::string& named,
+                           const TextLimits& limits) {
+  std::ifstream in = open_file(file, named);
+  Judge judge(named, limits);
+  std::error_code error;
+  std::uint64_t expected = 0;
+  if (fs::is_regular_file(file, error)) expected = fs::file_size(file, error);
+  std::string text;
+  for (std::size_t size = 0; in; size = text.size()) {
+    judge.size(size);
+    text.resize(size + block_bytes);
+    in.read(text.data() + size, static_cast<std::streamsize>(block_bytes));
+    text.resize(size + static_cast<std::size_t>(in.gcount()));
+    judge.block(text, size);
+    // Memory for the whole file is asked for once its first block looks like text.
+    if (size == 0 && expected <= limits.bytes) text.reserve(expected + block_bytes);
+  }
+  judge.size(text.size());
+  if (in.bad()) throw InputError({named, 0, 0}, "cannot be read to its end", "copy it again");
+  return text;
+}
+
+} // namespace frictab::io
