@@ -19,6 +19,8 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "data/quantity.h"
+#include "effects/extended_law.h"
 
 namespace frictab::calibrate {
 
@@ -49,9 +51,46 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
     else if (states.empty() || !varies_without_each(law, input))
       missing.push_back("a state that varies");
   }
-  for (const std::string& name : needed)
-    if (!input.training.has(name) || !input.validation.has(name)) missing.push_back(name);
+  for (const Dataset* data : {&input.training, &input.validation})
+    for (const std::string& name : missing_inputs(needed, *data))
+      if (std::find(missing.begin(), missing.end(), name) == missing.end()) missing.push_back(name);
   return missing;
+}
+
+// What a user's formula may have meant.
+std::vector<std::string> names_known(const models::Law& law, const Dataset& data) {
+  std::vector<std::string> names = models::parameter_names(law);
+  for (const data::Column& column : data.columns)
+    if (!data::is_measured(column.name))
+      names.push_back(data::find_quantity(column.name) ? column.name
+                                                       : effects::symbol_of(column.name));
+  return names;
+}
+
+// A column that has the name of a parameter could become an input beside it, by tracing.
+void check_parameters(const models::Law& law, const Dataset& data, const Place& place,
+                      FaultList& faults) {
+  if (models::is_registered(law)) return; // effects::symbol_of knows their names
+  for (const models::Parameter& p : law.parameters)
+    for (const data::Column& column : data.columns)
+      if (effects::symbol_of(column.name) == p.name)
+        faults.add(place,
+                   fmt::format("parameter '{}' of law {} has the name of a column of the data",
+                               p.name, law.name),
+                   "call it something else");
+}
+
+// The law is asked for, and the data lack what it needs.
+void tell_missing(const models::Law& law, const std::vector<std::string>& missing,
+                  const CalibrationInput& input, FaultList& faults) {
+  const LeftOut left{law.name, join(missing, ", ")};
+  const auto named = law.places.find(missing.front());
+  const bool is_named = named != law.places.end(); // in a formula of the user's
+  faults.add(is_named ? named->second : input.models.place,
+             "law " + left.text() + ", which the data do not have",
+             is_named ? suggest(missing.front(), names_known(law, input.training))
+                      : "map the columns in [data.columns], give a constant in [data.constants], "
+                        "or leave the law out of models.use");
 }
 
 struct Selection {
@@ -63,21 +102,17 @@ Selection select_laws(const CalibrationInput& input, const models::Conventions& 
   Selection selection;
   FaultList faults;
   const auto& use = input.models.use;
-  for (const models::Law& law : models::all_laws()) {
-    const bool asked = std::find(use.begin(), use.end(), law.name) != use.end();
+  for (const models::Law* law : input.models.laws.all()) {
+    const bool asked = std::find(use.begin(), use.end(), law->name) != use.end();
     if (!use.empty() && !asked) continue;
-    const auto missing = missing_for(law, conventions, input);
-    if (missing.empty()) {
-      selection.laws.push_back(&law);
-      continue;
-    }
-    const LeftOut left{law.name, join(missing, ", ")};
-    if (asked)
-      faults.add(input.models.place, "law " + left.text() + ", which the data do not have",
-                 "map the columns in [data.columns], give a constant in [data.constants], or leave "
-                 "the law out of models.use");
+    const auto missing = missing_for(*law, conventions, input);
+    check_parameters(*law, input.training, input.models.place, faults);
+    if (missing.empty())
+      selection.laws.push_back(law);
+    else if (asked || !models::is_registered(*law))
+      tell_missing(*law, missing, input, faults);
     else
-      selection.left_out.push_back(left);
+      selection.left_out.push_back({law->name, join(missing, ", ")});
   }
   faults.throw_if_any();
   if (selection.laws.empty())
@@ -142,7 +177,7 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
   const std::size_t folds = std::max<std::size_t>(2, tests / held);
   std::vector<const models::Law*> laws;
   for (const ModelFit& fit : calibration.fits)
-    laws.push_back(models::find_law(fit.model.law->name));
+    laws.push_back(input.models.laws.find(fit.model.law->name));
   const CrossValidation cross =
       cross_validate(laws, conventions, *input.undivided, input.options,
                      experiment_folds(tests, folds, input.options.seed, 0));

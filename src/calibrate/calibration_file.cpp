@@ -124,6 +124,11 @@ Json made_law_json(const Law& law, const models::Conventions& conventions) {
             {"log_axes", law.log_axes}};
   if (models::find_law(law.name)) return j;
   j["base"] = law.base;
+  j["quantity"] = models::quantity_name(law.quantity);
+  j["log_value"] = law.log_value;
+  j["kinks"] = law.kinks;
+  j["reference"] = law.reference;
+  j["calibrated"] = law.calibrated != models::Calibrated::fixed;
   j["levels"] = law.levels;
   j["bounds"] = bounds_json(law);
   return j;
@@ -141,21 +146,46 @@ std::vector<models::Parameter> parse_parameters(const Json& list, const Json& bo
   return parameters;
 }
 
-// What the base says that the law itself does not: quantity, coordinates, kinks, reference.
-Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
-  const Json& j = fit.at("law");
-  const std::string base = j.at("base");
+// How its table is made.
+Law tabulated_as(const Json& j, const std::string& file) {
+  Law law;
+  const std::string quantity = j.at("quantity");
+  const auto known = {models::PieceQuantity::mu, models::PieceQuantity::tau_R};
+  const auto found = std::find_if(known.begin(), known.end(), [&](models::PieceQuantity q) {
+    return quantity == models::quantity_name(q);
+  });
+  if (found == known.end())
+    throw InputError({file, 0, 0}, "the piece of a law is a '" + quantity + "'",
+                     "one of mu, tau_R");
+  law.quantity = *found;
+  law.log_value = j.at("log_value");
+  law.kinks = j.at("kinks").get<std::map<std::string, std::vector<double>>>();
+  law.reference = j.at("reference");
+  law.calibrated =
+      j.at("calibrated").get<bool>() ? models::Calibrated::fit : models::Calibrated::fixed;
+  return law;
+}
+
+// Files of 0.1 leave to the registered law that was extended what it says of its table.
+Law law_of_base(const Json& fit, const std::string& base, const std::string& file) {
   if (!models::find_law(base))
     throw InputError({file, 0, 0},
                      fmt::format("law '{}' extends '{}', which is no friction law",
                                  fit.at("name").get<std::string>(), base),
                      suggest(base, models::law_names()));
   Law law = *models::find_law(base);
+  law.calibrated = models::Calibrated::fit;
+  return law;
+}
+
+Law law_with_name_of_its_own(const Json& fit, const std::string& file) {
+  const Json& j = fit.at("law");
+  const std::string base = j.at("base");
+  Law law = j.contains("quantity") ? tabulated_as(j, file) : law_of_base(fit, base, file);
   law.name = models::checked_model_name(fit.at("name"), file);
   law.title = fit.at("title");
   law.formula = fit.at("formula");
   law.base = base;
-  law.calibrated = models::Calibrated::fit;
   law.starts = nullptr;
   law.levels = j.at("levels").get<std::map<std::string, std::vector<std::string>>>();
   law.parameters = parse_parameters(fit.at("parameters"), j.at("bounds"));
@@ -173,7 +203,7 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
 std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
   const std::string name = fit.at("name");
   const Law* known = models::find_law(name);
-  if (known && !fit.contains("law")) return models::registered_law(*known);
+  if (known && !fit.contains("law")) return models::held_law(*known);
   if (!known && !(fit.contains("law") && fit.at("law").contains("base")))
     throw InputError({file, 0, 0}, "unknown friction law '" + name + "'",
                      suggest(name, models::law_names()));

@@ -59,28 +59,76 @@ void fit_means(ModelFit& fit, const Dataset& data) {
   fit.evaluations = 1;
 }
 
-void remark_constant_inputs(ModelFit& fit, const Dataset& data) {
-  for (const std::string& name : models::inputs(*fit.model.law, fit.model.conventions)) {
-    const auto values = data.values(name);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    if (*low == *high && std::any_of(fit.std_error.begin(), fit.std_error.end(),
-                                     [](double e) { return std::isnan(e); }))
-      fit.remarks.push_back(fmt::format(
-          "{} is {} in every row: experiments at other values would settle it", name, *low));
+void remark_constant_inputs(ModelFit& fit, const InputColumns& columns) {
+  if (std::none_of(fit.std_error.begin(), fit.std_error.end(),
+                   [](double e) { return std::isnan(e); }))
+    return;
+  const auto ranges = columns.ranges();
+  for (const std::string& name : columns.names()) // in their order
+    if (const auto range = ranges.find(name);
+        range != ranges.end() && range->second.first == range->second.second)
+      fit.remarks.push_back(
+          fmt::format("{} is {} in every row: experiments at other values would settle it", name,
+                      range->second.first));
+}
+
+double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, std::abs(a[i] - b[i]) / (std::abs(a[i]) + std::abs(b[i]) + 1e-12));
+  return most;
+}
+
+// Histories that follow the law's own shear stress (friction work) and its parameters in turn, from
+// Coulomb friction with the mean coefficient on. Never of the measured stress: its noise would be
+// in both sides of the fit.
+std::vector<double> settled_tau(ModelFit& fit, const Dataset& data,
+                                const CalibrationOptions& options) {
+  constexpr int most_rounds = 40;
+  constexpr double settled = 1e-7;
+  const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
+  double sum = 0, load = 0;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    sum += tau[i];
+    load += pressure[i];
   }
+  std::vector<double> own(pressure.begin(), pressure.end());
+  for (double& value : own)
+    value *= load > 0 ? sum / load : 0;
+  double change = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<double> before = std::move(fit.model.parameters);
+    fit.model.parameters = LawProblem(*fit.model.law, fit.model.conventions, data, own)
+                               .fit(options.loss, options.huber_delta_MPa)
+                               .result.parameters;
+    own = predict(fit.model, data);
+    change = before.empty() ? 1 : largest_change(before, fit.model.parameters);
+    if (change < settled) break;
+  }
+  if (!(change < settled))
+    fit.remarks.push_back(fmt::format("the history of its own shear stress and its parameters "
+                                      "still change each other by {:.1g} after {} rounds",
+                                      change, most_rounds));
+  return own;
 }
 
 void fit_parameters(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
-  const LawProblem problem(*fit.model.law, fit.model.conventions, data);
+  const models::Law& law = *fit.model.law;
+  const models::Conventions& conventions = fit.model.conventions;
+  std::vector<double> own_tau;
+  if (InputColumns(law, models::inputs(law, conventions), data).need_tau())
+    own_tau = settled_tau(fit, data, options);
+  const LawProblem problem(law, conventions, data, own_tau);
   LawFit found = problem.fit(options.loss, options.huber_delta_MPa);
   problem.add_uncertainty(found, options.loss, options.huber_delta_MPa, data.first_row);
   fit.model.parameters = std::move(found.result.parameters);
   fit.termination = std::move(found.result.termination);
   fit.evaluations = found.result.evaluations;
   fit.std_error = std::move(found.uncertainty.std_error);
-  fit.remarks = std::move(found.uncertainty.remarks);
+  for (std::string& remark : found.uncertainty.remarks)
+    fit.remarks.push_back(std::move(remark));
   fit.std_error_method = "cluster sandwich by experiment";
-  remark_constant_inputs(fit, data);
+  remark_constant_inputs(fit, problem.columns());
 }
 
 void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
@@ -110,7 +158,7 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
 ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
                  const Dataset& data, const CalibrationOptions& options) {
   ModelFit fit;
-  fit.model.law = models::registered_law(law);
+  fit.model.law = models::held_law(law);
   fit.model.conventions = conventions;
   switch (law.calibrated) {
   case Calibrated::fixed:

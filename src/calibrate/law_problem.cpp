@@ -137,14 +137,16 @@ void polish(FitResult& fit, const FitProblem& all, const LossFunction& loss) {
 } // namespace
 
 LawProblem::LawProblem(const models::Law& law, const models::Conventions& conventions,
-                       const data::Dataset& data)
-    : law_(law), conventions_(conventions), data_(data), names_(models::inputs(law, conventions)),
-      program_(models::tau_formula(law, conventions), names_, models::parameter_names(law)) {
-  if (data.rows() >= 4 * few_rows) add_thinned(data, few_rows);
-  if (data.rows() >= 4 * coarse_rows) add_thinned(data, coarse_rows);
+                       const data::Dataset& data, std::span<const double> own_tau_MPa)
+    : law_(law), conventions_(conventions), data_(data),
+      columns_(law, models::inputs(law, conventions), data),
+      program_(models::tau_formula(law, conventions), columns_.names(),
+               models::parameter_names(law)) {
+  if (!own_tau_MPa.empty()) columns_.derive_from_tau(own_tau_MPa);
+  if (data.rows() >= 4 * few_rows) add_thinned(few_rows);
+  if (data.rows() >= 4 * coarse_rows) add_thinned(coarse_rows);
   Level all;
-  for (const std::string& name : names_)
-    all.columns.push_back(data.values(name).data());
+  all.columns = columns_.pointers();
   all.measured = data.values("tau_R_MPa");
   all.formula.emplace(program_, data.rows(), all.columns);
   levels_.push_back(std::move(all));
@@ -153,24 +155,24 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
 LawProblem::Starts LawProblem::law_starts() const {
   if (!law_.starts) return {};
   models::TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
-  for (const std::string& name : names_)
-    rows[name] = data_.values(name);
+  for (std::size_t i = 0; i < columns_.names().size(); ++i)
+    rows[columns_.names()[i]] = columns_[i];
   return law_.starts(conventions_, rows);
 }
 
 // Evenly spaced rows, so that every experiment is seen in proportion.
-void LawProblem::add_thinned(const data::Dataset& data, std::size_t rows) {
+void LawProblem::add_thinned(std::size_t rows) {
   Level& level = levels_.emplace_back();
-  std::vector<std::string> names = names_;
-  names.push_back("tau_R_MPa");
-  for (const std::string& name : names) {
-    const auto values = data.values(name);
+  const auto keep = [&](std::span<const double> values) {
     auto& kept = level.kept.emplace_back();
     kept.reserve(rows);
     for (std::size_t i = 0; i < rows; ++i)
       kept.push_back(values[(2 * i + 1) * values.size() / (2 * rows)]);
-  }
-  for (std::size_t c = 0; c < names_.size(); ++c)
+  };
+  for (std::size_t c = 0; c < columns_.names().size(); ++c)
+    keep(columns_[c]);
+  keep(data_.values("tau_R_MPa"));
+  for (std::size_t c = 0; c < columns_.names().size(); ++c)
     level.columns.push_back(level.kept[c].data());
   level.measured = level.kept.back();
   level.formula.emplace(program_, rows, level.columns);

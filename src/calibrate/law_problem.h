@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrate/fit.h"
+#include "calibrate/input_columns.h"
 #include "calibrate/options.h"
 #include "calibrate/sandwich.h"
 #include "data/dataset.h"
@@ -21,9 +22,10 @@ struct LawFit {
 // thousand, and all rows are seen two or three times only.
 class LawProblem {
 public:
-  // The data must have inputs(law) and tau_R_MPa, and outlive the problem.
+  // The data must have inputs(law) and tau_R_MPa, and outlive the problem. `own_tau_MPa`, per row:
+  // what histories of the law's own shear stress follow; nothing where there are none.
   LawProblem(const models::Law& law, const models::Conventions& conventions,
-             const data::Dataset& data);
+             const data::Dataset& data, std::span<const double> own_tau_MPa = {});
 
   // The best fit found. L1 is rounded off over a thousandth of the residuals; with one parameter it
   // is exact (weighted median).
@@ -34,6 +36,8 @@ public:
   void add_uncertainty(LawFit& fit, Loss loss, double huber_delta_MPa,
                        std::span<const std::size_t> first_row) const;
 
+  const InputColumns& columns() const { return columns_; }
+
 private:
   using Starts = std::vector<std::vector<double>>;
   struct Level {
@@ -43,7 +47,7 @@ private:
     std::optional<expr::BoundProgram> formula;
   };
   FitProblem problem(const Level& level) const;
-  void add_thinned(const data::Dataset& data, std::size_t rows);
+  void add_thinned(std::size_t rows);
   std::vector<FitResult> search(const Level& level, const Starts& offered,
                                 LossFunction& loss) const;
 
@@ -52,7 +56,7 @@ private:
   const models::Law& law_;
   models::Conventions conventions_;
   const data::Dataset& data_;
-  std::vector<std::string> names_;
+  InputColumns columns_;
   expr::Program program_;
   std::deque<Level> levels_; // coarse to fine; the last has all rows
 };

@@ -7,14 +7,18 @@
 #include <vector>
 
 #include "core/error.h"
-#include "models/shear_yield.h"
+#include "models/law.h"
+#include "models/law_text.h"
 
 namespace frictab::calibrate {
 
 enum class Loss { l2, l1, huber };
 
 struct ModelOptions {
-  std::vector<std::string> use; // empty: all that the columns allow
+  std::vector<std::string> use;       // empty: all that the columns allow
+  std::vector<std::string> files;     // of laws
+  std::vector<models::LawText> texts; // laws of the job's own, as they are written
+  models::Laws laws;                  // with those
   models::ShearYield shear_yield = models::ShearYield::mises;
   bool shear_limit = true; // tau_R <= k
   Place place;

@@ -1,5 +1,6 @@
 // frictab explain NAME: a law, an effect, a target, a quantity, the job file or one of its keys.
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/explanation.h"
+#include "cli/job_commands.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -79,8 +81,19 @@ void print_json(const Explanation& it) {
   fmt::print("{}\n", out.dump(2));
 }
 
-int run(const std::string& name, const CommonOptions& common) {
-  const auto explanation = explain(name);
+// A law of the job that is named, or of job.toml in this directory.
+std::optional<Explanation> explain_own_law(const std::string& name, std::string job,
+                                           const CommonOptions& common) {
+  if (job.empty() && std::filesystem::exists("job.toml")) job = "job.toml";
+  if (job.empty()) return std::nullopt;
+  const job::Job read = read_job(job, common);
+  const models::Law* law = read.models.laws.find(name);
+  return law ? std::optional(explain_law(*law)) : std::nullopt;
+}
+
+int run(const std::string& name, const std::string& job, const CommonOptions& common) {
+  auto explanation = explain(name);
+  if (!explanation) explanation = explain_own_law(name, job, common);
   if (!explanation) {
     const std::string near = nearest_name(name, explainable());
     throw InputError({}, fmt::format("nothing is called '{}'", name),
@@ -93,12 +106,15 @@ int run(const std::string& name, const CommonOptions& common) {
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
-  auto name = std::make_shared<std::string>();
+  auto name = std::make_shared<std::string>(), job = std::make_shared<std::string>();
   app.add_option("NAME", *name,
                  "a law, an effect, a target, a quantity, `job`, a key such as table.model, or\n"
                  "`table-layout`")
       ->required();
-  return [name, &common] { return run(*name, common); };
+  app.add_option("--job", *job,
+                 "The job file that a law of your own stands in; job.toml of this directory")
+      ->type_name("JOB");
+  return [name, job, &common] { return run(*name, *job, common); };
 }
 
 const Registered<Command> registered{[] {

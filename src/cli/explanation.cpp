@@ -71,6 +71,11 @@ Explanation about(const models::Law& law) {
                 {"tabulated", quantity_name(law.quantity)},
                 {"reference", law.reference},
                 {"remarks", remarks_of(law)}};
+  if (!models::is_registered(law)) { // the user's: what was understood
+    const models::Formula parts = law.build(usual);
+    out.fields.push_back({"value", expr::to_text(parts.value)});
+    out.fields.push_back({"tau_R of it", expr::to_text(parts.combine)});
+  }
   out.items = parameter_items(law.parameters, law.calibrated == models::Calibrated::fixed);
   return out;
 }
@@ -223,6 +228,10 @@ std::string rule_path(const std::string& path) {
 }
 
 } // namespace
+
+Explanation explain_law(const models::Law& law) {
+  return about(law);
+}
 
 std::optional<Explanation> explain(const std::string& name) {
   if (const models::Law* law = models::find_law(name)) return about(*law);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/law.h"
+
 namespace frictab::cli {
 
 struct Explanation {
@@ -22,6 +24,9 @@ struct Explanation {
   std::string items_label; // "parameters", "keys"
   std::vector<Item> items;
 };
+
+// Of a law, also of a user's own.
+Explanation explain_law(const models::Law& law);
 
 // nullopt where nothing is called `name`.
 std::optional<Explanation> explain(const std::string& name);

@@ -231,7 +231,7 @@ void check_models(JobReader& reader, const std::string& path,
   const std::vector<std::string>& use = reader.job.models.use;
   if (use.empty() || path == "export.targets") return;
   for (const std::string& name : models)
-    if (const models::Law* law = models::read_model_name(name).base;
+    if (const models::Law* law = models::read_model_name(name, reader.job.models.laws).base;
         law && !std::count(use.begin(), use.end(), law->name))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),

@@ -55,6 +55,25 @@ void add_named_keys(std::string& out, const std::string& section) {
   }
 }
 
+// Beside keys of fixed names a section of the user's own: [models.my_law].
+void add_own_section(std::string& out, const SectionRule& section) {
+  const SectionRule* each = find_section(section.path + ".*");
+  if (!section.others || !each) return;
+  out += "\n";
+  add_prose(out, each->meaning);
+  for (const KeyRule& rule : key_rules()) {
+    if (!rule.path.starts_with(each->path + ".")) continue;
+    const std::string within = rule.path.substr(each->path.size() + 1);
+    const bool named = within.ends_with(".*"), deeper = within.find('.') != within.npos;
+    const std::string key = named ? within.substr(0, within.size() - 2) : last_part(rule.path);
+    add_prose(out,
+              fmt::format("{}: {}{}; absent: {}", key,
+                          deeper && !named ? "in " + within.substr(0, within.find('.')) + ": " : "",
+                          rule.meaning, rule.absent));
+  }
+  add_commented(out, fmt::format("[{}.my_law]\n{}", section.path, each->example));
+}
+
 bool has_keys(const std::string& section) {
   return std::any_of(key_rules().begin(), key_rules().end(), [&](const KeyRule& rule) {
     return parent(rule.path) == section && last_part(rule.path) != "*";
@@ -98,6 +117,7 @@ std::string job_template() {
     out += "  # " + section.meaning + "\n";
     for (const KeyRule& rule : key_rules())
       if (parent(rule.path) == section.path) add_key(out, rule);
+    add_own_section(out, section);
   }
   return out;
 }

@@ -174,7 +174,10 @@ std::vector<std::string> targets_or_all();
 
 data::DropRule& drop_rule(Job& job, const std::string& name); // added where absent
 data::FileRule& file_rule(Job& job, const std::string& name); // "2.columns...": the second; as well
+models::LawText& law_text(Job& job, const std::string& name); // "my_law...": added where absent
+models::ParameterText& parameter_text(Job& job, const std::string& name); // "my_law.mu"
 std::vector<KeyRule> data_keys();
+std::vector<KeyRule> law_keys(); // of [models.NAME]
 std::vector<KeyRule> stage_keys();
 
 } // namespace frictab::job::schema

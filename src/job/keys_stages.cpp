@@ -164,7 +164,11 @@ std::vector<KeyRule> model_keys() {
           "friction laws to calibrate: a name, a list, or \"all\"; `frictab list models` shows "
           "them",
           "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
-          Allowed{"friction law", laws_or_all},
+          Allowed{"friction law", laws_or_all, false, false, true},
+      key<std::vector<std::string>>(
+          "models.files", [](Job & job) -> auto& { return job.models.files; },
+          "files of laws that jobs share: each of their tables is a law, as [models.NAME] is",
+          "none", "\"laws/*.toml\""),
       key<models::ShearYield>(
           "models.shear_yield", [](Job & job) -> auto& { return job.models.shear_yield; },
           "shear yield stress k: mises = sigma_f/sqrt(3), tresca = sigma_f/2, flow_stress = "
@@ -215,7 +219,7 @@ std::vector<KeyRule> table_keys() {
           "table.model", [](Job & job) -> auto& { return job.table.model; },
           "law or laws to tabulate: best (on held-out experiments), a name, a list, or all; "
           "NAME_traced is the law with the effects that trace found") |
-          Allowed{"friction law", laws_best_or_all, false, true},
+          Allowed{"friction law", laws_best_or_all, false, true, true},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
           "share of experiments that stay below the table: 0.5 = the law itself, "
@@ -362,7 +366,7 @@ std::vector<KeyRule> proof_keys() {
       key<std::vector<std::string>>(
           "trace.models", [](Job & job) -> auto& { return job.trace.models; },
           "laws whose residuals are searched: best, a name, a list, or all") |
-          Allowed{"friction law", laws_best_or_all},
+          Allowed{"friction law", laws_best_or_all, false, false, true},
       key<double>(
           "trace.alpha", [](Job & job) -> auto& { return job.trace.alpha; },
           "family-wise error of a false alarm") |
@@ -430,7 +434,7 @@ std::vector<std::string> option_names() {
 
 std::vector<KeyRule> stage_keys() {
   std::vector<KeyRule> rules;
-  for (auto* part : {model_keys, table_keys, export_keys, proof_keys})
+  for (auto* part : {model_keys, law_keys, table_keys, export_keys, proof_keys})
     for (KeyRule& rule : part())
       rules.push_back(std::move(rule));
   return rules;

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/file_list.h"
 #include "data/quantity.h"
 #include "io/atomic_file.h"
+#include "io/text_file.h"
 #include "job/reader.h"
 
 namespace frictab::job {
@@ -85,11 +87,13 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
 }
 
 // Whether an entry of this section is found by a name of the user's and not by its own.
-bool is_by_name(const SectionRule* section, const std::string& rule_path, const std::string& key) {
+// Beside keys of fixed names it is one of the known names, or a table where others may be.
+bool is_by_name(const SectionRule* section, const std::string& rule_path, const TomlNode& entry) {
   if (!section || !section->children) return false;
-  if (fixed_children(rule_path).empty()) return true;
-  const std::vector<std::string> names = section->children();
-  return std::find(names.begin(), names.end(), key) != names.end();
+  const std::vector<std::string> fixed = fixed_children(rule_path), names = section->children();
+  if (fixed.empty() || std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
+  return section->others && entry.type == TomlNode::Type::table &&
+         std::find(fixed.begin(), fixed.end(), entry.key) == fixed.end();
 }
 
 void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path,
@@ -118,7 +122,7 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
   if (here && here->place) *here->place(reader.job, name) = table.place;
   reader.places[path] = table.place;
   for (const TomlNode& entry : table.items) {
-    const bool by_name = is_by_name(here, rule_path, entry.key);
+    const bool by_name = is_by_name(here, rule_path, entry);
     if (!by_name && entry.key.find('.') != entry.key.npos) { // "data.training" in quotes
       unknown_key(reader, rule_path, path, entry);
       continue;
@@ -132,9 +136,10 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
         walk_list(reader, entry, rule_below, path_below);
       } else if (entry.type == TomlNode::Type::table) {
         walk(reader, entry, rule_below, path_below, name_below);
-      } else if (rule_below.ends_with(".columns.*")) { // tau_R_MPa = "Friction"
+      } else if (!section->plain.empty()) { // tau_R_MPa = "Friction"
         *section->place(reader.job, name_below) = entry.place;
-        read_value(reader, *find_key(rule_below + ".column"), path_below, name_below, entry);
+        read_value(reader, *find_key(rule_below + "." + section->plain), path_below, name_below,
+                   entry);
       } else {
         if (path_below == "data") reader.data_is_no_table = true;
         reader.fault(entry.place,
@@ -147,6 +152,46 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
       unknown_key(reader, rule_path, path, entry);
     }
   }
+}
+
+constexpr std::uint64_t largest_law_file = 1 << 20;
+
+// The files of models.files, each a table of laws.
+std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
+  std::vector<TomlNode> files;
+  TomlNode* const models = root.find("models");
+  TomlNode* const named = models ? models->find("files") : nullptr;
+  if (!named) return files;
+  JobReader only; // faults of the key itself are told with the others
+  only.job.file = reader.job.file;
+  read_value(only, *find_key("models.files"), "models.files", "", *named);
+  const std::string base = std::filesystem::path(reader.job.file).parent_path().string();
+  try {
+    for (const std::string& name : data::find_files(only.job.models.files, base, named->place)) {
+      const std::string path = (std::filesystem::path(base) / name).string();
+      files.push_back(
+          parse_toml(io::read_text_file(path, path, {.bytes = largest_law_file}), path));
+    }
+  } catch (const InputError& error) {
+    reader.faults.insert(reader.faults.end(), error.faults().begin(), error.faults().end());
+  }
+  return files;
+}
+
+// Keys elsewhere may name these laws before they are read.
+void note_laws(JobReader& reader, const TomlNode& tables) {
+  for (const TomlNode& entry : tables.items)
+    if (entry.type == TomlNode::Type::table) reader.own_laws.push_back(entry.key);
+}
+
+void walk_law_file(JobReader& reader, const TomlNode& file) {
+  for (const TomlNode& entry : file.items)
+    if (entry.type == TomlNode::Type::table)
+      walk(reader, entry, "models.*", "models." + entry.key, entry.key);
+    else
+      reader.fault(entry.key_place, fmt::format("{} is no law", in_quotes(entry.key)),
+                   "a file of laws holds a table per law: [my_law]");
+  reader.job.sections["models"] += canonical_text(file);
 }
 
 void sort_by_place(std::vector<Fault>& faults) {
@@ -197,12 +242,19 @@ Job parse_job(std::string_view text, const std::string& file, const std::vector<
   for (Place* place : {&reader.job.data.place, &reader.job.models.place, &reader.job.table.place,
                        &reader.job.exports.place})
     *place = whole;
+  const std::vector<TomlNode> law_files = read_law_files(reader, root);
+  if (const TomlNode* models = root.find("models")) note_laws(reader, *models);
+  for (const TomlNode& laws : law_files)
+    note_laws(reader, laws);
   walk(reader, root, "", "", "");
   for (TomlNode section : root.items) {
     if (section.key == "table")
       std::erase_if(section.items, [](const TomlNode& item) { return item.key == "model"; });
     reader.job.sections[section.key] = canonical_text(section);
   }
+  for (const TomlNode& laws : law_files)
+    walk_law_file(reader, laws);
+  make_laws(reader);
   check_job(reader);
   sort_by_place(reader.faults);
   if (!reader.faults.empty()) throw InputError(std::move(reader.faults));

@@ -69,7 +69,9 @@ struct ValueReader {
       reader.fault(node.place, path + " must not be an empty text", about());
       return std::nullopt;
     }
-    const std::vector<std::string> names = rule.allowed.names();
+    std::vector<std::string> names = rule.allowed.names();
+    if (rule.allowed.laws)
+      names.insert(names.end(), reader.own_laws.begin(), reader.own_laws.end());
     const auto same = [&](const std::string& name) {
       return rule.allowed.any_case
                  ? std::equal(name.begin(), name.end(), node.text.begin(), node.text.end(),
@@ -78,9 +80,7 @@ struct ValueReader {
     };
     const auto found = std::find_if(names.begin(), names.end(), same);
     if (found != names.end()) return *found;
-    if (const models::ModelName name = models::read_model_name(node.text);
-        rule.allowed.traced && name.base && name.traced && !name.quantile)
-      return node.text;
+    if (rule.allowed.traced && is_traced_law(node.text)) return node.text;
     if (rule.allowed.noun.empty()) {
       const std::string near = nearest_name(node.text, names);
       const std::string hint = near.empty() || node.text.size() < 2
@@ -95,6 +95,14 @@ struct ValueReader {
                    suggest(node.text, names));
     }
     return std::nullopt;
+  }
+
+  bool is_traced_law(const std::string& text) const {
+    const models::ModelName name = models::read_model_name(text, {});
+    if (!name.traced || name.quantile) return false;
+    return name.base ||
+           std::any_of(reader.own_laws.begin(), reader.own_laws.end(),
+                       [&](const std::string& law) { return text == models::traced_name(law); });
   }
 
   static std::string quoted(const std::string& text) {

@@ -15,6 +15,7 @@ struct JobReader {
   std::vector<Fault> faults;
   std::map<std::string, Place> places; // of every key's value, by full path
   bool data_is_no_table = false;       // then nothing is said of what it lacks
+  std::vector<std::string> own_laws;   // names of [models.NAME] and of tables in law files
 
   void fault(Place place, std::string what, std::string hint = "") {
     faults.push_back({std::move(place), std::move(what), std::move(hint)});
@@ -26,6 +27,9 @@ struct JobReader {
 // Converts a value to what its key holds and stores it; faults are added.
 void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
                 const std::string& name, const TomlNode& node);
+
+// Formulas of the job's own laws to laws, once their keys are read.
+void make_laws(JobReader& reader);
 
 // What no key can tell alone: contradictions and missing keys.
 void check_job(JobReader& reader);

@@ -39,6 +39,12 @@ Place* drop_place(Job& job, const std::string& name) {
 Place* models_place(Job& job, const std::string&) {
   return &job.models.place;
 }
+Place* law_place(Job& job, const std::string& name) {
+  return &schema::law_text(job, name).place;
+}
+Place* parameter_place(Job& job, const std::string& name) {
+  return &schema::parameter_text(job, name).place;
+}
 Place* table_place(Job& job, const std::string&) {
   return &job.table.place;
 }
@@ -97,7 +103,7 @@ const std::vector<SectionRule>& section_rules() {
       {"data.columns.*",
        "how one canonical column is taken from the file; a text or a number "
        "instead of a table is its `column`",
-       "", nullptr, column_place},
+       "", nullptr, column_place, "quantity", false, false, "column"},
       {"data.constants", "quantities that are the same for every row", "sigma_f_MPa = 480.0",
        schema::constant_names, nullptr},
       {"data.files",
@@ -110,7 +116,8 @@ const std::vector<SectionRule>& section_rules() {
       {"data.files.*", "one rule", "", nullptr, file_place},
       {"data.files.*.columns", "as data.columns, and instead of it", "", schema::column_names,
        nullptr},
-      {"data.files.*.columns.*", "as data.columns", "", nullptr, file_column_place},
+      {"data.files.*.columns.*", "as data.columns", "", nullptr, file_column_place, "quantity",
+       false, false, "column"},
       {"data.files.*.constants", "values that are the same for every row of these files", "",
        schema::constant_names, nullptr, "quantity", true},
       {"data.files.*.labels", "texts that are the same for every row of these files", "", no_names,
@@ -122,12 +129,23 @@ const std::vector<SectionRule>& section_rules() {
        "columns are brought onto the rows of the tests, with the keys of [[data.files]]",
        "files = \"fe/*.csv\"", nullptr, join_place},
       {"data.join.columns", "as data.columns, of these files", "", schema::column_names, nullptr},
-      {"data.join.columns.*", "as data.columns", "", nullptr, join_column_place},
+      {"data.join.columns.*", "as data.columns", "", nullptr, join_column_place, "quantity", false,
+       false, "column"},
       {"data.join.constants", "values that are the same for every row of these files", "",
        schema::constant_names, nullptr, "quantity", true},
       {"data.join.labels", "texts that are the same for every row of these files", "", no_names,
        nullptr, "label", true},
-      {"models", "which friction laws", "", nullptr, models_place},
+      {"models", "which friction laws", "", no_names, models_place, "law", true},
+      {"models.*", "a law of your own, by its name: calibrated, proven, exported like the others",
+       "formula = \"min(mu*sigma_n_MPa, m*k_MPa)\"\n"
+       "parameters = { mu = { range = [0, 1] }, m = { range = [0, 1] } }",
+       nullptr, law_place},
+      {"models.*.where", "named parts of its formulas", "", no_names, nullptr, "part", true},
+      {"models.*.parameters",
+       "what its formulas leave open; a number instead of a table is its `value`", "", no_names,
+       nullptr, "parameter", true},
+      {"models.*.parameters.*", "one parameter", "", nullptr, parameter_place, "parameter", false,
+       false, "value"},
       {"calibration", "how their parameters are found", "", nullptr, nullptr},
       {"table", "the table that replaces the law", "", nullptr, table_place},
       {"table.axes", "axes by canonical name; what is left out is chosen by the tool", "",

@@ -42,6 +42,7 @@ struct Allowed {
   std::vector<std::string> (*names)() = nullptr;
   bool any_case = false;
   bool traced = false; // and its traced_name: the law with effects found in the data
+  bool laws = false;   // and the laws of the job's own
 };
 
 struct Problem {
@@ -73,8 +74,9 @@ struct SectionRule {
   std::vector<std::string> (*children)() = nullptr;
   Place* (*place)(Job&, const std::string& name) = nullptr; // where the job remembers the place
   std::string child = "quantity";                           // what a name of the user's stands for
-  bool others = false; // names that are not among `children` are taken too, and checked later
-  bool list = false;   // [[path]]: its tables have the numbers from 1 as names
+  bool others = false;    // names that are not among `children` are taken too, and checked later
+  bool list = false;      // [[path]]: its tables have the numbers from 1 as names
+  std::string plain = {}; // the key of a child that a value instead of a table is
 };
 
 // "unit" of "data.columns.*.unit".

@@ -56,7 +56,8 @@ std::vector<std::string> parameter_names(const Law& law) {
   return names;
 }
 
-std::shared_ptr<const Law> registered_law(const Law& law) {
+std::shared_ptr<const Law> held_law(const Law& law) {
+  if (!is_registered(law)) return unregistered_law(law);
   return {std::shared_ptr<const Law>(), &law}; // the registry outlives every model
 }
 
@@ -107,15 +108,37 @@ std::string checked_model_name(const std::string& name, const std::string& file)
   return name;
 }
 
-ModelName read_model_name(std::string_view name) {
-  if (const Law* law = find_law(name)) return {law, false, false};
+std::vector<const Law*> Laws::all() const {
+  std::vector<const Law*> laws;
+  for (const Law& law : all_laws())
+    laws.push_back(&law);
+  for (const auto& law : own_)
+    laws.push_back(law.get());
+  return laws;
+}
+
+std::vector<std::string> Laws::names() const {
+  std::vector<std::string> names = law_names();
+  for (const auto& law : own_)
+    names.push_back(law->name);
+  return names;
+}
+
+const Law* Laws::find(std::string_view name) const {
+  for (const auto& law : own_)
+    if (law->name == name) return law.get();
+  return find_law(name);
+}
+
+ModelName read_model_name(std::string_view name, const Laws& laws) {
+  if (const Law* law = laws.find(name)) return {law, false, false};
   if (const std::size_t at = quantile_in(name); at != name.npos) {
-    ModelName read = read_model_name(name.substr(0, at));
+    ModelName read = read_model_name(name.substr(0, at), laws);
     read.quantile = true;
     return read;
   }
   if (!name.ends_with(traced_suffix)) return {};
-  return {find_law(name.substr(0, name.size() - traced_suffix.size())), true, false};
+  return {laws.find(name.substr(0, name.size() - traced_suffix.size())), true, false};
 }
 
 const std::vector<Law>& all_laws() {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "core/registry.h"
 #include "expr/expr.h"
 #include "models/piece_quantity.h"
@@ -74,6 +75,7 @@ struct Law {
   // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
   // a search over the bounds. The first is the least-squares optimum.
   std::vector<std::vector<double>> (*starts)(const Conventions&, const TrainingRows&) = nullptr;
+  std::map<std::string, Place> places = {}; // of a user's law: where its columns are first named
 };
 
 // Shear yield stress k as a formula of the flow stress.
@@ -111,8 +113,9 @@ struct Model {
   std::string name() const; // the law's; log_coulomb_q05 for its 5 % quantile
 };
 
-// How a model holds its law: one of the registry, or one that was found from data.
-std::shared_ptr<const Law> registered_law(const Law& law);
+// How a model holds its law: one of the registry, or one that is nowhere else - found from data, or
+// written by a user - of which it keeps a copy.
+std::shared_ptr<const Law> held_law(const Law& law);
 std::shared_ptr<const Law> unregistered_law(Law law);
 
 // Whether the law is the registry's: then its name says all about it.
@@ -121,6 +124,19 @@ bool is_registered(const Law& law);
 // What a law with traced effects is called: log_coulomb_traced.
 std::string traced_name(std::string_view base);
 
+// The laws that a job knows: those of the registry, and behind them its own.
+class Laws {
+public:
+  void add(Law law) { own_.push_back(unregistered_law(std::move(law))); }
+  std::vector<const Law*> all() const;
+  std::vector<std::string> names() const;
+  const Law* find(std::string_view name) const; // nullptr where there is none
+  const std::vector<std::shared_ptr<const Law>>& own() const { return own_; }
+
+private:
+  std::vector<std::shared_ptr<const Law>> own_;
+};
+
 // Where a name is all there is, in a job and on files of earlier runs; a Model says it itself.
 struct ModelName {
   const Law* base = nullptr; // nullptr: it names no model
@@ -128,7 +144,7 @@ struct ModelName {
   bool quantile = false;
 };
 // Of log_coulomb, log_coulomb_q05 and log_coulomb_traced_q05 the base is log_coulomb.
-ModelName read_model_name(std::string_view name);
+ModelName read_model_name(std::string_view name, const Laws& laws);
 // A name from a file; it becomes part of file names and of generated text. Throws InputError that
 // names `file` unless it is 1 to 100 letters, digits, '_', '.' and '-', the first no '.'.
 std::string checked_model_name(const std::string& name, const std::string& file);

@@ -7,6 +7,7 @@
 #include "calibrate/noise_floor.h"
 #include "core/no_value.h"
 #include "core/text.h"
+#include "report/formula.h"
 #include "report/judged.h"
 #include "report/law_plots.h"
 #include "report/numbers.h"
@@ -124,7 +125,7 @@ TemplateValues law_row(const calibrate::ModelFit& fit, std::size_t rank, int dec
               {"row_class", rank == 1 ? "best" : "other"},
               {"name", svg::escape(fit.model.law->name)},
               {"title", svg::escape(fit.model.law->title)},
-              {"formula", svg::escape(fit.model.law->formula)},
+              {"formula", formula_html(*fit.model.law)},
               {"kind", kind_text(*fit.model.law)},
               {"mae", fixed(v.mae_MPa, decimals)},
               {"interval", interval_text(v.mae_interval, decimals)},

@@ -44,7 +44,7 @@ Fits fits_of_entry(const calibrate::Calibration& calibration, const std::string&
   Fits fits = fits_named(calibration, name);
   if (fits.empty())
     throw InputError(place, "table.model: law '" + name + "' was not calibrated",
-                     models::read_model_name(name).traced
+                     models::read_model_name(name, {}).traced
                          ? "it is there where trace finds an effect that its law lacks"
                          : "add it to models.use, or map the columns it needs");
   return fits;

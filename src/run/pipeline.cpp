@@ -68,6 +68,16 @@ void Pipeline::load_data() {
   if (!data_) data_ = load_job_data(job_);
 }
 
+// Files of an earlier run: by their names, which is all there is of those of 0.1, and as
+// stages.json has them, of laws that the job no longer knows.
+void Pipeline::remove_earlier(const std::vector<std::string>& called_like_results,
+                              std::string_view folder) {
+  for (const std::string& file : called_like_results)
+    output_.remove_old(file);
+  for (const std::string& file : stages_.recorded_in(folder))
+    output_.remove_old(file);
+}
+
 void Pipeline::load_calibration() {
   if (calibration_) return;
   if (!earlier_.has_calibration()) {
@@ -89,14 +99,15 @@ namespace {
 
 // Of the tables in the directory those that table.model names; all of them where it says best or
 // all, which is what the earlier run has resolved.
-void keep_named(std::vector<Table>& tables, const table::TableOptions& options) {
+void keep_named(std::vector<Table>& tables, const table::TableOptions& options,
+                const models::Laws& laws) {
   const std::vector<std::string>& names = options.model;
   if (!options.names_laws()) return;
   std::string there;
   for (const Table& table : tables)
     there += (there.empty() ? "" : ", ") + table.model;
   const auto is_named = [&](const Table& table) {
-    const models::ModelName name = models::read_model_name(table.model);
+    const models::ModelName name = models::read_model_name(table.model, laws);
     std::string law = table.model; // without its quantile
     if (name.base) law = name.base->name + (name.traced ? "_traced" : "");
     return std::find(names.begin(), names.end(), law) != names.end() ||
@@ -119,7 +130,7 @@ void Pipeline::load_tables() {
   }
   check_fresh("tabulate", "tables");
   tables_ = earlier_.tables(job_.table.memory_limit_MiB);
-  keep_named(tables_, job_.table);
+  keep_named(tables_, job_.table, job_.models.laws);
   load_calibration();
   for (Table& table : tables_)
     check_origin(table);
@@ -202,8 +213,7 @@ void Pipeline::calibrate() {
   if (!is_kept) calibration_ = calibrate::calibrate(data_->calibration_input(job_));
   new_calibration_ = true;
   laws_.clear();
-  for (const std::string& file : earlier_.model_files())
-    output_.remove_old(file);
+  remove_earlier(earlier_.model_files(), "models/");
   output_.remove_old("trace.json"); // of another calibration
   if (is_kept)
     take_kept_calibration();
@@ -236,8 +246,7 @@ void Pipeline::trace() {
   }
   std::erase_if(calibration_->fits, // of an earlier trace
                 [](const ModelFit& fit) { return fit.model.traced(); });
-  for (const std::string& file : earlier_.model_files())
-    output_.remove_old(file);
+  remove_earlier(earlier_.model_files(), "models/");
   const auto fits = fits_to_trace(*calibration_, job_.trace);
   if (fits.empty())
     throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
@@ -371,8 +380,7 @@ Table Pipeline::made_table(const models::AssembledLaw& law) {
 void Pipeline::tabulate() {
   load_data();
   load_calibration();
-  for (const std::string& file : earlier_.table_files())
-    output_.remove_old(file);
+  remove_earlier(earlier_.table_files(), "tables/");
   tables_.clear();
   const std::vector<models::Model> models = models_to_tabulate(*calibration_, job_.table);
   stages_.begin("tabulate", data_key());
@@ -450,13 +458,12 @@ void Pipeline::generate() {
   if (tables_.empty() && !targets.empty() && earlier_.has_tables()) {
     check_fresh("tabulate", "tables");
     std::vector<Table> described = earlier_.table_descriptions(); // before anything large is read
-    keep_named(described, job_.table);
+    keep_named(described, job_.table, job_.models.laws);
     for (const Table& table : described)
       codegen::check_request_size(table, targets, job_.exports.options);
   }
   load_tables();
-  for (const std::string& file : earlier_.source_files())
-    output_.remove_old(file);
+  remove_earlier(earlier_.source_files(), "export/");
   FaultList faults; // of all targets: what one cannot take, another can
   std::set<const codegen::Exporter*> refused;
   for (const Table& table : tables_)

@@ -71,6 +71,7 @@ private:
   void load_sources();
   void check_fresh(const std::string& stage, const std::string& files) const;
   void check_as_written(const std::string& stage, const std::string& path) const;
+  void remove_earlier(const std::vector<std::string>& called_like_results, std::string_view folder);
   void check_origin(table::Table& table); // of a table of an earlier run
   std::string data_key() const;           // empty where the data were not read
 

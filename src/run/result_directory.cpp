@@ -25,21 +25,24 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 
 // Stems of entries that are called like a model: laws with traced effects and ends of bands have
 // names that no registry knows.
-void add_model_names(std::vector<std::string>& names, const fs::path& directory) {
+void add_model_names(std::vector<std::string>& names, const fs::path& directory,
+                     const models::Laws& laws) {
   if (!fs::is_directory(directory)) return;
   for (const auto& entry : fs::directory_iterator(directory))
-    if (const std::string name = entry.path().stem().string(); models::read_model_name(name).base)
+    if (const std::string name = entry.path().stem().string();
+        models::read_model_name(name, laws).base)
       add_once(names, name);
 }
 
 } // namespace
 
-ResultDirectory::ResultDirectory(const job::Job& job) : directory_(job.directory), job_(job.file) {
+ResultDirectory::ResultDirectory(const job::Job& job)
+    : directory_(job.directory), job_(job.file), laws_(job.models.laws) {
   io::finish_interrupted(directory_);
 }
 
 ResultDirectory::ResultDirectory(const job::Job& job, fs::path directory)
-    : directory_(std::move(directory)), job_(job.file) {}
+    : directory_(std::move(directory)), job_(job.file), laws_(job.models.laws) {}
 
 std::vector<std::string> ResultDirectory::all_files() const {
   std::vector<std::string> files;
@@ -150,18 +153,18 @@ std::optional<verify::Verification> ResultDirectory::verification() const {
 }
 
 std::vector<std::string> ResultDirectory::model_files() const {
-  std::vector<std::string> names = models::law_names(), files;
-  add_model_names(names, directory_ / "models");
+  std::vector<std::string> names = laws_.names(), files;
+  add_model_names(names, directory_ / "models", laws_);
   for (const std::string& name : names)
     files.push_back("models/" + name + ".json");
   return files;
 }
 
 std::vector<std::string> ResultDirectory::table_names() const {
-  std::vector<std::string> names = models::law_names();
-  add_model_names(names, directory_ / "tables");
+  std::vector<std::string> names = laws_.names();
+  add_model_names(names, directory_ / "tables", laws_);
   for (const codegen::Exporter& exporter : codegen::all_exporters())
-    add_model_names(names, directory_ / "export" / exporter.name);
+    add_model_names(names, directory_ / "export" / exporter.name, laws_);
   return names;
 }
 

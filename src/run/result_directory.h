@@ -50,6 +50,7 @@ private:
 
   std::filesystem::path directory_;
   std::string job_; // for hints
+  models::Laws laws_;
 };
 
 } // namespace frictab::run

@@ -133,6 +133,13 @@ void Stages::record_file(const std::string& path, const std::filesystem::path& f
   files_[path] = file_fingerprint(file);
 }
 
+std::vector<std::string> Stages::recorded_in(std::string_view folder) const {
+  std::vector<std::string> paths;
+  for (const auto& [path, fingerprint] : files_)
+    if (path.starts_with(folder)) paths.push_back(path);
+  return paths;
+}
+
 std::optional<bool> Stages::is_as_written(const std::string& path) const {
   const auto known = files_.find(path);
   if (known == files_.end() || !std::filesystem::exists(directory_ / path)) return std::nullopt;

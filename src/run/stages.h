@@ -40,6 +40,7 @@ public:
 
   // A file that later stages read, by its path in the directory, as it was written to `file`.
   void record_file(const std::string& path, const std::filesystem::path& file);
+  std::vector<std::string> recorded_in(std::string_view folder) const; // "models/"
   void forget_file(const std::string& path) { files_.erase(path); }
   // Whether the file is the one that was recorded; nothing where none was.
   std::optional<bool> is_as_written(const std::string& path) const;

@@ -313,7 +313,11 @@ std::string uncommented(const std::string& text) {
 }
 
 TEST(JobTemplate, StaysAJobWithEveryKeyUncommented) {
-  const Job job = parse_job(uncommented(job::job_template()), "job.toml");
+  const test::TemporaryDirectory directory;
+  directory.write("laws/a.toml", "[other]\nformula = \"mu*sigma_n_MPa\"\n"
+                                 "parameters = { mu = { range = [0, 1] } }\n");
+  const Job job = parse_job(uncommented(job::job_template()), directory.path("job.toml"));
+  EXPECT_THAT(job.models.laws.names(), testing::IsSupersetOf({"my_law", "other"}));
   EXPECT_THAT(job.data.validation, ElementsAre("validation.csv"));
   EXPECT_EQ(job.data.columns.size(), 3u);
   EXPECT_EQ(job.table.axes.at("v_rel_mm_s").nodes, 17u);

@@ -17,7 +17,7 @@ TEST(ModelName, SaysBaseQuantileAndEffects) {
       model.quantile = quantile;
       EXPECT_EQ(model.base(), "log_coulomb");
       EXPECT_EQ(model.traced(), traced);
-      const models::ModelName read = models::read_model_name(model.name());
+      const models::ModelName read = models::read_model_name(model.name(), {});
       EXPECT_EQ(read.base, log_coulomb) << model.name();
       EXPECT_EQ(read.traced, traced);
       EXPECT_EQ(read.quantile, quantile != 0.5);
@@ -27,7 +27,7 @@ TEST(ModelName, SaysBaseQuantileAndEffects) {
 TEST(ModelName, OfNothingThatFrictabWritesHasNoBase) {
   for (const char* name : {"", "notes", "_q05", "_traced", "log_coulomb_q", "log_coulomb_qx",
                            "log_coulomb_q05_traced", "log_coulomb_traced_traced"})
-    EXPECT_EQ(models::read_model_name(name).base, nullptr) << name;
+    EXPECT_EQ(models::read_model_name(name, {}).base, nullptr) << name;
 }
 
 } // namespace

@@ -1,0 +1,123 @@
+// The keys of [models.NAME]: a law of the user's own (models/law_text.h).
+#include <algorithm>
+
+#include "job/key_builder.h"
+
+namespace frictab::job::schema {
+
+namespace {
+
+// "my_law" of "my_law.mu".
+std::string first_name(const std::string& name) {
+  return name.substr(0, name.find('.'));
+}
+std::string last_name(const std::string& name) {
+  return name.substr(name.rfind('.') + 1);
+}
+
+std::vector<std::string> quantities_of_a_piece() {
+  return {"mu", "tau_R"};
+}
+
+} // namespace
+
+models::LawText& law_text(Job& job, const std::string& name) {
+  auto& texts = job.models.texts;
+  const auto found = std::find_if(texts.begin(), texts.end(), [&](const models::LawText& text) {
+    return text.name == first_name(name);
+  });
+  if (found != texts.end()) return *found;
+  texts.emplace_back().name = first_name(name);
+  return texts.back();
+}
+
+models::ParameterText& parameter_text(Job& job, const std::string& name) {
+  auto& parameters = law_text(job, name).parameters;
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(),
+                   [&](const models::ParameterText& p) { return p.name == last_name(name); });
+  if (found != parameters.end()) return *found;
+  parameters.emplace_back().name = last_name(name);
+  return parameters.back();
+}
+
+std::vector<KeyRule> law_keys() {
+  KeyRule where = named<std::string>(
+      "models.*.where.*", [](Job & job, const std::string& name) -> auto& {
+        auto& parts = law_text(job, name).where;
+        const auto found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
+          return part.first == last_name(name);
+        });
+        return found != parts.end()
+                   ? found->second.text
+                   : parts.emplace_back(last_name(name), models::FormulaText{}).second.text;
+      },
+      "a formula that others may use by this name, in the order in which they stand", "none",
+      "\"mu*sigma_n_MPa/(m*k_MPa)\"");
+  return {
+      named<std::string>(
+          "models.*.formula", [](Job & job, const std::string& name) -> auto& {
+            return law_text(job, name).formula.text;
+          },
+          "tau_R in MPa, of parameters, parts, states, k_MPa (the shear yield stress), pi, "
+          "recorded "
+          "columns and histories; + - * / ** ( ), exp, ln, sqrt, sin, tanh, atan, arccos, min, "
+          "max, "
+          "where(a <= b, x, y)",
+          "`piece` and `combine` say it", "\"min(mu*sigma_n_MPa, m*k_MPa)\""),
+      named<std::string>(
+          "models.*.piece", [](Job & job, const std::string& name) -> auto& {
+            return law_text(job, name).piece.text;
+          },
+          "the smooth part that a table holds, instead of a formula", "found in the formula",
+          "\"mu0*(sigma_n_MPa/1000)**a\""),
+      named<std::string>(
+          "models.*.combine", [](Job & job, const std::string& name) -> auto& {
+            return law_text(job, name).combine.text;
+          },
+          "tau_R of the piece, called `value`: evaluated exactly beside the table",
+          "value*sigma_n_MPa", "\"min(value*sigma_n_MPa, m*k_MPa)\""),
+      named<std::string>(
+          "models.*.quantity",
+          [](Job & job, const std::string& name) -> auto& { return law_text(job, name).quantity; },
+          "what the piece is", "mu where `combine` has sigma_n_MPa, else tau_R", "\"mu\"") |
+          Allowed{"", quantities_of_a_piece},
+      named<std::string>(
+          "models.*.title",
+          [](Job & job, const std::string& name) -> auto& { return law_text(job, name).title; },
+          "a line about it", "\"law of the user\"", "\"Coulomb with a film\""),
+      named<std::string>(
+          "models.*.reference",
+          [](Job & job, const std::string& name) -> auto& { return law_text(job, name).reference; },
+          "where it comes from", "\"the job file\"", "\"own measurements, 2026\""),
+      std::move(where),
+      named<std::optional<std::pair<double, double>>>(
+          "models.*.parameters.*.range", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).range;
+          },
+          "where it is looked for", "an error, but for a constant", "[0, 1]"),
+      named<std::optional<double>>(
+          "models.*.parameters.*.start", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).start;
+          },
+          "where the search begins; others are tried over the range", "the middle of the range",
+          "0.1"),
+      named<std::optional<double>>(
+          "models.*.parameters.*.value", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).value;
+          },
+          "a constant, which is not calibrated", "calibrated", "0.08"),
+      named<std::string>(
+          "models.*.parameters.*.unit", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).unit;
+          },
+          "its unit, for people", "\"1\"", "\"MPa\""),
+      named<std::string>(
+          "models.*.parameters.*.meaning", [](Job & job, const std::string& name) -> auto& {
+            return parameter_text(job, name).meaning;
+          },
+          "what it is, for people", "nothing", "\"friction factor\""),
+  };
+}
+
+} // namespace frictab::job::schema

@@ -1,0 +1,560 @@
+// From a user's text to a Law: names, formulas, and the two parts they fall into.
+#include "models/law_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "data/derived.h"
+#include "data/quantity.h"
+#include "expr/program.h"
+#include "models/symbols.h"
+
+namespace frictab::models {
+
+using expr::Expr;
+using expr::Op;
+
+namespace {
+
+constexpr const char* shear_yield_symbol = "k_MPa";
+constexpr std::size_t longest_name = 40;
+
+// ---- the two parts ----
+
+bool is_kink(Op op) {
+  return op == Op::minimum || op == Op::maximum || op == Op::where_le;
+}
+
+// Factors of a product, those that it is divided by left aside.
+void add_factors(const Expr& e, std::vector<Expr>& factors) {
+  if (e.op() == Op::multiply) {
+    for (const Expr& operand : e.operands())
+      add_factors(operand, factors);
+  } else if (e.op() == Op::divide) {
+    add_factors(e.operands()[0], factors);
+  } else {
+    factors.push_back(e);
+  }
+}
+
+bool is_pressure(const Expr& e) {
+  return e.op() == Op::symbol && e.name() == "sigma_n_MPa";
+}
+
+bool has_pressure_factor(const Expr& e) {
+  std::vector<Expr> factors;
+  add_factors(e, factors);
+  return std::any_of(factors.begin(), factors.end(), is_pressure);
+}
+
+// sigma_n_MPa times something: that something.
+Expr without_pressure(const Expr& e) {
+  if (is_pressure(e)) return 1.0;
+  const Expr &a = e.operands()[0], &b = e.operands()[1];
+  if (e.op() == Op::divide) return without_pressure(a) / b;
+  return has_pressure_factor(a) ? without_pressure(a) * b : a * without_pressure(b);
+}
+
+// What may become the piece: a smooth part of the formula, as a stress or as a coefficient.
+struct Candidate {
+  Expr part;              // a node of the formula
+  bool is_mu;             // the coefficient: `part`, or what stands beside sigma_n_MPa in it
+  bool beside_pressure;   // `part` is sigma_n_MPa times the piece
+  std::size_t states = 0; // that the piece depends on
+  std::size_t operations = 0;
+};
+
+class Splitter {
+public:
+  Splitter(const Expr& formula, const std::vector<Parameter>& parameters) {
+    for (const Parameter& p : parameters)
+      names_.insert(p.name);
+    // A kink between parameters alone is none along any state.
+    inside_out(formula, [this](const Expr& e) {
+      bool kinked = false, moves = e.op() == Op::symbol && !names_.count(e.name());
+      for (const Expr& operand : e.operands()) {
+        kinked = kinked || kinked_.count(operand.id());
+        moves = moves || moves_.count(operand.id());
+      }
+      if (moves) moves_.insert(e.id());
+      if (kinked || (moves && is_kink(e.op()))) kinked_.insert(e.id());
+    });
+  }
+
+  // From the outside in.
+  void look(const Expr& e, bool is_mu) {
+    const auto& a = e.operands();
+    const bool kinked = kinked_.count(e.id()) > 0;
+    if (kinked && (e.op() == Op::minimum || e.op() == Op::maximum || e.op() == Op::add ||
+                   e.op() == Op::subtract || e.op() == Op::negate)) {
+      for (const Expr& operand : a)
+        look(operand, is_mu);
+    } else if (kinked && e.op() == Op::where_le) {
+      look(a[2], is_mu);
+      look(a[3], is_mu);
+    } else if (kinked && e.op() == Op::divide && !kinked_.count(a[1].id())) {
+      look(a[0], is_mu);
+    } else if (kinked && e.op() == Op::multiply &&
+               kinked_.count(a[0].id()) != kinked_.count(a[1].id())) {
+      const bool first = kinked_.count(a[0].id()) > 0;
+      look(a[first ? 0 : 1], is_mu || has_pressure_factor(a[first ? 1 : 0]));
+    } else {
+      offer(e, is_mu);
+    }
+  }
+
+  const Candidate& best() const {
+    const auto rank = [](const Candidate& c) {
+      return std::tuple(c.is_mu, c.states, c.operations);
+    };
+    return *std::max_element(
+        found_.begin(), found_.end(),
+        [&](const Candidate& x, const Candidate& y) { return rank(x) < rank(y); });
+  }
+
+private:
+  void offer(const Expr& e, bool is_mu) {
+    const bool beside = !is_mu && has_pressure_factor(e);
+    Candidate found{e, is_mu || beside, beside};
+    const Expr piece = beside ? without_pressure(e) : e;
+    for (const std::string& symbol : expr::symbols(piece))
+      found.states += !names_.count(symbol);
+    for_each_part(piece, [&](const Expr&) { ++found.operations; });
+    found_.push_back(found);
+  }
+
+  std::set<std::string> names_;
+  std::unordered_set<const Expr::Node*> moves_, kinked_; // with a state below; with a kink below
+  std::vector<Candidate> found_;
+};
+
+// ---- what the table may make use of ----
+
+// Above zero for every state, as far as the structure says so.
+bool is_positive(const Expr& formula, const std::vector<Parameter>& parameters) {
+  std::unordered_set<const Expr::Node*> positive;
+  const auto is = [&](const Expr& e) { return positive.count(e.id()) > 0; };
+  inside_out(formula, [&](const Expr& e) {
+    const auto& a = e.operands();
+    const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
+      return e.op() == Op::symbol && p.name == e.name();
+    });
+    bool yes = false;
+    switch (e.op()) {
+    case Op::constant:
+      yes = e.value() > 0;
+      break;
+    case Op::symbol:
+      yes = e.name() == "psi" || (found != parameters.end() && found->lower > 0);
+      break;
+    case Op::exp:
+      yes = true;
+      break;
+    case Op::sqrt:
+    case Op::power:
+      yes = is(a[0]);
+      break;
+    case Op::maximum:
+      yes = is(a[0]) || is(a[1]);
+      break;
+    case Op::add:
+    case Op::multiply:
+    case Op::divide:
+    case Op::minimum:
+      yes = is(a[0]) && is(a[1]);
+      break;
+    default:
+      break;
+    }
+    if (yes) positive.insert(e.id());
+  });
+  return is(formula);
+}
+
+// A product of powers and exponentials: straight in its logarithm.
+bool is_product(const Expr& e) {
+  std::vector<Expr> factors;
+  add_factors(e, factors);
+  return std::any_of(factors.begin(), factors.end(), [](const Expr& factor) {
+    return factor.op() == Op::exp || factor.op() == Op::power;
+  });
+}
+
+// max(v_rel_mm_s, 10): a table gets a node at 10.
+std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
+  std::map<std::string, std::set<double>> found;
+  for_each_part(piece, [&](const Expr& e) {
+    if (!is_kink(e.op())) return;
+    for (const int state : {0, 1}) {
+      const Expr &a = e.operands()[state], &b = e.operands()[1 - state];
+      if (a.op() == Op::symbol && b.op() == Op::constant && data::find_quantity(a.name()))
+        found[a.name()].insert(b.value());
+    }
+  });
+  std::map<std::string, std::vector<double>> kinks;
+  for (const auto& [name, values] : found)
+    kinks[name] = {values.begin(), values.end()};
+  return kinks;
+}
+
+// ---- names ----
+
+bool is_symbol(const std::string& name) {
+  return !name.empty() && name.size() <= longest_name &&
+         !std::isdigit(static_cast<unsigned char>(name.front())) &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return c == '_' || (static_cast<unsigned char>(c) < 0x80 && std::isalnum(c));
+         });
+}
+
+// Of parameters of effects that tracing adds: e1_a.
+bool is_effect_name(const std::string& name) {
+  const std::size_t end = name.find_first_not_of("0123456789", 1);
+  return name.front() == 'e' && end != name.npos && end > 1 && name[end] == '_';
+}
+
+// What a parameter or a named part cannot be called, and why.
+std::string taken_by(const std::string& name) {
+  static const std::set<std::string> functions = {"exp",  "log",     "ln",     "sqrt",    "sin",
+                                                  "tanh", "atan",    "arctan", "arccos",  "acos",
+                                                  "min",  "minimum", "max",    "maximum", "where"};
+  const std::string lower = lower_case(name);
+  for (const data::Quantity& quantity : data::quantities())
+    if (lower == lower_case(quantity.name)) return "a quantity";
+  if (data::find_derived(lower)) return "a history";
+  if (functions.count(lower)) return "a function";
+  if (lower == "value") return "the piece, in `combine`";
+  if (lower == lower_case(shear_yield_symbol)) return "the shear yield stress";
+  if (lower == "pi") return "a number";
+  if (lower == "m_limit" || is_effect_name(lower)) return "what tracing adds";
+  return "";
+}
+
+// ---- the law ----
+
+class LawReader {
+public:
+  LawReader(const LawText& text, FaultList& faults) : text_(text), faults_(faults) {}
+
+  Law read() {
+    const std::size_t before = faults_.size();
+    law_.name = text_.name;
+    law_.order = 90; // behind those of the registry, in the order in which they are written
+    law_.title = text_.title.empty() ? "law of the user" : text_.title;
+    law_.reference = text_.reference.empty() ? "the job file" : text_.reference;
+    check_names();
+    read_parameters();
+    read_parts();
+    const Formula whole = read_formulas();
+    if (faults_.size() > before) return name_alone();
+    const Expr tau = substitute(whole.combine, {{"value", whole.value}});
+    if (!has_bearable_size(tau)) return name_alone();
+    check_symbols(tau);
+    if (faults_.size() > before) return name_alone();
+    finish(whole);
+    return std::move(law_);
+  }
+
+private:
+  // Other faults of a job shall not say that the law is not there.
+  Law name_alone() const {
+    Law law;
+    law.name = text_.name;
+    return law;
+  }
+
+  void check_names() {
+    std::set<std::string> seen; // in small letters: Fortran knows no other
+    const auto check = [&](const std::string& name, const Place& place, const char* noun) {
+      if (!is_symbol(name))
+        faults_.add(place, fmt::format("{} '{}' of law {} is no name", noun, name, text_.name),
+                    fmt::format("letters, digits and _, no digit first, at most {}", longest_name));
+      else if (const std::string taken = taken_by(name); !taken.empty())
+        faults_.add(
+            place,
+            fmt::format("{} '{}' of law {} has the name of {}", noun, name, text_.name, taken),
+            "choose another name");
+      else if (!seen.insert(lower_case(name)).second)
+        faults_.add(place,
+                    fmt::format("'{}' stands twice in law {}, but for upper and lower case", name,
+                                text_.name),
+                    "choose another name: Fortran does not tell them apart");
+    };
+    for (const ParameterText& p : text_.parameters)
+      check(p.name, p.place, "parameter");
+    for (const auto& [name, formula] : text_.where)
+      check(name, formula.place, "part");
+  }
+
+  void read_parameters() {
+    const bool any_fitted = std::any_of(text_.parameters.begin(), text_.parameters.end(),
+                                        [](const ParameterText& p) { return !p.value; });
+    law_.calibrated = any_fitted ? Calibrated::fit : Calibrated::fixed;
+    for (const ParameterText& p : text_.parameters) {
+      if (p.value && (p.start || p.range))
+        faults_.add(p.place,
+                    fmt::format("parameter '{}' of law {} has a value and a start or a range",
+                                p.name, text_.name),
+                    "a value is a constant; leave it out where the parameter is calibrated");
+      else if (p.value && any_fitted)
+        constants_.emplace(p.name, *p.value);
+      else if (p.value)
+        add_parameter(p, *p.value, *p.value, *p.value);
+      else if (!p.range)
+        faults_.add(p.place,
+                    fmt::format("parameter '{}' of law {} has no range", p.name, text_.name),
+                    "range = [0, 1] says where it is looked for; value = 0.08 that it is fixed");
+      else if (p.start && (*p.start < p.range->first || *p.start > p.range->second))
+        faults_.add(p.place,
+                    fmt::format("parameter '{}' of law {} starts at {}, outside its range {} to {}",
+                                p.name, text_.name, *p.start, p.range->first, p.range->second),
+                    "leave the start out: it is then looked for over the range");
+      else
+        add_parameter(p, p.start.value_or(middle(*p.range)), p.range->first, p.range->second);
+    }
+  }
+
+  static double middle(const std::pair<double, double>& range) {
+    const bool decades = range.first > 0 && range.second > 100 * range.first;
+    return decades ? std::sqrt(range.first * range.second) : 0.5 * (range.first + range.second);
+  }
+
+  void add_parameter(const ParameterText& p, double start, double lower, double upper) {
+    law_.parameters.push_back({p.name, p.unit.empty() ? "1" : p.unit,
+                               p.meaning.empty() ? "parameter of " + text_.name : p.meaning, start,
+                               lower, upper});
+  }
+
+  // Text to formula; what is not understood is told with its place in the job.
+  Expr parse(const FormulaText& formula) {
+    try {
+      return expr::parse_expr(formula.text);
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        faults_.add(place_in(formula, fault.place.column), fault.what, fault.hint);
+    }
+    return 0.0;
+  }
+
+  // A formula stands in one line behind its opening quote, or its place is that of the quote.
+  static Place place_in(const FormulaText& formula, std::size_t column) {
+    Place place = formula.place;
+    if (place.column > 0 && formula.text.find('\n') == formula.text.npos) place.column += column;
+    return place;
+  }
+
+  void read_parts() {
+    for (const auto& [name, formula] : text_.where) {
+      const Expr part = substitute(parse(formula), named_);
+      if (expr::symbols(part).count("value"))
+        faults_.add(formula.place,
+                    fmt::format("part '{}' of law {} uses `value`", name, text_.name),
+                    "`value` is the piece, and stands in `combine`");
+      named_.emplace(name, part);
+    }
+    for (const auto& [name, number] : constants_)
+      named_.emplace(name, number);
+    named_.emplace("pi", std::numbers::pi);
+    for (auto& [name, part] : named_) // of constants
+      part = substitute(part, named_);
+  }
+
+  Expr formula_of(const FormulaText& formula) { return substitute(parse(formula), named_); }
+
+  Formula read_formulas() {
+    const bool whole = !text_.formula.text.empty(), in_parts = !text_.piece.text.empty();
+    if (whole == in_parts || (whole && !text_.combine.text.empty())) {
+      faults_.add(text_.place,
+                  whole ? fmt::format("law {} has a formula and parts of one", text_.name)
+                        : fmt::format("law {} has no formula", text_.name),
+                  "formula = \"...\" of tau_R in MPa, or piece = \"...\" with combine = \"...\"");
+      return {};
+    }
+    if (whole) {
+      if (!text_.quantity.empty())
+        faults_.add(text_.place, fmt::format("law {} has a formula and a quantity", text_.name),
+                    "the quantity is that of a `piece`");
+      const Expr tau = shared(formula_of(text_.formula));
+      if (!has_bearable_size(tau)) return {}; // what follows walks products as they are written
+      const Parts parts = parts_of(tau, law_.parameters);
+      law_.quantity = parts.quantity;
+      return parts.formula;
+    }
+    Formula formula{formula_of(text_.piece), text_.combine.text.empty()
+                                                 ? state::value() * state::sigma_n()
+                                                 : formula_of(text_.combine)};
+    const auto used = expr::symbols(formula.combine);
+    if (!used.count("value"))
+      faults_.add(text_.combine.place,
+                  fmt::format("combine of law {} does not use `value`", text_.name),
+                  "it says how tau_R follows from the piece: \"min(value*sigma_n_MPa, m*k_MPa)\"");
+    const bool is_mu = text_.quantity.empty() ? used.count("sigma_n_MPa") > 0
+                                              : text_.quantity == quantity_name(PieceQuantity::mu);
+    law_.quantity = is_mu ? PieceQuantity::mu : PieceQuantity::tau_R;
+    return formula;
+  }
+
+  // Parts within parts: each may be short, and what they stand for too long to be written.
+  bool has_bearable_size(const Expr& tau) {
+    std::unordered_map<const Expr::Node*, double> terms; // written out
+    inside_out(tau, [&](const Expr& e) {
+      double sum = 1;
+      for (const Expr& operand : e.operands())
+        sum += terms.at(operand.id());
+      terms.emplace(e.id(), sum);
+    });
+    if (terms.at(tau.id()) <= expr::FormulaLimits::terms &&
+        tau.depth() <= expr::FormulaLimits::depth)
+      return true;
+    faults_.add(
+        text_.place,
+        fmt::format("the formula of law {} is too large with its parts in place", text_.name),
+        fmt::format("at most {} numbers, names and operations, {} within each other",
+                    expr::FormulaLimits::terms, expr::FormulaLimits::depth));
+    return false;
+  }
+
+  // Each name is a parameter, a state, a history or a column; each parameter is there for
+  // something.
+  void check_symbols(const Expr& tau) {
+    const auto used = expr::symbols(tau);
+    std::set<std::string> parameters;
+    for (const Parameter& p : law_.parameters)
+      parameters.insert(p.name);
+    for (const ParameterText& p : text_.parameters)
+      if (!p.value && !used.count(p.name))
+        faults_.add(p.place,
+                    fmt::format("law {} does not use its parameter '{}'", text_.name, p.name),
+                    "leave it out, or use it in the formula");
+    for (const std::string& name : used) {
+      if (parameters.count(name) || name == shear_yield_symbol) continue;
+      const data::Quantity* quantity = data::find_quantity(name);
+      if (name == "value")
+        faults_.add(place_of(name), fmt::format("law {} uses `value` outside combine", text_.name),
+                    "`value` is the piece, and stands in `combine`");
+      else if (quantity && !quantity->state)
+        faults_.add(
+            place_of(name),
+            fmt::format("law {} depends on {}, which is no state of a contact", text_.name, name),
+            "states: " + join(state_names(), ", "));
+      else if (!quantity)
+        law_.places.emplace(name, place_of(name)); // a column, which the data have or not
+    }
+    if (used.size() == parameters.size())
+      faults_.add(text_.place, fmt::format("law {} depends on no state", text_.name),
+                  "states: " + join(state_names(), ", "));
+  }
+
+  static std::vector<std::string> state_names() {
+    std::vector<std::string> names;
+    for (const data::Quantity& quantity : data::quantities())
+      if (quantity.state) names.push_back(quantity.name);
+    return names;
+  }
+
+  // Where a name stands first, as far as the text of the formulas tells.
+  Place place_of(const std::string& name) const {
+    std::vector<const FormulaText*> formulas;
+    for (const auto& [part, formula] : text_.where)
+      formulas.push_back(&formula);
+    for (const FormulaText* formula : {&text_.formula, &text_.piece, &text_.combine})
+      formulas.push_back(formula);
+    const auto is_part = [](char c) {
+      return c == '_' || std::isalnum(static_cast<unsigned char>(c));
+    };
+    for (const FormulaText* formula : formulas)
+      for (std::size_t at = formula->text.find(name); at != std::string::npos;
+           at = formula->text.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || !is_part(formula->text[at - 1])) &&
+            (end == formula->text.size() || !is_part(formula->text[end])))
+          return place_in(*formula, at + 1);
+      }
+    return text_.place;
+  }
+
+  void finish(const Formula& whole) {
+    law_.formula = people_text();
+    law_.log_value = is_product(whole.value) && is_positive(whole.value, law_.parameters);
+    law_.kinks = kinks_of(whole.value);
+    law_.build = [whole](const Conventions& conventions) {
+      const std::map<std::string, Expr> k = {{shear_yield_symbol, shear_yield_stress(conventions)}};
+      return Formula{substitute(whole.value, k), substitute(whole.combine, k)};
+    };
+    check_numbers();
+  }
+
+  // As it was written.
+  std::string people_text() const {
+    std::string out =
+        text_.piece.text.empty()
+            ? "tau_R = " + text_.formula.text
+            : fmt::format("tau_R = {}; value = {}",
+                          text_.combine.text.empty() ? "value*sigma_n_MPa" : text_.combine.text,
+                          text_.piece.text);
+    for (const auto& [name, formula] : text_.where)
+      out += fmt::format("; {} = {}", name, formula.text);
+    for (const auto& [name, number] : constants_)
+      out += fmt::format("; {} = {}", name, shortest(number));
+    std::replace(out.begin(), out.end(), '\n', ' ');
+    return out;
+  }
+
+  // In the middle of Table 1 of the paper, with the parameters that the search starts from.
+  void check_numbers() {
+    const Expr tau = tau_formula(law_, {});
+    const std::vector<std::string> names = inputs_of(tau, law_);
+    std::vector<double> row, start;
+    std::string state;
+    for (const std::string& name : names) {
+      const data::Quantity* quantity = data::find_quantity(name);
+      if (!quantity) return; // of a column nobody knows the range
+      const auto range = quantity->paper_range.value_or(std::pair(100.0, 1000.0));
+      row.push_back(std::sqrt(range.first * range.second));
+      state += fmt::format("{}{} = {:.4g}", state.empty() ? "" : ", ", name, row.back());
+    }
+    for (const Parameter& p : law_.parameters)
+      start.push_back(p.start);
+    const double value = expr::Program(tau, names, parameter_names(law_))(row, start);
+    if (!std::isfinite(value))
+      faults_.add(
+          text_.place,
+          fmt::format("law {} gives no number at {} and its start values", text_.name, state),
+          "a logarithm or a root of something negative, or a division by 0?");
+  }
+
+  const LawText& text_;
+  FaultList& faults_;
+  Law law_;
+  std::map<std::string, double> constants_; // parameters with a value in a law that is fitted
+  std::map<std::string, Expr> named_;       // parts and constants
+};
+
+} // namespace
+
+Parts parts_of(const Expr& tau_R, const std::vector<Parameter>& parameters) {
+  Splitter splitter(tau_R, parameters);
+  splitter.look(tau_R, false);
+  const Candidate& best = splitter.best();
+  const Expr piece = best.beside_pressure ? without_pressure(best.part) : best.part;
+  const Expr in_place = best.beside_pressure ? state::value() * state::sigma_n() : state::value();
+  using Nodes = std::vector<std::pair<Expr, Expr>>;
+  return {{piece, substitute(tau_R, Nodes{{best.part, in_place}})},
+          best.is_mu ? PieceQuantity::mu : PieceQuantity::tau_R};
+}
+
+Law law_of_text(const LawText& text, FaultList& faults) {
+  return LawReader(text, faults).read();
+}
+
+} // namespace frictab::models
