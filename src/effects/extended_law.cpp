@@ -99,16 +99,6 @@ models::Formula with_factors(models::Formula formula, const Law& law,
   return formula;
 }
 
-} // namespace
-
-namespace {
-
-// e1_a, e12_x0: parameters of effects.
-bool is_effect_parameter(const std::string& symbol) {
-  const std::size_t end = symbol.find_first_not_of("0123456789", 1);
-  return symbol.front() == 'e' && end != symbol.npos && end > 1 && symbol[end] == '_';
-}
-
 // Names that formulas use themselves.
 bool is_taken(const std::string& symbol) {
   static const std::set<std::string> taken = [] {
@@ -119,7 +109,7 @@ bool is_taken(const std::string& symbol) {
         names.insert(parameter.name);
     return names;
   }();
-  return taken.count(symbol) > 0 || is_effect_parameter(symbol);
+  return taken.count(symbol) > 0 || models::is_effect_parameter(symbol);
 }
 
 } // namespace

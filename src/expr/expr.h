@@ -113,5 +113,7 @@ struct FormulaLimits {
 // with the column of the fault, also where the formula is larger than FormulaLimits; `file` is only
 // for its message.
 Expr parse_expr(std::string_view text, std::string_view file = "formula");
+// Whether a text is a name in a formula: ASCII letters, digits and _, no digit first.
+bool is_name(std::string_view text);
 
 } // namespace frictab::expr

@@ -18,6 +18,13 @@ namespace {
 constexpr int max_depth = 200;    // nested brackets; deeper is no formula a person wrote
 constexpr std::size_t shown = 60; // bytes of a long formula, to either side of a fault
 
+bool begins_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool goes_on_in_name(char c) {
+  return begins_name(c) || (c >= '0' && c <= '9');
+}
+
 class Parser {
 public:
   Parser(std::string_view text, std::string_view file) : text_(text), file_(file) {}
@@ -128,12 +135,8 @@ private:
     }
     const char c = text_[at_];
     if ((c >= '0' && c <= '9') || c == '.') return number();
-    if (is_name(c)) return name();
+    if (begins_name(c)) return name();
     fail(fmt::format("unexpected '{}'", c));
-  }
-
-  static bool is_name(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
   }
 
   Expr number() {
@@ -148,7 +151,7 @@ private:
 
   Expr name() {
     std::size_t end = at_;
-    while (end < text_.size() && (is_name(text_[end]) || (text_[end] >= '0' && text_[end] <= '9')))
+    while (end < text_.size() && goes_on_in_name(text_[end]))
       ++end;
     if (end - at_ > FormulaLimits::name)
       fail(fmt::format("a name of {} characters", end - at_),
@@ -214,6 +217,11 @@ private:
 };
 
 } // namespace
+
+bool is_name(std::string_view text) {
+  return !text.empty() && begins_name(text.front()) &&
+         std::all_of(text.begin(), text.end(), goes_on_in_name);
+}
 
 Expr parse_expr(std::string_view text, std::string_view file) {
   return shared(Parser(text, file).parse());

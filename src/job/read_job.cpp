@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "data/file_list.h"
 #include "data/quantity.h"
+#include "expr/expr.h"
 #include "io/atomic_file.h"
 #include "io/text_file.h"
 #include "job/reader.h"
@@ -63,19 +64,11 @@ void unknown_key(JobReader& reader, const std::string& rule_path, const std::str
                hint);
 }
 
-// What an input of a law may be called: letters, digits and _.
-bool is_symbol(const std::string& name) {
-  const bool digit_first = !name.empty() && name.front() >= '0' && name.front() <= '9';
-  return !name.empty() && !digit_first && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
-
 bool known_name(JobReader& reader, const SectionRule& section, const std::string& path,
                 const TomlNode& entry) {
   const auto names = section.children();
   if (std::find(names.begin(), names.end(), entry.key) != names.end()) return true;
-  if (section.others && is_symbol(entry.key) && !data::is_measured(entry.key)) return true;
+  if (section.others && expr::is_name(entry.key) && !data::is_measured(entry.key)) return true;
   if (data::find_quantity(entry.key))
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, path),
                  "possible: " + join(names, ", "));

@@ -97,6 +97,11 @@ std::string traced_name(std::string_view base) {
   return std::string(base) + std::string(traced_suffix);
 }
 
+bool is_effect_parameter(std::string_view name) {
+  const std::size_t end = name.find_first_not_of("0123456789", 1);
+  return name.starts_with('e') && end != name.npos && end > 1 && name[end] == '_';
+}
+
 std::string checked_model_name(const std::string& name, const std::string& file) {
   const auto is_plain = [](unsigned char c) {
     return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';

@@ -123,6 +123,8 @@ bool is_registered(const Law& law);
 
 // What a law with traced effects is called: log_coulomb_traced.
 std::string traced_name(std::string_view base);
+// Whether a parameter has the name of one that tracing adds for its effects: e1_a, e2_x0.
+bool is_effect_parameter(std::string_view name);
 
 // The laws that a job knows: those of the registry, and behind them its own.
 class Laws {

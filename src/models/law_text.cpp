@@ -209,20 +209,6 @@ std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
 
 // ---- names ----
 
-bool is_symbol(const std::string& name) {
-  return !name.empty() && name.size() <= longest_name &&
-         !std::isdigit(static_cast<unsigned char>(name.front())) &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return c == '_' || (static_cast<unsigned char>(c) < 0x80 && std::isalnum(c));
-         });
-}
-
-// Of parameters of effects that tracing adds: e1_a.
-bool is_effect_name(const std::string& name) {
-  const std::size_t end = name.find_first_not_of("0123456789", 1);
-  return name.front() == 'e' && end != name.npos && end > 1 && name[end] == '_';
-}
-
 // What a parameter or a named part cannot be called, and why.
 std::string taken_by(const std::string& name) {
   static const std::set<std::string> functions = {"exp",  "log",     "ln",     "sqrt",    "sin",
@@ -236,7 +222,7 @@ std::string taken_by(const std::string& name) {
   if (lower == "value") return "the piece, in `combine`";
   if (lower == lower_case(shear_yield_symbol)) return "the shear yield stress";
   if (lower == "pi") return "a number";
-  if (lower == "m_limit" || is_effect_name(lower)) return "what tracing adds";
+  if (lower == "m_limit" || is_effect_parameter(lower)) return "what tracing adds";
   return "";
 }
 
@@ -276,7 +262,7 @@ private:
   void check_names() {
     std::set<std::string> seen; // in small letters: Fortran knows no other
     const auto check = [&](const std::string& name, const Place& place, const char* noun) {
-      if (!is_symbol(name))
+      if (!expr::is_name(name) || name.size() > longest_name)
         faults_.add(place, fmt::format("{} '{}' of law {} is no name", noun, name, text_.name),
                     fmt::format("letters, digits and _, no digit first, at most {}", longest_name));
       else if (const std::string taken = taken_by(name); !taken.empty())

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "io/atomic_file.h"
-#include "support/run_command.h"
+#include "support/small_campaign.h"
 
 namespace frictab::failing_disk_test {
 namespace {
@@ -17,22 +17,16 @@ namespace fs = std::filesystem;
 using test::CommandResult;
 using test::run_command;
 using test::run_frictab;
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 
 using Files = std::map<std::string, std::string>;
 
-class SlowFailingDisk : public testing::Test {
+class SlowFailingDisk : public test::SmallCampaign {
 protected:
   void SetUp() override {
-    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
-                           "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"})
-                  .exit_code,
-              0);
-    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
-                                "validation = \"data/validation.csv\"\n"
-                                "[models]\nuse = [\"coulomb\", \"shear\"]\n"
-                                "[table]\nmodel = \"shear\"\n[export]\ntargets = []\n");
+    ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
+    write_job("[models]\nuse = [\"coulomb\", \"shear\"]\n"
+              "[table]\nmodel = \"shear\"\n[export]\ntargets = []\n");
   }
 
   Files results() const {
@@ -50,14 +44,10 @@ protected:
       directory.write("out/" + name, text);
   }
 
-  CommandResult frictab(const std::vector<std::string>& arguments) {
-    return run_frictab(arguments, directory.path());
-  }
   // Its call number `at` fails.
   CommandResult failing(const std::vector<std::string>& arguments, int at, const std::string& how) {
-    return run_frictab(
-        arguments, directory.path(),
-        {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=" + std::to_string(at), "FAIL_HOW=" + how});
+    return frictab(arguments, {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=" + std::to_string(at),
+                               "FAIL_HOW=" + how});
   }
 
   // Every call of the command fails in turn. The number of calls.
@@ -89,8 +79,6 @@ protected:
     ADD_FAILURE() << "it never ends";
     return 0;
   }
-
-  TemporaryDirectory directory;
 };
 
 TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {

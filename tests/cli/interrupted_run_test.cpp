@@ -9,7 +9,7 @@
 
 #include "core/text.h"
 #include "io/atomic_file.h"
-#include "support/run_command.h"
+#include "support/small_campaign.h"
 
 namespace frictab::interrupted_run_test {
 namespace {
@@ -18,27 +18,21 @@ namespace fs = std::filesystem;
 using test::CommandResult;
 using test::run_command;
 using test::run_frictab;
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 
 using Files = std::map<std::string, std::string>;
 
-class SlowInterruptedRun : public testing::Test {
+class SlowInterruptedRun : public test::SmallCampaign {
 protected:
   void SetUp() override {
-    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
-                           "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"})
-                  .exit_code,
-              0);
-    write_job("[\"c\"]");
+    ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
+    export_to("[\"c\"]");
   }
-  void write_job(const std::string& targets) {
-    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
-                                "validation = \"data/validation.csv\"\n"
-                                "[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
-                                "[table]\nmodel = [\"shear\", \"levanov\"]\n"
-                                "[export]\ntargets = " +
-                                    targets + "\n");
+  void export_to(const std::string& targets) const {
+    write_job("[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
+              "[table]\nmodel = [\"shear\", \"levanov\"]\n"
+              "[export]\ntargets = " +
+              targets + "\n");
   }
   Files results() const {
     Files files;
@@ -50,10 +44,8 @@ protected:
     return files;
   }
   CommandResult run(const std::vector<std::string>& environment = {}) {
-    return run_frictab({"run", "job.toml", "-j1"}, directory.path(), environment);
+    return frictab({"run", "job.toml", "-j1"}, environment);
   }
-
-  TemporaryDirectory directory;
 };
 
 TEST_F(SlowInterruptedRun, GoesOnWhereItWasToTheSameBytes) {

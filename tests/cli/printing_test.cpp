@@ -6,34 +6,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/run_command.h"
+#include "support/small_campaign.h"
 
 namespace frictab::printing_test {
 namespace {
 
 using test::CommandResult;
 using test::run_command;
-using test::run_frictab;
-using test::TemporaryDirectory;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class Printing : public testing::Test {
+class Printing : public test::SmallCampaign {
 protected:
   void SetUp() override {
-    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
-                           "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"})
-                  .exit_code,
-              0);
-    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
-                                "validation = \"data/validation.csv\"\n"
-                                "[models]\nuse = [\"coulomb\"]\n[export]\ntargets = [\"c\"]\n");
+    ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
+    write_job("[models]\nuse = [\"coulomb\"]\n[export]\ntargets = [\"c\"]\n");
   }
-  CommandResult frictab(const std::vector<std::string>& arguments,
-                        const std::vector<std::string>& environment = {}) const {
-    return run_frictab(arguments, directory.path(), environment);
-  }
-  TemporaryDirectory directory;
 };
 
 TEST_F(Printing, OntoAFullDiskEndsWithAMessageAndCode3) {

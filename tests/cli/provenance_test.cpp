@@ -4,34 +4,24 @@
 #include <gtest/gtest.h>
 
 #include "core/text.h"
-#include "support/run_command.h"
+#include "support/small_campaign.h"
 
 namespace frictab::provenance_test {
 namespace {
 
 using test::CommandResult;
 using test::run_command;
-using test::run_frictab;
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 using testing::Not;
 
-class Provenance : public testing::Test {
+class Provenance : public test::SmallCampaign {
 protected:
   void SetUp() override {
-    ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--design",
-                           "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"})
-                  .exit_code,
-              0);
-    directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
-                                "validation = \"data/validation.csv\"\n"
-                                "[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
-                                "[table]\nmodel = [\"shear\", \"levanov\"]\n"
-                                "[export]\ntargets = [\"c\"]\n");
+    ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
+    write_job("[models]\nuse = [\"coulomb\", \"shear\", \"levanov\"]\n"
+              "[table]\nmodel = [\"shear\", \"levanov\"]\n"
+              "[export]\ntargets = [\"c\"]\n");
     ASSERT_EQ(frictab({"tabulate", "job.toml"}).exit_code, 0);
-  }
-  CommandResult frictab(const std::vector<std::string>& arguments) {
-    return run_frictab(arguments, directory.path());
   }
   void copy(const std::string& from, const std::string& to) {
     directory.write(to, directory.read(from));
@@ -52,8 +42,6 @@ protected:
          directory.path(table), name, value});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
-
-  TemporaryDirectory directory;
 };
 
 TEST_F(Provenance, FileOfAnotherKindIsRefusedWhereverItIsRead) {
