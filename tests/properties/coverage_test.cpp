@@ -42,8 +42,9 @@ data::Dataset campaign(const models::Model& truth, std::uint64_t replicate) {
 class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, Loss>> {};
 
 TEST_P(SlowCoverage, Of95PercentIntervalsIs90To98PercentIn200Campaigns) {
-  const auto [name, loss] = GetParam();
-  const models::Model truth = test::plausible_model(*models::find_law(name));
+  const Loss loss = std::get<Loss>(GetParam());
+  const models::Model truth =
+      test::plausible_model(*models::find_law(std::get<const char*>(GetParam())));
   const std::size_t size = truth.parameters.size();
   std::vector<char> covered(replicates * size, 0);
   parallel_for(replicates, [&](std::size_t r) {
