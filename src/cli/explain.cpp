@@ -12,6 +12,7 @@
 #include "cli/job_commands.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "job/literature.h"
 
 namespace frictab::cli::explain_command {
 
@@ -91,9 +92,21 @@ std::optional<Explanation> explain_own_law(const std::string& name, std::string 
   return law ? std::optional(explain_law(*law)) : std::nullopt;
 }
 
-int run(const std::string& name, const std::string& job, const CommonOptions& common) {
+// A law of the literature as a job may have it, under a name of the user's own.
+int print_toml(const std::string& name) {
+  const std::string text = job::literature_text(name);
+  if (text.empty())
+    throw InputError({"--toml"}, fmt::format("'{}' is no law of the literature", name),
+                     "`frictab list models` names them");
+  fmt::print("{}", text);
+  return 0;
+}
+
+int run(const std::string& name, const std::string& job, bool toml, const CommonOptions& common) {
+  if (toml) return print_toml(name);
   auto explanation = explain(name);
-  if (!explanation) explanation = explain_own_law(name, job, common);
+  if (!explanation || !job::literature_text(name).empty()) // a job's own goes before
+    if (auto own = explain_own_law(name, job, common)) explanation = std::move(own);
   if (!explanation) {
     const std::string near = nearest_name(name, explainable());
     throw InputError({}, fmt::format("nothing is called '{}'", name),
@@ -114,7 +127,9 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("--job", *job,
                  "The job file that a law of your own stands in; job.toml of this directory")
       ->type_name("JOB");
-  return [name, job, &common] { return run(*name, *job, common); };
+  auto toml = std::make_shared<bool>(false);
+  app.add_flag("--toml", *toml, "A law of the literature as text for a job file, to be changed");
+  return [name, job, toml, &common] { return run(*name, *job, *toml, common); };
 }
 
 const Registered<Command> registered{[] {

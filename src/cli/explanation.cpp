@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "effects/effect.h"
+#include "job/literature.h"
 #include "job/schema.h"
 #include "models/law.h"
 
@@ -234,7 +235,7 @@ Explanation explain_law(const models::Law& law) {
 }
 
 std::optional<Explanation> explain(const std::string& name) {
-  if (const models::Law* law = models::find_law(name)) return about(*law);
+  if (const models::Law* law = job::find_shipped_law(name)) return about(*law);
   if (const effects::EffectForm* effect = effects::find_effect(name)) return about(*effect);
   if (const codegen::Exporter* target = codegen::find_exporter(name)) return about(*target);
   if (const data::Quantity* quantity = data::find_quantity(name)) return about(*quantity);
@@ -251,8 +252,8 @@ std::optional<Explanation> explain(const std::string& name) {
 
 std::vector<std::string> explainable() {
   std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    names.push_back(law.name);
+  for (const std::string& law : job::shipped_law_names())
+    names.push_back(law);
   for (const effects::EffectForm& effect : effects::all_effects())
     names.push_back(effect.name);
   for (const codegen::Exporter& target : codegen::all_exporters())

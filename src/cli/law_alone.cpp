@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/number.h"
+#include "job/literature.h"
 #include "run/summary.h"
 #include "table/build.h"
 #include "table/table_file.h"
@@ -44,9 +45,10 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
 // ---- the law ----
 
 const models::Law& law_of(const std::string& name) {
-  const models::Law* law = models::find_law(name);
+  const models::Law* law = job::find_shipped_law(name);
   if (!law)
-    throw InputError({}, "unknown friction law '" + name + "'", suggest(name, models::law_names()));
+    throw InputError({}, "unknown friction law '" + name + "'",
+                     suggest(name, job::shipped_law_names()));
   if (law->calibrated == models::Calibrated::train)
     throw InputError({}, name + " has no constants: it is trained on data", "frictab run JOB");
   return *law;

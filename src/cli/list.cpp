@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/effect.h"
+#include "job/literature.h"
 #include "models/law.h"
 
 namespace frictab::cli::list_command {
@@ -19,6 +20,7 @@ namespace {
 struct Line {
   std::string name;
   std::string title;
+  bool by_name = false; // a law that jobs have only by its name
 };
 
 template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
@@ -29,7 +31,12 @@ template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
 }
 
 std::vector<Line> lines_of(const std::string& what) {
-  if (what == "models") return lines_of(models::all_laws());
+  if (what == "models") {
+    std::vector<Line> lines = lines_of(models::all_laws());
+    for (const auto& law : job::literature().own())
+      lines.push_back({law->name, law->title, true});
+    return lines;
+  }
   if (what == "effects") return lines_of(effects::all_effects());
   if (what == "targets") return lines_of(codegen::all_exporters());
   const std::vector<std::string> known{"models", "effects", "targets"};
@@ -38,8 +45,10 @@ std::vector<Line> lines_of(const std::string& what) {
 
 void print_json(const std::vector<Line>& lines) {
   auto list = nlohmann::ordered_json::array();
-  for (const Line& line : lines)
+  for (const Line& line : lines) {
     list.push_back({{"name", line.name}, {"title", line.title}});
+    if (line.by_name) list.back()["by_name"] = true;
+  }
   fmt::print("{}\n", list.dump(2));
 }
 
@@ -52,8 +61,13 @@ int run(const std::string& what, const CommonOptions& common) {
   std::size_t width = 0;
   for (const Line& line : lines)
     width = std::max(width, line.name.size());
-  for (const Line& line : lines)
+  bool by_name = false;
+  for (const Line& line : lines) {
+    if (line.by_name && !by_name)
+      fmt::print("\nwhere models.use names them, as [\"all\", \"{}\"]:\n", line.name);
+    by_name = line.by_name;
     fmt::print("{:<{}}  {}\n", line.name, width, line.title);
+  }
   return 0;
 }
 

@@ -214,6 +214,13 @@ std::string_view embedded_template(std::string_view path) {
   throw std::logic_error("no template '" + std::string(path) + "' in this program");
 }
 
+std::vector<std::string_view> embedded_paths(std::string_view folder) {
+  std::vector<std::string_view> paths; // as the build sorted them
+  for (unsigned i = 0; i < embedded_count; ++i)
+    if (embedded_files[i].first.starts_with(folder)) paths.push_back(embedded_files[i].first);
+  return paths;
+}
+
 std::string render_template(std::string_view path, const TemplateValues& values) {
   return render(embedded_template(path), "templates/" + std::string(path), values);
 }

@@ -35,6 +35,8 @@ std::string render(std::string_view text, std::string_view file, const TemplateV
 
 // The template "c/frictab_tau.c" as built into the program; throws std::logic_error where absent.
 std::string_view embedded_template(std::string_view path);
+// Those whose path begins with `folder`, in order of their names.
+std::vector<std::string_view> embedded_paths(std::string_view folder);
 
 // A line with @{name} in it and nothing else of a template; values it does not name stay unused.
 std::string insert_names(std::string_view line, const std::map<std::string, std::string>& names);

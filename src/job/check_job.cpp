@@ -9,6 +9,7 @@
 #include "data/quantity.h"
 #include "expr/expr.h"
 #include "job/key_builder.h"
+#include "job/literature.h"
 #include "job/reader.h"
 #include "models/law.h"
 
@@ -228,14 +229,18 @@ void check_models(JobReader& reader, const std::string& path,
   if (models.size() > 1 && std::count(models.begin(), models.end(), "all"))
     reader.fault(reader.place_of(path), fmt::format("'all' stands alone in {}", path),
                  fmt::format("{} = \"all\", or a list of names", path));
+  if (path == "export.targets") return;
   const std::vector<std::string>& use = reader.job.models.use;
-  if (use.empty() || path == "export.targets") return;
-  for (const std::string& name : models)
-    if (const models::Law* law = models::read_model_name(name, reader.job.models.laws).base;
-        law && !std::count(use.begin(), use.end(), law->name))
+  for (const std::string& name : models) {
+    const models::Law* law = models::read_model_name(name, reader.job.models.laws).base;
+    const bool by_name = !law; // a law of the literature that models.use does not name
+    if (by_name) law = models::read_model_name(name, literature()).base;
+    if (law && (by_name || (!use.empty() && !std::count(use.begin(), use.end(), law->name))))
       reader.fault(reader.place_of(path),
                    fmt::format("'{}' in {} is not among models.use", name, path),
-                   "add " + (law->name == name ? "it" : law->name) + " to models.use");
+                   fmt::format("add {} to models.use{}", law->name == name ? "it" : law->name,
+                               use.empty() ? ": [\"all\", \"" + law->name + "\"]" : ""));
+  }
 }
 
 void remember_inputs(JobReader& reader) {
@@ -251,10 +256,29 @@ void remember_inputs(JobReader& reader) {
 
 } // namespace
 
+// What is no quantity is there for a law that needs it.
+void check_constants(JobReader& reader) {
+  const models::Conventions conventions{.shear_limit = false};
+  for (const auto& [name, value] : reader.job.data.constants) {
+    const auto& laws = reader.job.models.laws.own();
+    const bool needed = std::any_of(laws.begin(), laws.end(), [&](const auto& law) {
+      if (!law->build) return false; // its own faults are told
+      const std::vector<std::string> inputs = models::inputs(*law, conventions);
+      return std::count(inputs.begin(), inputs.end(), name) > 0;
+    });
+    if (!data::find_quantity(name) && !needed)
+      reader.fault(reader.place_of("data.constants." + name),
+                   fmt::format("unknown quantity '{}' in [data.constants]", name),
+                   suggest(name, schema::constant_names()) +
+                       "; another one stands there only where a law of the job needs it");
+  }
+}
+
 void check_job(JobReader& reader) {
   check_files(reader);
   check_signs(reader);
   check_columns(reader);
+  check_constants(reader);
   check_axes(reader);
   check_models(reader, "models.use", reader.job.models.use);
   check_models(reader, "table.model", reader.job.table.model);

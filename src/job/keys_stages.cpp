@@ -6,6 +6,7 @@
 #include "codegen/exporter.h"
 #include "core/text.h"
 #include "job/key_builder.h"
+#include "job/literature.h"
 #include "models/law.h"
 
 namespace frictab::job::schema {
@@ -151,18 +152,12 @@ Problem option_problem(const std::string& name, const KeyValue& value) {
   return {}; // an unknown name has been reported
 }
 
-// "all" is how a list is left open; the job says it by an empty list.
-void store_use(Job& job, const std::string&, KeyValue value) {
-  job.models.use = std::get<std::vector<std::string>>(std::move(value));
-  if (job.models.use == std::vector<std::string>{"all"}) job.models.use.clear();
-}
-
 std::vector<KeyRule> model_keys() {
   std::vector<KeyRule> rules = {
       key<std::vector<std::string>>(
           "models.use", [](Job & job) -> auto& { return job.models.use; },
-          "friction laws to calibrate: a name, a list, or \"all\"; `frictab list models` shows "
-          "them",
+          "friction laws to calibrate: a name, a list, or \"all\", which laws of the literature "
+          "may stand beside; `frictab list models` shows them",
           "all that the columns allow", "[\"coulomb\", \"orowan\"]") |
           Allowed{"friction law", laws_or_all, false, false, true},
       key<std::vector<std::string>>(
@@ -205,7 +200,6 @@ std::vector<KeyRule> model_keys() {
           "unconditional laws only", "1.0") |
           above(0),
   };
-  rules[0].store = store_use;
   return rules;
 }
 
@@ -401,7 +395,7 @@ std::vector<KeyRule> proof_keys() {
 } // namespace
 
 std::vector<std::string> laws_or_all() {
-  std::vector<std::string> names = models::law_names();
+  std::vector<std::string> names = shipped_law_names();
   names.push_back("all");
   return names;
 }

@@ -11,6 +11,7 @@
 #include "expr/expr.h"
 #include "io/atomic_file.h"
 #include "io/text_file.h"
+#include "job/literature.h"
 #include "job/reader.h"
 
 namespace frictab::job {
@@ -177,14 +178,20 @@ void note_laws(JobReader& reader, const TomlNode& tables) {
     if (entry.type == TomlNode::Type::table) reader.own_laws.push_back(entry.key);
 }
 
-void walk_law_file(JobReader& reader, const TomlNode& file) {
-  for (const TomlNode& entry : file.items)
-    if (entry.type == TomlNode::Type::table)
-      walk(reader, entry, "models.*", "models." + entry.key, entry.key);
-    else
-      reader.fault(entry.key_place, fmt::format("{} is no law", in_quotes(entry.key)),
-                   "a file of laws holds a table per law: [my_law]");
-  reader.job.sections["models"] += canonical_text(file);
+// Laws of the literature are there where models.use names them; beside "all" too.
+void add_literature(JobReader& reader) {
+  models::Laws& laws = reader.job.models.laws;
+  std::vector<std::string>& use = reader.job.models.use;
+  for (const std::string& name : use)
+    if (!laws.find(name))
+      if (const models::Law* law = find_shipped_law(name)) {
+        laws.add(*law);
+        reader.job.sections["models"] += literature_text(name);
+      }
+  const bool all = std::count(use.begin(), use.end(), "all") > 0;
+  if (all)
+    std::erase_if(use, [](const std::string& name) { return !literature_text(name).empty(); });
+  if (use == std::vector<std::string>{"all"}) use.clear();
 }
 
 void sort_by_place(std::vector<Fault>& faults) {
@@ -206,6 +213,15 @@ void resolve_paths(Job& job) {
 }
 
 } // namespace
+
+void read_laws(JobReader& reader, const TomlNode& file) {
+  for (const TomlNode& entry : file.items)
+    if (entry.type == TomlNode::Type::table)
+      walk(reader, entry, "models.*", "models." + entry.key, entry.key);
+    else
+      reader.fault(entry.key_place, fmt::format("{} is no law", in_quotes(entry.key)),
+                   "a file of laws holds a table per law: [my_law]");
+}
 
 Place JobReader::place_of(std::string path) const {
   while (true) {
@@ -245,9 +261,12 @@ Job parse_job(std::string_view text, const std::string& file, const std::vector<
       std::erase_if(section.items, [](const TomlNode& item) { return item.key == "model"; });
     reader.job.sections[section.key] = canonical_text(section);
   }
-  for (const TomlNode& laws : law_files)
-    walk_law_file(reader, laws);
+  for (const TomlNode& laws : law_files) {
+    read_laws(reader, laws);
+    reader.job.sections["models"] += canonical_text(laws);
+  }
   make_laws(reader);
+  add_literature(reader);
   check_job(reader);
   sort_by_place(reader.faults);
   if (!reader.faults.empty()) throw InputError(std::move(reader.faults));

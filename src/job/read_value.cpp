@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "job/literature.h"
 #include "job/reader.h"
 #include "models/law.h"
 
@@ -98,7 +99,7 @@ struct ValueReader {
   }
 
   bool is_traced_law(const std::string& text) const {
-    const models::ModelName name = models::read_model_name(text, {});
+    const models::ModelName name = models::read_model_name(text, literature());
     if (!name.traced || name.quantile) return false;
     return name.base ||
            std::any_of(reader.own_laws.begin(), reader.own_laws.end(),

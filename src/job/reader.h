@@ -28,6 +28,9 @@ struct JobReader {
 void read_value(JobReader& reader, const KeyRule& rule, const std::string& path,
                 const std::string& name, const TomlNode& node);
 
+// The tables of a file of laws, as keys of [models.NAME].
+void read_laws(JobReader& reader, const TomlNode& file);
+
 // Formulas of the job's own laws to laws, once their keys are read.
 void make_laws(JobReader& reader);
 

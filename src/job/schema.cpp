@@ -104,8 +104,8 @@ const std::vector<SectionRule>& section_rules() {
        "how one canonical column is taken from the file; a text or a number "
        "instead of a table is its `column`",
        "", nullptr, column_place, "quantity", false, false, "column"},
-      {"data.constants", "quantities that are the same for every row", "sigma_f_MPa = 480.0",
-       schema::constant_names, nullptr},
+      {"data.constants", "quantities, or inputs of a law, that are the same for every row",
+       "sigma_f_MPa = 480.0", schema::constant_names, nullptr, "quantity", true},
       {"data.files",
        "what is special about some files: [[data.files]] stands once per rule, with any of the "
        "keys "

@@ -35,6 +35,18 @@ bool is_kink(Op op) {
   return op == Op::minimum || op == Op::maximum || op == Op::where_le;
 }
 
+// max(v_rel_mm_s, 10): a kink at one place of an axis, where the table gets a node; the other ends
+// of where() need not meet.
+std::optional<std::pair<std::string, double>> place_on_axis(const Expr& e) {
+  if (e.op() != Op::minimum && e.op() != Op::maximum) return std::nullopt;
+  for (const int state : {0, 1}) {
+    const Expr &a = e.operands()[state], &b = e.operands()[1 - state];
+    if (a.op() == Op::symbol && b.op() == Op::constant && data::find_quantity(a.name()))
+      return std::pair(a.name(), b.value());
+  }
+  return std::nullopt;
+}
+
 // Factors of a product, those that it is divided by left aside.
 void add_factors(const Expr& e, std::vector<Expr>& factors) {
   if (e.op() == Op::multiply) {
@@ -79,7 +91,7 @@ public:
   Splitter(const Expr& formula, const std::vector<Parameter>& parameters) {
     for (const Parameter& p : parameters)
       names_.insert(p.name);
-    // A kink between parameters alone is none along any state.
+    // A kink between parameters alone is none along any state; one on an axis gets a node.
     inside_out(formula, [this](const Expr& e) {
       bool kinked = false, moves = e.op() == Op::symbol && !names_.count(e.name());
       for (const Expr& operand : e.operands()) {
@@ -87,7 +99,7 @@ public:
         moves = moves || moves_.count(operand.id());
       }
       if (moves) moves_.insert(e.id());
-      if (kinked || (moves && is_kink(e.op()))) kinked_.insert(e.id());
+      if (kinked || (moves && is_kink(e.op()) && !place_on_axis(e))) kinked_.insert(e.id());
     });
   }
 
@@ -190,16 +202,10 @@ bool is_product(const Expr& e) {
   });
 }
 
-// max(v_rel_mm_s, 10): a table gets a node at 10.
 std::map<std::string, std::vector<double>> kinks_of(const Expr& piece) {
   std::map<std::string, std::set<double>> found;
   for_each_part(piece, [&](const Expr& e) {
-    if (!is_kink(e.op())) return;
-    for (const int state : {0, 1}) {
-      const Expr &a = e.operands()[state], &b = e.operands()[1 - state];
-      if (a.op() == Op::symbol && b.op() == Op::constant && data::find_quantity(a.name()))
-        found[a.name()].insert(b.value());
-    }
+    if (const auto place = place_on_axis(e)) found[place->first].insert(place->second);
   });
   std::map<std::string, std::vector<double>> kinks;
   for (const auto& [name, values] : found)

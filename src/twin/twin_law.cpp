@@ -1,8 +1,12 @@
-// Laws of the registry as truths of the synthetic campaign.
+// Laws as truths of the synthetic campaign.
 #include "twin/twin_law.h"
 
+#include <algorithm>
+
 #include "calibrate/law_problem.h"
+#include "data/quantity.h"
 #include "effects/extended_law.h"
+#include "job/literature.h"
 
 namespace frictab::twin {
 
@@ -98,8 +102,14 @@ std::vector<double> LawTruth::recalibrated(const data::Dataset& data, const TauP
 
 std::vector<std::string> truth_names() {
   std::vector<std::string> names;
-  for (const models::Law& law : models::all_laws())
-    if (law.calibrated == models::Calibrated::fit) names.push_back(law.name);
+  for (const std::string& name : job::shipped_law_names()) {
+    const models::Law& law = *job::find_shipped_law(name);
+    const std::vector<std::string> inputs = models::inputs(law, {});
+    const bool of_states = std::all_of(inputs.begin(), inputs.end(), [](const std::string& input) {
+      return data::find_quantity(input);
+    });
+    if (law.calibrated == models::Calibrated::fit && of_states) names.push_back(name);
+  }
   return names;
 }
 

@@ -1,4 +1,4 @@
-// A friction law of the registry as the truth of a synthetic campaign, instead of its own physics.
+// A friction law as the truth of a synthetic campaign, instead of its own physics.
 #pragma once
 
 #include <memory>
@@ -44,7 +44,7 @@ private:
   expr::Program program_;
 };
 
-// Law names that can be a truth: those that are calibrated by a fit.
+// Law names that can be a truth: those calibrated by a fit, of states alone.
 std::vector<std::string> truth_names();
 
 } // namespace frictab::twin

@@ -103,7 +103,14 @@ TEST_P(TwinOfLaw, ZeroAmplitudeLeavesEveryBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, TwinOfLaw, testing::ValuesIn(twin::truth_names()),
+// Of the registry: the twin's design need not determine laws of the literature.
+std::vector<std::string> registered_truths() {
+  std::vector<std::string> names = twin::truth_names();
+  std::erase_if(names, [](const std::string& name) { return !models::find_law(name); });
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, TwinOfLaw, testing::ValuesIn(registered_truths()),
                          [](const auto& param) { return param.param; });
 
 // The same effects as the trace stage would add them.

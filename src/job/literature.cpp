@@ -1,0 +1,68 @@
+// The texts in the program, as laws.
+#include "job/literature.h"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "codegen/template.h"
+#include "job/reader.h"
+
+namespace frictab::job {
+
+namespace {
+
+constexpr std::string_view folder = "laws/";
+
+bool heads_table_of(const std::string& line, const std::string& law) {
+  return line.starts_with("[" + law + "]") || line.starts_with("[" + law + ".");
+}
+
+} // namespace
+
+const models::Laws& literature() {
+  static const models::Laws laws = [] {
+    JobReader reader;
+    for (const std::string_view path : codegen::embedded_paths(folder)) {
+      const std::string file = "templates/" + std::string(path);
+      read_laws(reader, parse_toml(codegen::embedded_template(path), file));
+    }
+    make_laws(reader);
+    if (!reader.faults.empty()) // of the program, not of its user
+      throw std::logic_error(InputError(reader.faults).what());
+    return reader.job.models.laws;
+  }();
+  return laws;
+}
+
+const models::Law* find_shipped_law(std::string_view name) {
+  if (const models::Law* law = models::find_law(name)) return law;
+  for (const auto& law : literature().own())
+    if (law->name == name) return law.get();
+  return nullptr;
+}
+
+std::vector<std::string> shipped_law_names() {
+  std::vector<std::string> names = models::law_names();
+  for (const auto& law : literature().own())
+    names.push_back(law->name);
+  return names;
+}
+
+std::string literature_text(const std::string& name) {
+  for (const std::string_view path : codegen::embedded_paths(folder)) {
+    std::istringstream lines{std::string(codegen::embedded_template(path))};
+    std::string out;
+    bool within = false;
+    for (std::string line; std::getline(lines, line);) {
+      const bool head = line.starts_with("[");
+      if (head) within = heads_table_of(line, name);
+      if (within) out += (head ? "[models." + line.substr(1) : line) + "\n";
+    }
+    while (out.ends_with("\n\n"))
+      out.pop_back();
+    if (!out.empty()) return out;
+  }
+  return "";
+}
+
+} // namespace frictab::job
