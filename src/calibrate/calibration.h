@@ -10,6 +10,7 @@
 //     normal_equations  sums over rows that a step needs
 //     fit               Levenberg-Marquardt within bounds
 //     median            least absolute deviations of one parameter, exactly
+//     slip_distance     of rate-and-state friction, around the fit of all else
 //     network           training of the neural network: ensemble and weight decay
 //     network_fit       one of its nets
 //     fit_law           any law, by its own way

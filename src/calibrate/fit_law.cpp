@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/law_problem.h"
+#include "calibrate/slip_distance.h"
 #include "core/no_value.h"
 #include "core/text.h"
 
@@ -153,10 +154,31 @@ void fit_ensemble(ModelFit& fit, const Dataset& data, const CalibrationOptions& 
   fit.network = record;
 }
 
+// The distance of its states first; the law that is delivered has it as a number.
+ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
+                              const models::Conventions& conventions, const Dataset& data,
+                              const CalibrationOptions& options) {
+  const models::Parameter& distance = law.parameters[parameter];
+  if (law.calibrated == Calibrated::fixed)
+    return fit_law(at_slip_distance(law, parameter, distance.start), conventions, data, options);
+  const SlipDistance found = find_slip_distance(law, parameter, conventions, data, options);
+  ModelFit fit =
+      fit_law(at_slip_distance(law, parameter, found.distance_mm), conventions, data, options);
+  fit.evaluations += found.evaluations;
+  fit.std_error_method += ", at the " + distance.name + " found";
+  fit.remarks.push_back(fmt::format("{} = {:.4g} mm, the best of {} tries{}; it has no standard "
+                                    "error",
+                                    distance.name, found.distance_mm, found.evaluations,
+                                    found.at_bound ? ", at its bound" : ""));
+  return fit;
+}
+
 } // namespace
 
 ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
                  const Dataset& data, const CalibrationOptions& options) {
+  if (const auto distance = slip_distance(law, conventions))
+    return fit_at_slip_distance(law, *distance, conventions, data, options);
   ModelFit fit;
   fit.model.law = models::held_law(law);
   fit.model.conventions = conventions;

@@ -30,6 +30,10 @@ bool is(const SolverInput& input, C::Rule rule) {
   return input.source == Source::history && continuation(input).rule == rule;
 }
 
+bool is_state(C::Rule rule) {
+  return rule == C::aging || rule == C::slipping;
+}
+
 bool takes_mean(const SolverInput& input) {
   return is(input, C::mean) || is(input, C::lag);
 }
@@ -68,7 +72,8 @@ public:
                {"convert", fortran_conversion(input.argument.solver)},
                {"from_stress", fortran_conversion(solver_unit("MPa", units))},
                {"from_speed", fortran_conversion(solver_unit("mm/s", units))},
-               {"at_peak", fortran_number(data::at_peak)}} {}
+               {"at_peak", fortran_number(data::at_peak)},
+               {"distance", distance_of(input)}} {}
 
   TemplateValues values() const {
     TemplateValues out;
@@ -80,6 +85,11 @@ public:
   }
 
 private:
+  static std::string distance_of(const SolverInput& input) {
+    const data::Continuation how = continuation(input);
+    return is_state(how.rule) ? fortran_number(how.distance_mm) : "";
+  }
+
   std::string statements(std::string_view lines) const {
     std::string out;
     while (!lines.empty()) {
@@ -227,6 +237,9 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.flags["has_ratio"] = calls(histories, "now", "ftrat");
   own.flags["has_rise"] = calls(histories, "now", "ftrise");
   own.flags["has_recent"] = calls(histories, "now", "ftlate");
+  own.flags["has_theta"] = calls(histories, "now", "ftthta");
+  own.flags["has_aging"] = calls(histories, "next", "ftaged");
+  own.flags["has_slipping"] = calls(histories, "next", "ftslpd");
   own.flags["has_area"] = first_area(inputs) > 0;
   own.flags["asks_nan"] = calls(histories, "next", "ftnan");
   own.text = {{"n", std::to_string(count)},
@@ -278,6 +291,7 @@ bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
     const double now = present(how.of, inputs, columns, row), value = columns[c][row];
     if (takes_mean(inputs[c]) && time && !(time[row] > 0)) return false;
     if (how.rule == C::peak && value < now) return false;
+    if (is_state(how.rule) && !(value > 0)) return false;
     if (how.rule == C::rise && now - value + zero_celsius <= 0) return false;
     if (how.rule == C::ratio && value != 1 && (value > 1 || (value > 0) != (now > 0))) return false;
   }

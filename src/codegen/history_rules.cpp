@@ -134,6 +134,21 @@ HistoryRule recent_speed() {
           .grows = false};
 }
 
+// The state of before the increment, as of all histories: the slip of the increment ages it behind.
+HistoryRule slip_state(C::Rule rule) {
+  HistoryRule out;
+  out.now = "@{x} = ftthta(@{h}, v@{from_speed}, @{distance})";
+  out.next = rule == C::aging ? "@{h1} = ftaged(@{h}, v@{from_speed}, dt, @{distance})"
+                              : "@{h1} = ftslpd(@{h}, v@{from_speed}, dt, @{distance})";
+  out.slope = "if (@{h} .le. 0.0D0 .and. v@{from_speed} .gt. 1.0D-9) then\n"
+              "  dv = dv - @{dy}*@{distance}/(v@{from_speed})**2\n"
+              "end if";
+  out.meaning = "state variable of rate-and-state friction; 0: none yet";
+  out.unit = "s";
+  out.grows = false;
+  return out;
+}
+
 HistoryRule area_growth() {
   return {.now = "@{x} = ftgrow(@{h}, a)",
           .next = "@{h1} = @{h}\n"
@@ -171,6 +186,9 @@ HistoryRule history_rule(const data::Continuation& how) {
     return recent_speed();
   case C::growth:
     return area_growth();
+  case C::aging:
+  case C::slipping:
+    return slip_state(how.rule);
   case C::none:
     break;
   }

@@ -2,9 +2,17 @@
 #include "data/derived.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
 
 namespace frictab::data {
 
@@ -251,6 +259,53 @@ std::vector<Rule> first_rules() {
   };
 }
 
+// ---- state variables of rate-and-state friction ----
+
+// theta behind a step of time dt at the speed v over which it was `theta`.
+double aged(double theta, double v, double dt, double D) {
+  const double x = v * dt / D;
+  return theta * std::exp(-x) + dt * (x > 1e-8 ? -std::expm1(-x) / x : 1.0);
+}
+double slipped(double theta, double v, double dt, double D) {
+  const double steady = std::log(D / std::max(v, slowest_speed));
+  return std::exp(steady + (std::log(theta) - steady) * std::exp(-v * dt / D));
+}
+
+void follow_state(const Continuation& how, Rows v, Rows t, Out out) {
+  const auto step = how.rule == Continuation::aging ? aged : slipped;
+  out[0] = how.distance_mm / std::max(v[0], slowest_speed);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    out[i] = step(out[i - 1], std::max(0.5 * (v[i] + v[i - 1]), 0.0),
+                  std::max(t[i] - t[i - 1], 0.0), how.distance_mm);
+}
+
+Rule state_rule(const std::string& name, const SlipState& state) {
+  const bool ages = state.rule == Continuation::aging;
+  const Continuation how{state.rule, Continuation::speed, false, state.distance_mm};
+  return {
+      {name,
+       "s",
+       fmt::format("state variable of rate-and-state friction, {} law, over {}",
+                   ages ? "aging" : "slip",
+                   state.parameter.empty() ? shortest(state.distance_mm) + " mm" : state.parameter),
+       {"v_rel_mm_s", "time_s"},
+       how},
+      [how](const std::vector<Rows>& in, Out out) { follow_state(how, in[0], in[1], out); }};
+}
+
+// Rules of the states that were asked for; they stay where they are.
+const Rule* find_state_rule(std::string_view name) {
+  static std::mutex mutex;
+  static std::map<std::string, Rule, std::less<>> known;
+  const std::optional<SlipState> state = slip_state(name);
+  if (!state) return nullptr;
+  const std::lock_guard lock(mutex);
+  auto found = known.find(name);
+  if (found == known.end())
+    found = known.emplace(std::string(name), state_rule(std::string(name), *state)).first;
+  return &found->second;
+}
+
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = [] {
     std::vector<Rule> first = first_rules(), further = further_rules();
@@ -272,10 +327,51 @@ std::span<const DerivedQuantity> derived_quantities() {
   return all;
 }
 
+const std::vector<std::pair<std::string, Continuation::Rule>>& slip_states() {
+  static const std::vector<std::pair<std::string, Continuation::Rule>> all = {
+      {"aging_state_over_", Continuation::aging}, {"slip_state_over_", Continuation::slipping}};
+  return all;
+}
+
+std::optional<SlipState> slip_state(std::string_view name) {
+  SlipState state;
+  std::string_view over;
+  for (const auto& [family, rule] : slip_states())
+    if (name.starts_with(family)) {
+      state.rule = rule;
+      over = name.substr(family.size());
+    }
+  if (over.empty()) return std::nullopt;
+  if (!std::isdigit(static_cast<unsigned char>(over.front()))) {
+    state.parameter = over;
+    return state;
+  }
+  if (!over.ends_with("mm")) return std::nullopt;
+  std::string number(over.substr(0, over.size() - 2));
+  std::replace(number.begin(), number.end(), 'p', '.');
+  std::replace(number.begin(), number.end(), 'm', '-'); // 1em05
+  const char* const end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, state.distance_mm);
+  if (read.ec != std::errc() || read.ptr != end || !(state.distance_mm > 0)) return std::nullopt;
+  return state;
+}
+
+std::string slip_state_name(Continuation::Rule rule, double distance_mm) {
+  std::string number = fmt::format("{:.4g}", distance_mm);
+  std::replace(number.begin(), number.end(), '.', 'p');
+  std::replace(number.begin(), number.end(), '-', 'm');
+  std::erase(number, '+');
+  const auto& all = slip_states();
+  const auto family =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.second == rule; });
+  return fmt::format("{}{}mm", family->first, number);
+}
+
 const DerivedQuantity* find_derived(std::string_view name) {
   for (const DerivedQuantity& quantity : derived_quantities())
     if (quantity.name == name) return &quantity;
-  return nullptr;
+  const Rule* state = find_state_rule(name);
+  return state ? &state->quantity : nullptr;
 }
 
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
@@ -288,9 +384,12 @@ std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
       throw std::logic_error(quantity.name + " needs column " + need);
     inputs.push_back(need == "tau" ? tau : Rows(column->values));
   }
+  if (const auto state = slip_state(quantity.name); state && !state->parameter.empty())
+    throw std::logic_error(quantity.name + " has no distance yet");
   const auto& all = rules();
-  const auto rule = std::find_if(all.begin(), all.end(),
-                                 [&](const Rule& r) { return r.quantity.name == quantity.name; });
+  const auto named = std::find_if(all.begin(), all.end(),
+                                  [&](const Rule& r) { return r.quantity.name == quantity.name; });
+  const Rule* const rule = named != all.end() ? &*named : find_state_rule(quantity.name);
   std::vector<double> out(data.rows());
   for (std::size_t e = 0; e + 1 < data.first_row.size(); ++e) {
     const std::size_t first = data.first_row[e];

@@ -1,6 +1,8 @@
 // Quantities computed along each experiment from its own columns: histories an effect may follow.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,12 +27,15 @@ struct Continuation {
     rise,       // above the value at the start of contact
     lag,        // above the mean so far
     recent,     // mean over the last increments, the older the less
-    growth      // the value over that at the start of contact
+    growth,     // the value over that at the start of contact
+    aging,      // state variables of rate-and-state friction (SlipState)
+    slipping
   };
   enum Of { one, pressure, speed, temperature, area, tau, power, flash };
   Rule rule = none;
   Of of = one;
   bool always = false; // routines with state variables keep it for every law
+  double distance_mm = std::numeric_limits<double>::quiet_NaN(); // aging, slipping: D
 };
 
 // `needs` lists columns; "tau" stands for a model's shear stress. Never derive a history from
@@ -46,7 +51,27 @@ struct DerivedQuantity {
 // Within this share of its peak a pressure is at its peak: measured ones are never still.
 inline constexpr double at_peak = 0.95;
 
-std::span<const DerivedQuantity> derived_quantities();
+// The state variable theta of rate-and-state friction, in s: where the sliding speed has long been
+// v it is D/v. D, a slip distance, stands in its name, as a number or as a parameter of a law:
+//   aging_state_over_0p0125mm  d theta/dt = 1 - v theta/D               (Dieterich 1979)
+//   slip_state_over_D_c        d theta/dt = -(v theta/D) ln(v theta/D)  (Ruina 1983)
+// Each experiment starts as if it had long slid at the speed of its first row. Between rows the
+// speed is the mean of theirs, for which both equations have closed solutions.
+struct SlipState {
+  Continuation::Rule rule = Continuation::aging;
+  std::string parameter; // "D_c"; empty where D is a number
+  double distance_mm = std::numeric_limits<double>::quiet_NaN();
+};
+std::optional<SlipState> slip_state(std::string_view name);
+// What their names begin with.
+const std::vector<std::pair<std::string, Continuation::Rule>>& slip_states();
+// Of a distance that is rounded to 4 digits, and the distance that this name holds.
+std::string slip_state_name(Continuation::Rule rule, double distance_mm);
+// Sliding speeds are taken as no slower, in mm/s: at rest ln(D/v) has no end.
+inline constexpr double slowest_speed = 1e-9;
+
+std::span<const DerivedQuantity>
+derived_quantities(); // without slip states, of which there is no end
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none
 
 // One value per row; integrals by the trapezoidal rule, starting at 0 in every experiment. `tau` is

@@ -299,7 +299,7 @@ private:
                                 p.name, text_.name),
                     "a value is a constant; leave it out where the parameter is calibrated");
       else if (p.value && any_fitted)
-        constants_.emplace(p.name, *p.value);
+        add_constant(p.name, *p.value);
       else if (p.value)
         add_parameter(p, *p.value, *p.value, *p.value);
       else if (!p.range)
@@ -314,6 +314,13 @@ private:
       else
         add_parameter(p, p.start.value_or(middle(*p.range)), p.range->first, p.range->second);
     }
+  }
+
+  void add_constant(const std::string& name, double value) {
+    constants_.emplace(name, value);
+    if (value > 0) // a state over that distance has it in its name
+      for (const auto& [family, rule] : data::slip_states())
+        named_.emplace(family + name, Expr::symbol(data::slip_state_name(rule, value)));
   }
 
   static double middle(const std::pair<double, double>& range) {
@@ -423,8 +430,20 @@ private:
     std::set<std::string> parameters;
     for (const Parameter& p : law_.parameters)
       parameters.insert(p.name);
+    std::set<std::string> distances; // parameters that stand in the name of a state
+    for (const std::string& name : used)
+      if (const auto state = data::slip_state(name); state && !state->parameter.empty()) {
+        distances.insert(state->parameter);
+        check_distance(name, state->parameter);
+      }
+    if (distances.size() > 1)
+      faults_.add(
+          text_.place,
+          fmt::format("law {} has states over {}", text_.name,
+                      join(std::vector<std::string>(distances.begin(), distances.end()), " and ")),
+          "all states of a law have one distance");
     for (const ParameterText& p : text_.parameters)
-      if (!p.value && !used.count(p.name))
+      if (!p.value && !used.count(p.name) && !distances.count(p.name))
         faults_.add(p.place,
                     fmt::format("law {} does not use its parameter '{}'", text_.name, p.name),
                     "leave it out, or use it in the formula");
@@ -445,6 +464,21 @@ private:
     if (used.size() == parameters.size())
       faults_.add(text_.place, fmt::format("law {} depends on no state", text_.name),
                   "states: " + join(state_names(), ", "));
+  }
+
+  // D_c of aging_state_over_D_c.
+  void check_distance(const std::string& state, const std::string& distance) {
+    const auto found = std::find_if(law_.parameters.begin(), law_.parameters.end(),
+                                    [&](const Parameter& p) { return p.name == distance; });
+    if (found == law_.parameters.end())
+      faults_.add(place_of(state),
+                  fmt::format("law {} has no parameter '{}' for {}", text_.name, distance, state),
+                  "a parameter in mm, or a number as in aging_state_over_0p02mm");
+    else if (!(found->lower > 0))
+      faults_.add(text_.place,
+                  fmt::format("the distance {} of law {} may be {}", distance, text_.name,
+                              shortest(found->lower)),
+                  "its range begins above 0");
   }
 
   static std::vector<std::string> state_names() {

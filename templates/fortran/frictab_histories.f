@@ -27,6 +27,10 @@ C     a: the area now.
       double precision ftlate
       external ftlate
 @end
+@if has_theta
+      double precision ftthta
+      external ftthta
+@end
 @if has_area
       double precision ftgrow
       external ftgrow
@@ -54,6 +58,14 @@ C     frictional stress tau; pmax: the peak pressure so far.
 @if has_recent
       double precision ftlate
       external ftlate
+@end
+@if has_aging
+      double precision ftaged
+      external ftaged
+@end
+@if has_slipping
+      double precision ftslpd
+      external ftslpd
 @end
 @if asks_nan
       logical ftnan
@@ -194,6 +206,56 @@ C     increment of it. NaN where one is.
       if (ftnan(a)) return
       ftgrow = 1.0D0
       if (first .gt. 0.0D0) ftgrow = a/first
+      return
+      end
+C
+@end
+@if has_theta
+C     A state of rate-and-state friction (s): that of sliding at v
+C     (mm/s) for long, over the distance d (mm), where there was none.
+      double precision function ftthta(theta, v, d)
+      implicit none
+      double precision theta, v, d
+      logical ftnan
+      external ftnan
+      ftthta = theta
+      if (ftnan(theta)) return
+      ftthta = v
+      if (ftnan(v)) return
+      ftthta = theta
+      if (theta .le. 0.0D0) ftthta = d/max(v, 1.0D-9)
+      return
+      end
+C
+@end
+@if has_aging
+C     It behind a time dt, by the aging law.
+      double precision function ftaged(theta, v, dt, d)
+      implicit none
+      double precision theta, v, dt, d, x, ftthta
+      external ftthta
+      ftaged = ftthta(theta, v, d)
+      if (.not. dt .gt. 0.0D0) return
+      x = max(v, 0.0D0)*dt/d
+      if (x .gt. 1.0D-8) then
+        ftaged = ftaged*exp(-x) + dt*(1.0D0 - exp(-x))/x
+      else
+        ftaged = ftaged*exp(-x) + dt
+      end if
+      return
+      end
+C
+@end
+@if has_slipping
+C     It behind a time dt, by the slip law.
+      double precision function ftslpd(theta, v, dt, d)
+      implicit none
+      double precision theta, v, dt, d, c, ftthta
+      external ftthta
+      ftslpd = ftthta(theta, v, d)
+      if (.not. dt .gt. 0.0D0) return
+      c = log(d/max(v, 1.0D-9))
+      ftslpd = exp(c + (log(ftslpd) - c)*exp(-max(v, 0.0D0)*dt/d))
       return
       end
 C

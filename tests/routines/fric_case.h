@@ -108,8 +108,11 @@ inline void expect_tangents(const FricCall& start, void* function, const std::st
       EXPECT_NEAR(derivative(at, i), wanted, 2e-5 * scale) << name << " of " << i;
     }
   };
+  // Short beside the slip: the first state of rate-and-state friction goes with its inverse.
+  const double slip = std::hypot(start.motion[0], n > 1 ? start.motion[1] : 0.0);
+  const double slip_step = slip > 0 ? std::min(1e-8, 1e-4 * slip) : 1e-8;
   for (std::size_t j = 0; j < n; ++j)
-    compare([j](FricCall& c) -> double& { return c.motion[j]; }, 1e-8,
+    compare([j](FricCall& c) -> double& { return c.motion[j]; }, slip_step,
             [&, j](const FricCall& c, std::size_t i) { return c.by_motion[i + n * j]; },
             j == 0 ? "DDTDDG(,1)" : "DDTDDG(,2)");
   compare([](FricCall& c) -> double& { return c.pressure; }, 1e-5 * start.pressure,

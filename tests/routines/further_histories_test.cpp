@@ -44,7 +44,8 @@ Table way_table() {
   table.combine =
       Expr::symbol("sigma_n_MPa") *
       (Expr::symbol("value") + x("load_ratio", 0.02) + x("slip_since_peak", 1e-3) +
-       x("temperature_rise", 1e-4) + x("temperature_lag", 5e-5) + x("flash_heating", 1e-5));
+       x("temperature_rise", 1e-4) + x("temperature_lag", 5e-5) + x("flash_heating", 1e-5) +
+       x("aging_state_over_1p5mm", 1e-2) + x("slip_state_over_0p8mm", 1e-2));
   return table;
 }
 
@@ -79,7 +80,9 @@ public:
         {"slip_since_peak", since_peak},
         {"temperature_rise", time > 0 ? now.temperature - first_temperature : 0},
         {"temperature_lag", now.temperature - mean(warmth, now.temperature)},
-        {"flash_heating", flash}};
+        {"flash_heating", flash},
+        {"aging_state_over_1p5mm", aged > 0 ? aged : 1.5 / now.speed},
+        {"slip_state_over_0p8mm", slipped > 0 ? slipped : 0.8 / now.speed}};
     std::vector<double> state;
     for (const std::string& name : table_.inputs())
       state.push_back(values.at(name));
@@ -94,6 +97,9 @@ public:
     power = before * now.speed;
     flash = before * std::sqrt(now.speed);
     since_peak = now.pressure >= 0.95 * peak_pressure ? 0 : since_peak + now.speed * now.time;
+    const double a = 1.5 / now.speed, s = 0.8 / now.speed; // steady states at this speed
+    aged = a + (aged > 0 ? aged - a : 0) * std::exp(-now.time / a);
+    slipped = s * std::pow(slipped > 0 ? slipped / s : 1, std::exp(-now.time / s));
     if (time == 0) first_temperature = now.temperature;
     if (now.pressure >= 0.5 * peak_pressure) dwell += now.time;
     time += now.time;
@@ -106,7 +112,7 @@ public:
 
   double energy = 0, power = 0, time = 0, dwell = 0, pressures = 0, slip = 0, warmth = 0;
   double peak_speed = 0, peak_temperature = -273.15, peak_pressure = 0;
-  double since_peak = 0, first_temperature = 0, flash = 0;
+  double since_peak = 0, first_temperature = 0, flash = 0, aged = 0, slipped = 0;
 
 private:
   Table table_;

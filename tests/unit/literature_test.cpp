@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration.h"
+#include "calibrate/slip_distance.h"
 #include "core/error.h"
 #include "job/job.h"
 #include "job/literature.h"
@@ -145,6 +146,7 @@ TEST(Literature, EveryLawFindsItsParametersAgainInExactData) {
   std::size_t calibrated = 0;
   for (const auto& law : job::literature().own()) {
     if (law->calibrated == models::Calibrated::fixed) continue;
+    if (calibrate::slip_distance(*law, {})) continue; // rate_and_state_test.cpp
     ++calibrated;
     ASSERT_TRUE(truths.count(law->name)) << law->name << ": give it a truth here";
     models::Model truth;
