@@ -200,6 +200,21 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
   return models::unregistered_law(std::move(law));
 }
 
+// Parameters of a registered law mean what its formula said when they were calibrated.
+int revision_of(const Law& law, const models::Conventions& conventions) {
+  return law.revision ? law.revision(conventions) : 0;
+}
+
+void check_revision(const ModelFit& fit, const Json& j, const std::string& file) {
+  const Law& law = *fit.model.law;
+  if (!models::is_registered(law)) return; // has its formula with it
+  if (j.value("revision", 0) == revision_of(law, fit.model.conventions)) return;
+  throw InputError({file, 0, 0},
+                   fmt::format("was made with another formula of {}: '{}', now '{}'", law.name,
+                               j.at("formula").get<std::string>(), law.formula),
+                   "calibrate again with this version");
+}
+
 std::shared_ptr<const Law> parse_law(const Json& fit, const std::string& file) {
   const std::string name = fit.at("name");
   const Law* known = models::find_law(name);
@@ -246,6 +261,9 @@ Json fit_json(const ModelFit& fit) {
   for (const auto& [name, range] : fit.data_range)
     j["data_range"][name] = {range.first, range.second};
   if (fit.network) j["training_record"] = network_json(*fit.network);
+  if (const int revision = revision_of(*fit.model.law, fit.model.conventions);
+      revision > 0 && models::is_registered(*fit.model.law))
+    j["revision"] = revision;
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
   return j;
@@ -275,6 +293,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   const Json& c = j.at("conventions");
   fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
                            c.at("shear_limit")};
+  check_revision(fit, j, file);
   const Json& list = j.at("parameters");
   for (std::size_t p = 0; p < fit.model.law->parameters.size(); ++p) {
     const models::Parameter& info = fit.model.law->parameters[p];
@@ -371,7 +390,7 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit);
   for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
-                          "experiment_gains", "data_range", "law"})
+                          "experiment_gains", "data_range", "law", "revision"})
     if (body.contains(key)) j[key] = body.at(key);
   return io::json_text(j);
 }

@@ -211,8 +211,8 @@ std::vector<KeyRule> table_keys() {
   return {
       key<std::vector<std::string>>(
           "table.model", [](Job & job) -> auto& { return job.table.model; },
-          "law or laws to tabulate: best (on held-out experiments), a name, a list, or all; "
-          "NAME_traced is the law with the effects that trace found") |
+          "law or laws to tabulate: best (on held-out experiments, which so give it too small an "
+          "error), a name, a list, or all; NAME_traced is the law with the effects that trace found") |
           Allowed{"friction law", laws_best_or_all, false, true, true},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },

@@ -75,6 +75,9 @@ struct Law {
   // Starts of its own, computed from the rows, for a law whose loss has several minima; instead of
   // a search over the bounds. The first is the least-squares optimum.
   std::vector<std::vector<double>> (*starts)(const Conventions&, const TrainingRows&) = nullptr;
+  // Counts how often the same parameters came to mean another stress; none: never. A file of a
+  // registered law holds parameters and not the formula, and must be of the same count.
+  int (*revision)(const Conventions&) = nullptr;
   std::map<std::string, Place> places = {}; // of a user's law: where its columns are first named
 };
 

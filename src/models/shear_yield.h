@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -43,6 +44,18 @@ constexpr double shear_yield_ratio(ShearYield convention) {
     return 1;
   default:
     return 0.57735026918962584; // 1/sqrt(3)
+  }
+}
+
+// sigma_f/k, not by way of its rounded inverse.
+constexpr double flow_stress_ratio(ShearYield convention) {
+  switch (convention) {
+  case ShearYield::tresca:
+    return 2;
+  case ShearYield::flow_stress:
+    return 1;
+  default:
+    return std::numbers::sqrt3;
   }
 }
 

@@ -25,7 +25,8 @@ def laws(d):
                                        "sigma_f_MPa"))
     k = sf / np.sqrt(3)
     ls, lpsi, lv, lT = np.log(s / 1000), np.log(psi), np.log(v / 100), np.log(T / 100)
-    wp, wv, wT = np.log(np.maximum(s, 1)), np.log(np.maximum(v, 10)), np.log(np.maximum(T, 20))
+    wp, wv, wT = (np.log(np.maximum(x, low) / at)
+                  for x, low, at in ((s, 1, 1000), (v, 10, 100), (T, 20, 100)))
     lev = k * (1 - np.exp(-1.25 * s / sf))
     q = s / sf
 
@@ -57,7 +58,7 @@ def laws(d):
             s * (p[0] + p[1] * ls + p[2] * lpsi + p[3] * lv + p[4] * lT))),
         "exp_coulomb": ([0.08, 0, 0], lambda p: limited(s * p[0] * np.exp(p[1] * ls +
                                                                          p[2] * (T - 20)))),
-        "wzl": ([0.0623, -0.1542, -0.1192, 0.1017], lambda p: limited(
+        "wzl": ([0.0198, -0.1542, -0.1192, 0.1017], lambda p: limited(
             s * p[0] * np.exp(p[1] * wp + p[2] * wv + p[3] * wT))),
     }
 

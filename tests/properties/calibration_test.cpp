@@ -191,6 +191,72 @@ TEST(Calibration, WanheimBayReachesFullSticking) {
   }
 }
 
+// tau of f = 0.5 from slip lines, which know p/k alone.
+std::vector<double> slip_line_tau(const Dataset& data, double k_over_sigma_f) {
+  const double f = 0.5, pi = std::acos(-1.0);
+  const double mu = f / (1 + pi / 2 + std::acos(f) + std::sqrt(1 - f * f));
+  const double at_limit = 1 - std::sqrt(1 - f), left = f - at_limit;
+  std::vector<double> tau;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    const double k = k_over_sigma_f * data.values("sigma_f_MPa")[i];
+    const double line = mu * data.values("sigma_n_MPa")[i] / k;
+    const double curve = at_limit + left * (1 - std::exp((at_limit - line) / left));
+    tau.push_back(k * (line <= at_limit ? line : curve));
+  }
+  return tau;
+}
+
+TEST(Calibration, WanheimBayFindsItsFactorWhateverKTheJobMeans) {
+  for (const auto& [yield, k_over_sigma_f] :
+       {std::pair{models::ShearYield::mises, 1 / std::sqrt(3.0)},
+        std::pair{models::ShearYield::tresca, 0.5},
+        std::pair{models::ShearYield::flow_stress, 1.0}}) {
+    Dataset data = test::sample_data(test::plausible_model(*find_law("wanheim_bay")));
+    for (data::Column& column : data.columns)
+      if (column.name == "tau_R_MPa") column.values = slip_line_tau(data, k_over_sigma_f);
+    CalibrationInput input{data, data, {}, {}};
+    input.models.use = {"wanheim_bay"};
+    input.models.shear_yield = yield;
+    const ModelFit fit = calibrate::calibrate(input).fits.front();
+    EXPECT_NEAR(fit.model.parameters[0], 0.5, 1e-7) << models::shear_yield_name(yield);
+    EXPECT_LT(fit.training.mae_MPa, 1e-6);
+  }
+}
+
+// Files of 0.1.0, whose parameters meant something else.
+TEST(Calibration, ParametersOfAnotherFormulaAreNotTakenForThisOne) {
+  const Dataset data = test::sample_data(test::plausible_model(*find_law("wzl")));
+  const auto file_of = [&](const char* law, models::ShearYield yield) {
+    CalibrationInput input{data, data, {}, {}};
+    input.models.use = {law};
+    input.models.shear_yield = yield;
+    input.options.bootstrap = 0;
+    const Calibration calibration = calibrate::calibrate(input);
+    return calibrate::model_json(calibration.fits.front(), calibration);
+  };
+  const auto old_file = [](std::string text) {
+    const std::string revision = ",\n  \"revision\": 1";
+    const std::size_t at = text.find(revision);
+    return at == text.npos ? text : text.erase(at, revision.size());
+  };
+  const std::string mises = file_of("wanheim_bay", models::ShearYield::mises);
+  EXPECT_EQ(mises.find("revision"), mises.npos); // as it was
+  EXPECT_NO_THROW(calibrate::parse_model(mises, "m.json"));
+  for (const std::string& now : {file_of("wzl", models::ShearYield::mises),
+                                 file_of("wanheim_bay", models::ShearYield::tresca)}) {
+    EXPECT_NO_THROW(calibrate::parse_model(now, "m.json"));
+    ASSERT_NE(old_file(now), now);
+    try {
+      calibrate::parse_model(old_file(now), "m.json");
+      ADD_FAILURE() << "was taken";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith("m.json: error: was made with another formula "
+                                                    "of w"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("hint: calibrate again with this version"));
+    }
+  }
+}
+
 TEST(Calibration, TheWeightedMedianIsTheLeastMeanErrorOfOneParameter) {
   test::SampleOptions options;
   options.experiments = 5;

@@ -160,10 +160,11 @@ TEST(Laws, HaveTheNamesOfTheContract) {
   EXPECT_EQ(models::law_names(), contract);
 }
 
-double tau(const std::string& name, std::vector<double> parameters, double sigma_n,
-           double sigma_f) {
+double tau(const std::string& name, std::vector<double> parameters, double sigma_n, double sigma_f,
+           const models::Conventions& conventions = {}) {
   const models::Law& law = *models::find_law(name);
-  const Program program(tau_formula(law, {}), {"sigma_n_MPa", "sigma_f_MPa"}, parameter_names(law));
+  const Program program(tau_formula(law, conventions), {"sigma_n_MPa", "sigma_f_MPa"},
+                        parameter_names(law));
   const std::vector<double> row{sigma_n, sigma_f};
   return program(row, parameters);
 }
@@ -195,6 +196,54 @@ TEST(WanheimBay, IsContinuousWithContinuousSlopeAtItsLimitOfProportionality) {
   const double right = (tau("wanheim_bay", {f}, s + h, sf) - tau("wanheim_bay", {f}, s, sf)) / h;
   EXPECT_NEAR(left, right, 1e-5);
   EXPECT_NEAR(tau("wanheim_bay", {f}, 1e5, sf), f * sf / std::sqrt(3.0), 1e-6);
+}
+
+// tau/k over p/k, as slip lines give it: nothing in it knows the flow stress.
+double slip_line_tau_over_k(double p_over_k, double f) {
+  const double pi = std::acos(-1.0), mu = f / (1 + pi / 2 + std::acos(f) + std::sqrt(1 - f * f));
+  const double at_limit = 1 - std::sqrt(1 - f), limit = at_limit / mu;
+  if (p_over_k <= limit) return mu * p_over_k;
+  const double left = f - at_limit;
+  return at_limit + left * (1 - std::exp((1 - p_over_k / limit) * at_limit / left));
+}
+
+TEST(WanheimBay, FollowsSlipLinesWhateverKTheJobMeans) {
+  for (const auto& [yield, k_over_sigma_f] :
+       {std::pair{models::ShearYield::mises, 1 / std::sqrt(3.0)},
+        std::pair{models::ShearYield::tresca, 0.5},
+        std::pair{models::ShearYield::flow_stress, 1.0}}) {
+    models::Conventions conventions;
+    conventions.shear_yield = yield;
+    conventions.k_over_sigma_f = models::shear_yield_ratio(yield);
+    for (const double sigma_n : {10.0, 300.0, 600.0, 900.0, 2000.0, 6000.0})
+      for (const double f : {0.1, 0.5, 0.9}) {
+        const double k = k_over_sigma_f * 450;
+        EXPECT_NEAR(tau("wanheim_bay", {f}, sigma_n, 450, conventions),
+                    k * slip_line_tau_over_k(sigma_n / k, f), 1e-9 * k)
+            << sigma_n << " " << f << " " << models::shear_yield_name(yield);
+      }
+  }
+}
+
+TEST(Wzl, OfItsPublishedConstantsIsThePublishedProduct) {
+  const models::Law& law = *models::find_law("wzl");
+  models::Conventions conventions;
+  conventions.shear_limit = false;
+  const Program program(tau_formula(law, conventions), {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"},
+                        parameter_names(law));
+  std::vector<double> published;
+  for (const models::Parameter& p : law.parameters)
+    published.push_back(p.start);
+  EXPECT_NEAR(published[0], 0.0198, 5e-5);
+  for (const double p : {0.5, 20.0, 1500.0})
+    for (const double v : {2.0, 80.0})
+      for (const double T : {10.0, 150.0}) {
+        const std::vector<double> row{p, v, T};
+        const double mu = 0.0623 * std::pow(std::max(p, 1.0), -0.1542) *
+                          std::pow(std::max(v, 10.0), -0.1192) *
+                          std::pow(std::max(T, 20.0), 0.1017);
+        EXPECT_NEAR(program(row, published), mu * p, 1e-12 * p) << p << " " << v << " " << T;
+      }
 }
 
 TEST(Levanov, InitialCoefficientIs125mOverRoot3) {

@@ -82,7 +82,7 @@ Model plausible_model(const models::Law& law) {
       {"levanov", {0.3}},
       {"log_coulomb", {0.09, -0.02, 0.006, -0.008, -0.004}},
       {"exp_coulomb", {0.08, -0.3, -0.001}},
-      {"wzl", {0.4, -0.15, -0.06, -0.05}}};
+      {"wzl", {0.0855, -0.15, -0.06, -0.05}}};
   Model model;
   model.law = models::held_law(law);
   if (const auto found = truth.find(law.name); found != truth.end())

@@ -172,9 +172,9 @@ TEST(StepNames, AreThoseOfTheField) {
                           "tau = ft_min(ft_max(ft_min(mu*sigma_n_MPa, limit), 0.0), k)"));
   const Table wzl = table_of(test::plausible_model(*models::find_law("wzl")));
   EXPECT_THAT(statements(wzl, *wzl.extension, Language::c).lines,
-              ElementsAre("ln_sigma_n = log(ft_max(sigma_n_MPa, 1.0))",
-                          "ln_v_rel = log(ft_max(v_rel_mm_s, 10.0))",
-                          "ln_T_contact = log(ft_max(T_contact_C, 20.0))",
+              ElementsAre("ln_sigma_n = log(ft_max(sigma_n_MPa, 1.0)/1000.0)",
+                          "ln_v_rel = log(ft_max(v_rel_mm_s, 10.0)/100.0)",
+                          "ln_T_contact = log(ft_max(T_contact_C, 20.0)/100.0)",
                           "tau = C*exp(a*ln_sigma_n + b*ln_v_rel + g*ln_T_contact)"));
 }
 
