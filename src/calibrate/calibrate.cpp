@@ -16,6 +16,7 @@
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/refit.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -210,6 +211,7 @@ Calibration calibrate(const CalibrationInput& input) {
   calibration.loss = input.options.loss;
   calibration.seed = input.options.seed;
   calibration.judged_by = input.judged_by;
+  calibration.deliver = input.options.deliver;
   calibration.synthetic = is_synthetic(input.training) || is_synthetic(input.validation);
   calibration.data_hash = data::fingerprint(input.training, input.validation);
   calibration.validation_experiments = input.validation.experiments;
@@ -230,6 +232,8 @@ Calibration calibrate(const CalibrationInput& input) {
   add_other_splits(calibration, conventions, input);
   add_noise_floors(calibration, input);
   add_conditional(calibration, input);
+  if (input.options.deliver == Deliver::all && on_other_experiments(input.judged_by))
+    refit_on_all(calibration, conventions, input);
   return calibration;
 }
 

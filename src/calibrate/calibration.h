@@ -19,6 +19,7 @@
 //     resampling        errors per experiment, whole experiments resampled
 //     metrics           MAE, RMSE, bias with intervals
 //     experiment_errors the same for single experiments
+//     refit             laws fitted again to all experiments, to be delivered
 //     cross_validation  experiments predicted by laws fitted without them
 //     comparison        which law is better than which
 //     choice            what the best law's error owes to its having been chosen
@@ -30,6 +31,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +63,13 @@ struct ModelFit {
   // Least and largest of each input in the training data, by name; empty in files of versions that
   // did not write it.
   std::map<std::string, std::pair<double, double>> data_range;
+  // deliver = all: the same law fitted to training and validation experiments together. Its
+  // `training` errors are of all of them, its `validation` errors cross-validated over them.
+  std::shared_ptr<const ModelFit> on_all;
+  bool fitted_to_all = false; // it is such a one itself
+
+  // What tables, sources, predictions and models/NAME.json are made of.
+  const ModelFit& delivered() const { return on_all ? *on_all : *this; }
 };
 
 // A law that the columns do not allow.
@@ -83,6 +92,8 @@ struct Calibration {
   Choice choice;                        // what choosing the best of them does to its error
   std::vector<NoiseFloor> noise_floors; // the most trustworthy first
   Conditional conditional;
+  Deliver deliver = Deliver::training;
+  std::size_t delivery_folds = 0; // of experiments, that cross-validated ModelFit::on_all
 };
 
 struct CalibrationInput {
@@ -92,6 +103,7 @@ struct CalibrationInput {
   CalibrationOptions options;
   JudgedBy judged_by = JudgedBy::validation_files;
   const data::Dataset* undivided = nullptr; // held_out: both together, to draw the split again
+  const data::Dataset* all = nullptr; // options.deliver: both together; nullptr: made where needed
 };
 
 // The job's conventions, with the shear limit off where the data have no flow stress.

@@ -41,6 +41,10 @@ Loss parse_loss(const std::string& name) {
   return name == "huber" ? Loss::huber : Loss::l2;
 }
 
+const char* deliver_name(Deliver deliver) {
+  return deliver == Deliver::all ? "all" : "training";
+}
+
 int whole_seconds_above(double seconds) {
   for (const int bound : {10, 60, 600, 3600})
     if (seconds < bound) return bound;
@@ -241,6 +245,18 @@ BandCheck parse_band(const Json& j) {
           io::count_of(j.at("validation_experiments"))};
 }
 
+Json fit_json(const ModelFit& fit);
+
+// The law fitted to all experiments. None is left that could judge it: what is called validation
+// of the others is cross-validation here.
+Json delivered_json(const ModelFit& fit) {
+  Json j = fit_json(fit);
+  j["cross_validation"] = j["validation"];
+  for (const char* key : {"validation", "by_experiment_left_out"})
+    j.erase(key);
+  return j;
+}
+
 Json fit_json(const ModelFit& fit) {
   Json j = {{"name", fit.model.law->name},
             {"title", fit.model.law->title},
@@ -266,6 +282,8 @@ Json fit_json(const ModelFit& fit) {
     j["revision"] = revision;
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
+  if (fit.fitted_to_all) j["fitted_to"] = "all";
+  if (fit.on_all) j["delivered"] = delivered_json(*fit.on_all);
   return j;
 }
 
@@ -289,6 +307,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   fit.model.law = parse_law(j, file);
   fit.model.experiment_gains = j.at("experiment_gains").get<std::vector<double>>();
   fit.data_range = parse_data_range(j);
+  fit.fitted_to_all = j.value("fitted_to", "training") == "all"; // none: files of 0.1.0
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
   const Json& c = j.at("conventions");
   fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
@@ -306,6 +325,30 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
     fit.std_error.push_back(number_or_nan(list[p].at("std_error")));
   }
   return fit;
+}
+
+// What calibration.json says of a fit beside its model; `judged` names its errors.
+ModelFit parse_whole_fit(const Json& j, const char* judged, const std::string& file) {
+  ModelFit fit = parse_fit(j, file);
+  fit.std_error_method = j.at("std_error_method");
+  fit.termination = j.at("termination");
+  fit.evaluations = io::count_of(j.at("evaluations"));
+  fit.seconds = j.at("wall_time_below_s").get<double>() - 0.5; // is written the same again
+  fit.remarks = j.at("remarks").get<std::vector<std::string>>();
+  fit.training = parse_metrics(j.at("training"));
+  fit.validation = parse_metrics(j.at(judged));
+  fit.band = parse_band(j.at("band"));
+  return fit;
+}
+
+std::shared_ptr<const ModelFit> parse_delivered(const Json& j, const std::string& law,
+                                                const std::string& file) {
+  ModelFit fit = parse_whole_fit(j, "cross_validation", file);
+  if (fit.model.law->name != law)
+    throw InputError({file, 0, 0},
+                     fmt::format("what is delivered of '{}' is a '{}'", law, fit.model.law->name),
+                     "calibrate again");
+  return std::make_shared<const ModelFit>(std::move(fit));
 }
 
 Json left_out_json(const std::vector<LeftOut>& left_out) {
@@ -338,6 +381,8 @@ std::string calibration_json(const Calibration& calibration) {
                         {"loss", loss_name(calibration.loss)},
                         {"seed", calibration.seed},
                         {"judged_by", judged_by_name(calibration.judged_by)},
+                        {"deliver", deliver_name(calibration.deliver)},
+                        {"delivery_folds", calibration.delivery_folds},
                         {"validation_experiments", calibration.validation_experiments},
                         {"noise_floor", noise_floors_json(calibration.noise_floors)},
                         {"models", models},
@@ -362,19 +407,18 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       calibration.left_out.push_back(parse_left_out(one.get<std::string>(), file));
     calibration.noise_floors = parse_noise_floors(j.at("noise_floor"));
     calibration.judged_by = parse_judged_by(j.at("judged_by"));
+    if (j.contains("deliver")) { // not in files of 0.1.0
+      calibration.deliver =
+          j.at("deliver").get<std::string>() == "all" ? Deliver::all : Deliver::training;
+      calibration.delivery_folds = io::count_of(j.at("delivery_folds"));
+    }
     calibration.choice = parse_choice(j.at("choice"));
     calibration.comparisons = parse_comparisons(j.at("comparisons"));
     calibration.conditional = parse_conditional(j.at("conditional"));
     for (const Json& one : j.at("models")) {
-      ModelFit fit = parse_fit(one, file);
-      fit.std_error_method = one.at("std_error_method");
-      fit.termination = one.at("termination");
-      fit.evaluations = io::count_of(one.at("evaluations"));
-      fit.seconds = one.at("wall_time_below_s").get<double>() - 0.5; // is written the same again
-      fit.remarks = one.at("remarks").get<std::vector<std::string>>();
-      fit.training = parse_metrics(one.at("training"));
-      fit.validation = parse_metrics(one.at("validation"));
-      fit.band = parse_band(one.at("band"));
+      ModelFit fit = parse_whole_fit(one, "validation", file);
+      if (one.contains("delivered"))
+        fit.on_all = parse_delivered(one.at("delivered"), fit.model.law->name, file);
       fit.unseen =
           parse_unseen(one.at("by_experiment_left_out"), calibration.validation_experiments);
       calibration.fits.push_back(std::move(fit));
@@ -388,9 +432,9 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
             {"tool_version", FRICTAB_VERSION},
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
-  const Json body = fit_json(fit);
+  const Json body = fit_json(fit.delivered());
   for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
-                          "experiment_gains", "data_range", "law", "revision"})
+                          "experiment_gains", "data_range", "law", "revision", "fitted_to"})
     if (body.contains(key)) j[key] = body.at(key);
   return io::json_text(j);
 }

@@ -14,6 +14,9 @@ namespace frictab::calibrate {
 
 enum class Loss { l2, l1, huber };
 
+// What the delivered laws are fitted to: the training experiments, as they were judged, or all.
+enum class Deliver { training, all };
+
 struct ModelOptions {
   std::vector<std::string> use;       // empty: all that the columns allow
   std::vector<std::string> files;     // of laws
@@ -31,6 +34,7 @@ struct CalibrationOptions {
   std::size_t bootstrap = 1000;          // resamples of experiments for intervals and comparisons
   std::optional<double> condition_on_mm; // gain per experiment from its first millimetres
   Place place;                           // of condition_on_mm
+  Deliver deliver = Deliver::training;
 };
 
 } // namespace frictab::calibrate

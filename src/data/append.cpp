@@ -75,4 +75,41 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
       all.notes.push_back(std::move(note));
 }
 
+namespace {
+
+// Of the same name, and both text or both numbers.
+void keep_columns_of(const Dataset& other, Dataset& data) {
+  std::erase_if(data.columns, [&](const Column& column) {
+    const Column* same = other.find(column.name);
+    return !same || same->levels.empty() != column.levels.empty();
+  });
+}
+
+void call_apart(const std::vector<std::string>& taken, std::vector<std::string>& names) {
+  const auto is_taken = [&](const std::string& name) {
+    return std::find(taken.begin(), taken.end(), name) != taken.end() ||
+           std::count(names.begin(), names.end(), name) > 1;
+  };
+  for (std::string& name : names) {
+    const std::string own = name;
+    for (int n = 2; is_taken(name); ++n)
+      name = fmt::format("{} ({})", own, n);
+  }
+}
+
+} // namespace
+
+Dataset together(const Dataset& first, const Dataset& second) {
+  Dataset all = first, more = second;
+  keep_columns_of(second, all);
+  keep_columns_of(first, more);
+  call_apart(first.experiments, more.experiments);
+  FaultList faults; // none is left
+  append(all, std::move(more), "", faults);
+  faults.throw_if_any();
+  all.oracle_MPa.clear();
+  fingerprint(all);
+  return all;
+}
+
 } // namespace frictab::data

@@ -11,6 +11,7 @@
 
 namespace frictab::job::schema {
 
+using calibrate::Deliver;
 using calibrate::Loss;
 
 namespace {
@@ -23,6 +24,9 @@ std::vector<std::string> shear_yields() {
 }
 std::vector<std::string> losses() {
   return {"L2", "L1", "huber"};
+}
+std::vector<std::string> deliveries() {
+  return {"training", "all"}; // in the order of calibrate::Deliver
 }
 std::vector<std::string> interpolations() {
   std::vector<std::string> names;
@@ -67,6 +71,14 @@ template <> std::string Kind<table::Interpolation>::show(table::Interpolation v)
 
 template <> std::string Kind<Loss>::show(Loss v) {
   return toml_quoted(losses()[static_cast<std::size_t>(v)]);
+}
+
+template <> Deliver Kind<Deliver>::from(KeyValue& v) {
+  return std::get<std::string>(v) == "all" ? Deliver::all : Deliver::training;
+}
+
+template <> std::string Kind<Deliver>::show(Deliver v) {
+  return toml_quoted(deliveries()[static_cast<std::size_t>(v)]);
 }
 
 template <> models::ShearYield Kind<models::ShearYield>::from(KeyValue& v) {
@@ -199,6 +211,15 @@ std::vector<KeyRule> model_keys() {
           "reported apart and never ranked",
           "unconditional laws only", "1.0") |
           above(0),
+      key<Deliver>(
+          "calibration.deliver", [](Job & job) -> auto& { return job.calibration.deliver; },
+          "what tables, sources and models/NAME.json hold: training = the laws as they were "
+          "judged, "
+          "all = the laws fitted again to training and validation experiments together, with an "
+          "expected error from cross-validation by experiment; ranking and judged errors stay "
+          "those "
+          "of training, and a law with traced effects stays as traced") |
+          Allowed{"", deliveries},
   };
   return rules;
 }
@@ -212,7 +233,8 @@ std::vector<KeyRule> table_keys() {
       key<std::vector<std::string>>(
           "table.model", [](Job & job) -> auto& { return job.table.model; },
           "law or laws to tabulate: best (on held-out experiments, which so give it too small an "
-          "error), a name, a list, or all; NAME_traced is the law with the effects that trace found") |
+          "error), a name, a list, or all; NAME_traced is the law with the effects that trace "
+          "found") |
           Allowed{"friction law", laws_best_or_all, false, true, true},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
@@ -237,7 +259,9 @@ std::vector<KeyRule> table_keys() {
           Allowed{"", coordinates},
       key<std::string>(
           "table.range", [](Job & job) -> auto& { return job.table.range; },
-          "what axes reach where [table.axes] gives no range: data = the training data, table1 = "
+          "what axes reach where [table.axes] gives no range: data = the data that the law was "
+          "fitted "
+          "to, table1 = "
           "Table 1 of the paper as well, where the data cover half of it; nodes beyond the data "
           "are told by the summary, the table's file and the report") |
           Allowed{"", reaches},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/refit.h"
 #include "core/text.h"
 #include "report/benchmark_parts.h"
 #include "report/judged.h"
@@ -41,6 +42,30 @@ std::string row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) 
                      markdown_cell(parameters(fit)), markdown_cell(remarks));
 }
 
+// What is delivered: of laws fitted to all experiments, errors and parameters of their own.
+void add_delivery(std::string& out, const calibrate::Calibration& calibration, int decimals) {
+  std::string sentence = calibrate::delivery_sentence(calibration, decimals);
+  if (sentence.empty()) return;
+  sentence.front() = 'D';
+  out += "\n" + markdown_cell(sentence) + ".\n";
+  std::string rows;
+  for (const calibrate::ModelFit& judged : calibration.fits) {
+    if (!judged.on_all) continue;
+    const calibrate::ModelFit& fit = *judged.on_all;
+    const calibrate::Metrics& v = fit.validation;
+    rows +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(fit.model.law->name),
+                    fixed(v.mae_MPa, decimals), interval_text(v.mae_interval, decimals),
+                    fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals),
+                    markdown_cell(parameters(fit)), markdown_cell(join(fit.remarks, "; ")));
+  }
+  if (rows.empty()) return;
+  out +=
+      "\n| delivered law | cross-validated MAE | 95 % interval | RMSE | bias | parameters \u00B1 "
+      "standard error | remarks |\n|---|--:|---|--:|--:|---|---|\n" +
+      rows;
+}
+
 void add_published(std::string& out, const calibrate::Calibration& calibration) {
   out += fmt::format("\n## Published figures beside these\n\n"
                      "{} (*{}*)\n\n| | published MAE / MPa | here MAE / MPa |\n|---|---|---|\n",
@@ -74,6 +99,7 @@ std::string benchmark_md(const calibrate::Calibration& calibration) {
       out += row(calibration.fits[i], i + 1, decimals);
     out += floor_row(calibration, decimals);
     add_choice(out, calibration.choice, decimals);
+    add_delivery(out, calibration, decimals);
   }
   if (!calibration.left_out.empty()) out += "\nLeft out:\n\n";
   for (const calibrate::LeftOut& left : calibration.left_out)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/noise_floor.h"
+#include "calibrate/refit.h"
 #include "core/no_value.h"
 #include "core/text.h"
 #include "report/formula.h"
@@ -165,6 +166,16 @@ std::string method_text(const calibrate::Calibration& calibration) {
   return text;
 }
 
+// The ranking is of the laws that were judged.
+std::string delivery_text(const calibrate::Calibration& calibration) {
+  std::string text = calibrate::delivery_sentence(calibration, error_decimals(calibration));
+  if (text.empty()) return "";
+  text.front() = 'D';
+  const bool others = calibration.fits.front().on_all != nullptr;
+  return " " + svg::escape(text) + "." +
+         (others ? " Their parameters stand in models/NAME.json and in benchmark.md." : "");
+}
+
 void add_plots(TemplateValues& page, const ReportInput& input, std::vector<TemplateValues>& laws) {
   const bool has_plots = input.validation.has("tau_R_MPa") && input.validation.rows() > 0 &&
                          input.predicted.size() == laws.size() && !laws.empty();
@@ -190,7 +201,7 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   std::vector<TemplateValues>& laws = page.lists["laws"];
   page.lists["floor_rows"] = {};
   page.flags["has_laws"] = has_laws;
-  page.text["made_by"] = method_text(calibration);
+  page.text["made_by"] = method_text(calibration) + delivery_text(calibration);
   page.text["validation_size"] = page.text["bar_scale"] = "";
   page.text["plotted_rows"] = judged_words(calibration.judged_by).plotted;
   if (has_laws) {

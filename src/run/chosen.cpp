@@ -91,7 +91,7 @@ std::vector<models::Model> models_to_tabulate(const calibrate::Calibration& cali
   std::vector<models::Model> models;
   for (const ModelFit* fit : chosen)
     for (const double quantile : options.quantile)
-      models.push_back(calibrate::at_quantile(fit->model, quantile, options.place));
+      models.push_back(calibrate::at_quantile(fit->delivered().model, quantile, options.place));
   return models;
 }
 

@@ -10,6 +10,7 @@
 #include "codegen/flow_curve.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "data/append.h"
 #include "data/derived.h"
 #include "data/file_list.h"
 #include "data/load.h"
@@ -135,8 +136,14 @@ const data::Dataset& JobData::judged() const {
 }
 
 calibrate::CalibrationInput JobData::calibration_input(const job::Job& job) const {
-  return {training,        judged(),  job.models,
-          job.calibration, judged_by, undivided ? &*undivided : nullptr};
+  return {
+      training, judged(), job.models, job.calibration, judged_by, undivided ? &*undivided : nullptr,
+      all()};
+}
+
+const data::Dataset* JobData::all() const {
+  if (!delivers_all || !calibrate::on_other_experiments(judged_by)) return nullptr;
+  return undivided ? &*undivided : &*together;
 }
 
 JobData load_job_data(const job::Job& job) {
@@ -152,6 +159,9 @@ JobData load_job_data(const job::Job& job, FaultList& implausible) {
                      ? without_validation_files(job.data, job.calibration.seed, implausible)
                      : with_validation_files(job.data, implausible);
   add_oracle(job.data, data);
+  data.delivers_all = job.calibration.deliver == calibrate::Deliver::all;
+  if (data.delivers_all && data.judged_by == calibrate::JudgedBy::validation_files)
+    data.together = data::together(data.training, data.validation);
   check_export_inputs(job.exports, data.training);
   return data;
 }

@@ -16,10 +16,14 @@ struct JobData {
   data::Dataset validation; // no rows where each test is left out in turn
   calibrate::JudgedBy judged_by = calibrate::JudgedBy::validation_files;
   std::optional<data::Dataset> undivided; // both together, where the tool held some out
+  std::optional<data::Dataset> together;  // deliver = all: both, where they are files of their own
+  bool delivers_all = false;              // calibration.deliver
   std::string leak;                       // calibrate::leak_note
 
   // The tests that errors of prediction are taken on.
   const data::Dataset& judged() const;
+  // Training and validation together, where delivered laws are fitted to both; else nullptr.
+  const data::Dataset* all() const;
   calibrate::CalibrationInput calibration_input(const job::Job& job) const;
 };
 

@@ -309,13 +309,20 @@ const models::AssembledLaw& Pipeline::assembled(const models::Model& model) {
   return laws_.try_emplace(model.name(), model).first->second;
 }
 
+// The tests that the delivered law was fitted to: its tables reach what they reach. A law with
+// effects stays as it was traced.
+const data::Dataset& Pipeline::data_behind(const models::Model& model) const {
+  const data::Dataset* all = data_->all();
+  return all && !model.traced() ? *all : data_->training;
+}
+
 void Pipeline::check_sizes() {
   load_data();
   load_calibration();
   if (job_.exports.targets.empty()) return;
   for (const models::Model& model : models_to_tabulate(*calibration_, job_.table)) {
     const models::AssembledLaw& law = assembled(model);
-    const auto ranges = table::state_ranges(law, data_->training, job_.table);
+    const auto ranges = table::state_ranges(law, data_behind(model), job_.table);
     if (!table::is_streamed(law, ranges, job_.table)) continue;
     Table table;
     table.model = model.name();
@@ -326,7 +333,7 @@ void Pipeline::check_sizes() {
 }
 
 Table Pipeline::sample_table(const models::AssembledLaw& law) {
-  const auto ranges = table::state_ranges(law, data_->training, job_.table);
+  const auto ranges = table::state_ranges(law, data_behind(law.model), job_.table);
   if (!table::is_streamed(law, ranges, job_.table))
     return table::build_table(law, ranges, job_.table);
   const std::string name = law.model.name();
@@ -402,10 +409,11 @@ const models::AssembledLaw& Pipeline::law_of(const Table& table) {
   if (const auto known = laws_.find(table.model); known != laws_.end()) return known->second;
   load_calibration();
   for (const ModelFit& fit : calibration_->fits) {
-    models::Model model = fit.model;
+    models::Model model = fit.delivered().model;
     model.quantile = table.quantile();
     if (model.name() == table.model)
-      return assembled(calibrate::at_quantile(fit.model, table.quantile(), job_.table.place));
+      return assembled(
+          calibrate::at_quantile(fit.delivered().model, table.quantile(), job_.table.place));
   }
   throw InputError({job_.file, 0, 0}, "law '" + table.model + "' is not in calibration.json",
                    "calibrate it, or tabulate again");

@@ -93,6 +93,7 @@ private:
                                                   const table::Table& direct);
 
   double drift_allowed() const; // MPa
+  const data::Dataset& data_behind(const models::Model& model) const;
   const models::AssembledLaw& assembled(const models::Model& model);
   const models::AssembledLaw& law_of(const table::Table& table);
   table::Table direct_for_sources(const table::Table& table);

@@ -144,7 +144,7 @@ void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::str
 
 LawToPredict law_of_job(const job::Job& job, const std::string& name) {
   const calibrate::Calibration calibration = ResultDirectory(job).calibration();
-  return {fit_named(calibration, name, job.table), job.data};
+  return {fit_named(calibration, name, job.table).delivered(), job.data};
 }
 
 LawToPredict law_of_model_file(const std::string& file) {
@@ -159,6 +159,7 @@ Prediction predict(const LawToPredict& law, const std::string& file) {
   p.file = file;
   p.inputs = assembled.inputs;
   p.data_range = law.fit.data_range;
+  p.fitted_to_all = law.fit.fitted_to_all;
   p.data = load_rows(law.mapping, p.inputs, file);
   const auto [columns, tau] = calibrate::predict_with_columns(assembled, p.inputs, p.data);
   p.states = columns.values();
@@ -263,6 +264,9 @@ std::string prediction_text(const Prediction& p) {
                   report::count_of(p.data.experiments.size(), "experiment"), p.file);
   for (const auto& dropped : p.data.dropped)
     text += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
+  if (p.fitted_to_all)
+    text +=
+        "The law was fitted to all experiments of its job: on these its errors are of the fit\n";
   return text + errors_text(p) + band_text(p) + outside_text(p);
 }
 
@@ -272,6 +276,7 @@ std::string prediction_json(const Prediction& p) {
       {"model", p.model.law->name},       {"data", p.file},
       {"n_rows", p.data.rows()},          {"n_experiments", p.data.experiments.size()},
       {"band", p.band.has_value()},       {"rows_outside", p.rows_outside}};
+  if (p.fitted_to_all) j["fitted_to"] = "all";
   if (p.errors) {
     j["mae_MPa"] = p.errors->mae_MPa;
     j["rmse_MPa"] = p.errors->rmse_MPa;

@@ -45,6 +45,7 @@ struct Prediction {
   std::vector<std::string> inputs;          // of the law: states, columns, histories
   std::vector<std::vector<double>> states;  // of each input, per row, canonical unit
   std::vector<double> tau_MPa;              // of the law, per row
+  bool fitted_to_all = false;               // calibrate::ModelFit
   std::optional<PredictedBand> band;        // none where the calibration has too few experiments
   std::vector<double> residual_MPa;         // measured - law; empty where nothing was measured
   std::optional<calibrate::Metrics> errors; // of all rows, without intervals

@@ -12,6 +12,7 @@
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/refit.h"
 #include "codegen/table_text.h"
 #include "core/text.h"
 #include "io/json.h"
@@ -145,6 +146,8 @@ void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
   add_floor(out, calibration, decimals);
   add_comparison(out, calibration.comparisons);
   add_choice(out, calibration.choice, decimals);
+  const std::string delivery = calibrate::delivery_sentence(calibration, decimals);
+  if (!delivery.empty()) out += fmt::format("  {}\n", delivery);
   for (const calibrate::ModelFit& fit : calibration.fits)
     for (const std::string& remark : fit.remarks)
       out += fmt::format("  {}: {}\n", fit.model.law->name, remark);

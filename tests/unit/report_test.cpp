@@ -266,6 +266,8 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
       "| 2 | coulomb_0.08 | 26.30 | 21.60 to 31.60 | 30.20 | \u221224.80 | 28.50 | mu = 0.08 |  "
       "|\n"
       "\n"
+      "Delivered as judged: fitted to the 81 experiments of the training alone.\n"
+      "\n"
       "Left out:\n"
       "\n"
       "- wzl: needs v_rel_mm_s\n"

@@ -1,0 +1,140 @@
+// The laws once more, on all experiments.
+#include "calibrate/refit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "calibrate/cross_validation.h"
+#include "calibrate/experiment_errors.h"
+#include "calibrate/fit_law.h"
+#include "calibrate/folds.h"
+#include "calibrate/input_columns.h"
+#include "calibrate/metrics.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "data/append.h"
+
+namespace frictab::calibrate {
+
+using data::Dataset;
+
+namespace {
+
+// From so many experiments on, ten folds: each leaves out a tenth, and the network is trained ten
+// times and not a hundred.
+constexpr std::size_t many_experiments = 30, usual_folds = 10;
+
+std::vector<std::size_t> folds_of(std::size_t experiments, std::uint64_t seed) {
+  if (experiments >= many_experiments) return experiment_folds(experiments, usual_folds, seed, 0);
+  std::vector<std::size_t> alone(experiments);
+  std::iota(alone.begin(), alone.end(), 0);
+  return alone;
+}
+
+ModelFit fitted_to(const Dataset& all, const models::Law& law,
+                   const models::Conventions& conventions, const CalibrationOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  ModelFit fit = fit_law(law, conventions, all, options);
+  fit.fitted_to_all = true;
+  const models::AssembledLaw assembled(fit.model);
+  const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
+  fit.data_range = columns.ranges();
+  fit.training =
+      metrics(all.values("tau_R_MPa"), tau, all.first_row, options.bootstrap, options.seed);
+  fit.band = check_band(fit.model, {}, all.subset({}));
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return fit;
+}
+
+void cross_validate_fits(std::vector<ModelFit>& fits, const CrossValidation& cross,
+                         const CalibrationOptions& options) {
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    fits[i].validation = metrics(sums_of(cross.errors[i]), options.bootstrap, options.seed);
+    fits[i].band.inside = cross.bands[i].inside;
+    fits[i].band.experiments = cross.bands[i].experiments;
+  }
+}
+
+std::string folds_text(std::size_t folds, std::size_t experiments) {
+  if (folds == experiments) return "each experiment left out in turn";
+  return fmt::format("cross-validated by experiment in {} folds", folds);
+}
+
+std::string interval_words(const Interval& interval, int decimals) {
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return "";
+  return fmt::format(" ({:.{}f} .. {:.{}f})", interval.low, decimals, interval.high, decimals);
+}
+
+std::string experiments_words(std::size_t n) {
+  return fmt::format("{} experiment{}", thousands(n), n == 1 ? "" : "s");
+}
+
+// Where the laws are fitted to all experiments whatever the job says.
+std::string nothing_left_to_add(const Calibration& c) {
+  if (c.deliver == Deliver::training) return "";
+  const std::string all = experiments_words(c.fits.front().training.n_experiments);
+  if (c.judged_by == JudgedBy::fit)
+    return "deliver = \"all\" changes nothing: the laws are fitted to the one experiment there is";
+  return fmt::format("deliver = \"all\" changes nothing: the laws delivered are fitted to all {}, "
+                     "and the errors of those left out in turn are what to expect on new tests",
+                     all);
+}
+
+// Laws with effects: the search for these has seen the training experiments alone.
+std::string traced_words(const Calibration& c) {
+  std::vector<std::string> names;
+  for (const ModelFit& fit : c.fits)
+    if (!fit.on_all) names.push_back(fit.model.law->name);
+  if (names.empty()) return "";
+  return fmt::format("; {} {} delivered as traced, fitted to the training experiments alone",
+                     join(names, ", "), names.size() == 1 ? "is" : "are");
+}
+
+} // namespace
+
+void refit_on_all(Calibration& calibration, const models::Conventions& conventions,
+                  const CalibrationInput& input) {
+  std::optional<Dataset> made;
+  const Dataset& all =
+      input.all ? *input.all : made.emplace(data::together(input.training, input.validation));
+  std::vector<const models::Law*> laws;
+  for (const ModelFit& fit : calibration.fits)
+    laws.push_back(input.models.laws.find(fit.model.law->name));
+  std::vector<ModelFit> fits(laws.size());
+  Progress progress("calibrating on all experiments", laws.size());
+  parallel_for(laws.size(), [&](std::size_t i) {
+    fits[i] = fitted_to(all, *laws[i], conventions, input.options);
+    progress.tick();
+  });
+  const auto fold_of = folds_of(all.experiments.size(), input.options.seed);
+  cross_validate_fits(fits, cross_validate(laws, conventions, all, input.options, fold_of),
+                      input.options);
+  calibration.delivery_folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    calibration.fits[i].on_all = std::make_shared<const ModelFit>(std::move(fits[i]));
+}
+
+std::string delivery_sentence(const Calibration& c, int decimals) {
+  if (c.fits.empty()) return "";
+  if (!on_other_experiments(c.judged_by)) return nothing_left_to_add(c);
+  const std::string trained = experiments_words(c.fits.front().training.n_experiments);
+  if (c.deliver == Deliver::training)
+    return fmt::format("delivered as judged: fitted to the {} of the training alone", trained);
+  const auto first = std::find_if(c.fits.begin(), c.fits.end(),
+                                  [](const ModelFit& fit) { return fit.on_all != nullptr; });
+  if (first == c.fits.end()) return "";
+  const ModelFit& fit = *first->on_all;
+  return fmt::format(
+      "delivered are the laws fitted again to all {}; on new tests expect {:.{}f} MPa{} of {}, "
+      "{}; the errors above are of the fits to the {} of the training alone{}",
+      experiments_words(fit.training.n_experiments), fit.validation.mae_MPa, decimals,
+      interval_words(fit.validation.mae_interval, decimals), fit.model.law->name,
+      folds_text(c.delivery_folds, fit.training.n_experiments), trained, traced_words(c));
+}
+
+} // namespace frictab::calibrate
