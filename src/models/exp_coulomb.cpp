@@ -26,8 +26,9 @@ Law exp_coulomb() {
                   "does not print; this form is ours";
   law.parameters = {{"mu0", "1", "coefficient at 1000 MPa and 20 degC", 0.08, 1e-6, 2,
                      "experiments under load, below the shear limit"},
-                    {"a", "1", "exponent of the contact normal stress", 0, -3, 3,
-                     "experiments at several contact normal stresses"},
+                    {"a", "1",
+                     "exponent of the contact normal stress; below -1 tau_R would fall with it", 0,
+                     -1, 3, "experiments at several contact normal stresses"},
                     {"b", "1/K", "relative change per kelvin", 0, -0.1, 0.1,
                      "experiments at several temperatures"}};
   law.log_value = true;

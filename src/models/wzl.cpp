@@ -44,15 +44,15 @@ Law wzl() {
                   "lubricant-amount factor; the clamps are its. Published: C = 0.0623 at 1 MPa, "
                   "1 mm/s, 1 degC, a = -0.1542, b = -0.1192, g = 0.1017; C is 0.0198 at the "
                   "reference, which is ours";
-  law.parameters = {{"C", "1", "coefficient at p = 1000 MPa, v = 100 mm/s, T = 100 degC",
-                     published_C_at_reference(), 1e-9, 100,
-                     "experiments under load, below the shear limit"},
-                    {"a", "1", "exponent of the contact normal stress", published_a, -3, 3,
-                     "experiments at several contact normal stresses"},
-                    {"b", "1", "exponent of the sliding speed", published_b, -3, 3,
-                     "experiments at several sliding speeds above 10 mm/s"},
-                    {"g", "1", "exponent of the temperature", published_g, -3, 3,
-                     "experiments at several temperatures above 20 degC"}};
+  law.parameters = {
+      {"C", "1", "coefficient at p = 1000 MPa, v = 100 mm/s, T = 100 degC",
+       published_C_at_reference(), 1e-9, 100, "experiments under load, below the shear limit"},
+      {"a", "1", "exponent of the contact normal stress; below -1 tau_R would fall with it",
+       published_a, -1, 3, "experiments at several contact normal stresses"},
+      {"b", "1", "exponent of the sliding speed", published_b, -3, 3,
+       "experiments at several sliding speeds above 10 mm/s"},
+      {"g", "1", "exponent of the temperature", published_g, -3, 3,
+       "experiments at several temperatures above 20 degC"}};
   law.log_value = true;
   law.log_axes = {{"T_contact_C", true}};
   // ln mu bends where a clamp begins; a node there keeps the table exact.
