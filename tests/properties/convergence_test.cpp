@@ -152,9 +152,8 @@ TEST_P(SlowConvergence, NoneOf50StartsFindsABetterFit) {
       const calibrate::LawFit fit = calibrate::LawProblem(law, {}, data).fit(kind, 10);
       const calibrate::LossFunction loss{kind, kind == Loss::l1 ? 0.0 : 10};
       const double found = calibrate::mean_cost(problem, loss, fit.result.parameters);
-      // L1 is rounded off at its corners: where it stands is known to two millionths.
       const double best = best_of_many(problem, kind, found);
-      EXPECT_LE(found, best * (1 + (kind == Loss::l1 ? 2e-6 : 1e-6)))
+      EXPECT_LE(found, best * (1 + 1e-6))
           << shape.name << ", loss " << static_cast<int>(kind) << ": " << fit.result.termination
           << ", " << found / best - 1;
     }
