@@ -30,7 +30,7 @@ using models::Calibrated;
 
 namespace {
 
-// A state may vary by one experiment alone: without it the network has no input.
+// A state may vary by one experiment alone: without it a trained law has no input.
 bool varies_without_each(const models::Law& law, const CalibrationInput& input) {
   if (input.judged_by != JudgedBy::leave_one_out) return true;
   for (std::size_t e = 0; e < input.training.experiments.size(); ++e)
@@ -42,7 +42,7 @@ std::vector<std::string> missing_for(const models::Law& law, const models::Conve
                                      const CalibrationInput& input) {
   std::vector<std::string> missing;
   std::vector<std::string> needed = models::inputs(law, conventions);
-  if (law.calibrated == Calibrated::train) {
+  if (models::is_trained(law.calibrated)) {
     const auto states = network_inputs(law, input.training);
     needed.insert(needed.end(), states.begin(), states.end());
     const std::size_t least =
@@ -189,6 +189,11 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
 }
 
 } // namespace
+
+std::string size_of_trained(const ModelFit& fit) {
+  if (fit.network) return network_size(*fit.network);
+  return fit.polynomial ? polynomial_size(*fit.polynomial) : "";
+}
 
 std::string LeftOut::text() const {
   return law + ": needs " + needs;

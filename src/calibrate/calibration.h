@@ -13,6 +13,9 @@
 //     slip_distance     of rate-and-state friction, around the fit of all else
 //     network           training of the neural network: ensemble and weight decay
 //     network_fit       one of its nets
+//     polynomial        the polynomial and its order
+//     polynomial_bins   the rows it is fitted to, few per experiment
+//     polynomial_fit    its coefficients, with everything that scatters estimated
 //     fit_law           any law, by its own way
 //   how well it is known, and how well it does
 //     sandwich          standard errors by experiment
@@ -40,6 +43,7 @@
 #include "calibrate/judgement.h"
 #include "calibrate/network.h"
 #include "calibrate/options.h"
+#include "calibrate/polynomial.h"
 #include "data/dataset.h"
 #include "models/law.h"
 
@@ -58,8 +62,9 @@ struct ModelFit {
   BandCheck band; // of model.experiment_gains, on the validation experiments
   // Where each experiment was left out: its error by the law fitted without it, as filed.
   std::vector<ExperimentError> unseen;
-  std::vector<models::Model> without;   // that law, per experiment; kept out of files
-  std::optional<NetworkRecord> network; // how a neural network was trained
+  std::vector<models::Model> without;         // that law, per experiment; kept out of files
+  std::optional<NetworkRecord> network;       // how a neural network was trained
+  std::optional<PolynomialRecord> polynomial; // what a polynomial is made of
   // Least and largest of each input in the training data, by name; empty in files of versions that
   // did not write it.
   std::map<std::string, std::pair<double, double>> data_range;
@@ -71,6 +76,9 @@ struct ModelFit {
   // What tables, sources, predictions and models/NAME.json are made of.
   const ModelFit& delivered() const { return on_all ? *on_all : *this; }
 };
+
+// How large a law is whose numbers stand in its formula: "order 2, 20 terms"; empty of others.
+std::string size_of_trained(const ModelFit& fit);
 
 // A law that the columns do not allow.
 struct LeftOut {

@@ -112,6 +112,46 @@ NetworkRecord parse_network(const Json& j) {
   return r;
 }
 
+Json polynomial_json(const PolynomialRecord& r) {
+  Json terms = Json::array();
+  for (const PolynomialTerm& term : r.terms)
+    terms.push_back(
+        {{"term", term.text}, {"coefficient", term.coefficient}, {"std_error", term.std_error}});
+  const PolynomialNoise& n = r.noise;
+  return {{"inputs", r.inputs},
+          {"coordinates", r.coordinates},
+          {"order", r.order},
+          {"cv_mae_MPa_by_order", r.cv_mae_MPa},
+          {"bins", r.bins},
+          {"experiments", r.experiments},
+          {"scatter_of_ln_mu",
+           {{"between_experiments", n.gain},
+            {"slope_over_stroke", n.slope},
+            {"slow", n.slow},
+            {"slow_length_in_strokes", n.length},
+            {"of_a_bin", n.white}}},
+          {"spread_of_coefficients_by_order", r.spread},
+          {"terms", terms}};
+}
+
+PolynomialRecord parse_polynomial(const Json& j) {
+  PolynomialRecord r;
+  r.inputs = j.at("inputs").get<std::vector<std::string>>();
+  r.coordinates = j.at("coordinates").get<std::vector<std::string>>();
+  r.order = static_cast<unsigned>(io::count_of(j.at("order")));
+  r.cv_mae_MPa = j.at("cv_mae_MPa_by_order").get<std::vector<double>>();
+  r.bins = io::count_of(j.at("bins"));
+  r.experiments = io::count_of(j.at("experiments"));
+  const Json& n = j.at("scatter_of_ln_mu");
+  r.noise = {n.at("between_experiments"), n.at("slope_over_stroke"), n.at("slow"),
+             n.at("slow_length_in_strokes"), n.at("of_a_bin")};
+  r.spread = j.at("spread_of_coefficients_by_order").get<std::vector<double>>();
+  for (const Json& term : j.at("terms"))
+    r.terms.push_back(
+        {term.at("term"), term.at("coefficient"), number_or_nan(term.at("std_error"))});
+  return r;
+}
+
 // How the search for parameters was bounded: what a law with a name of its own has to say.
 Json bounds_json(const Law& law) {
   Json list = Json::array();
@@ -126,7 +166,10 @@ Json made_law_json(const Law& law, const models::Conventions& conventions) {
   Json j = {{"value", expr::to_text(formula.value)},
             {"combine", expr::to_text(formula.combine)},
             {"log_axes", law.log_axes}};
-  if (models::find_law(law.name)) return j;
+  if (models::find_law(law.name)) {
+    if (!law.kinks.empty()) j["kinks"] = law.kinks;
+    return j;
+  }
   j["base"] = law.base;
   j["quantity"] = models::quantity_name(law.quantity);
   j["log_value"] = law.log_value;
@@ -201,6 +244,8 @@ std::shared_ptr<const Law> parse_made_law(const Json& j, Law law, const std::str
                                 expr::parse_expr(j.at("combine").get<std::string>(), file)};
   law.build = [formula](const models::Conventions&) { return formula; };
   law.log_axes = j.at("log_axes").get<std::map<std::string, bool>>();
+  if (j.contains("kinks"))
+    law.kinks = j.at("kinks").get<std::map<std::string, std::vector<double>>>();
   return models::unregistered_law(std::move(law));
 }
 
@@ -280,6 +325,7 @@ Json fit_json(const ModelFit& fit) {
   if (const int revision = revision_of(*fit.model.law, fit.model.conventions);
       revision > 0 && models::is_registered(*fit.model.law))
     j["revision"] = revision;
+  if (fit.polynomial) j["polynomial"] = polynomial_json(*fit.polynomial);
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
   if (fit.fitted_to_all) j["fitted_to"] = "all";
@@ -309,6 +355,7 @@ ModelFit parse_fit(const Json& j, const std::string& file) {
   fit.data_range = parse_data_range(j);
   fit.fitted_to_all = j.value("fitted_to", "training") == "all"; // none: files of 0.1.0
   if (j.contains("training_record")) fit.network = parse_network(j.at("training_record"));
+  if (j.contains("polynomial")) fit.polynomial = parse_polynomial(j.at("polynomial"));
   const Json& c = j.at("conventions");
   fit.model.conventions = {parse_shear_yield(c.at("shear_yield"), file), c.at("k_over_sigma_f"),
                            c.at("shear_limit")};

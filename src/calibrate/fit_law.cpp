@@ -1,4 +1,4 @@
-// Constants, means, fits and the network, as one.
+// Constants, means, fits, the network and the polynomial, as one.
 #include "calibrate/fit_law.h"
 
 #include <algorithm>
@@ -173,6 +173,21 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
   return fit;
 }
 
+void fit_terms(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
+  FittedPolynomial fitted = regress_polynomial(*fit.model.law, data, fit.model.conventions);
+  fit.model.law = models::unregistered_law(std::move(fitted.law));
+  fit.model.parameters = {fitted.mu0};
+  fit.std_error = {fitted.mu0_error};
+  fit.std_error_method = "jackknife by experiment, the ridge held";
+  fit.evaluations = fitted.evaluations;
+  fit.termination = "closed form, scatter and ridge by restricted likelihood";
+  fit.remarks = std::move(fitted.remarks);
+  if (options.loss != Loss::l2)
+    fit.remarks.push_back("by generalised least squares, whatever calibration.loss says");
+  fit.model.experiment_gains = gains_of_new_experiments(std::move(fitted.held_out_gains), 0);
+  fit.polynomial = std::move(fitted.record);
+}
+
 } // namespace
 
 ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
@@ -199,8 +214,11 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
   case Calibrated::train:
     fit_ensemble(fit, data, options);
     break;
+  case Calibrated::regress:
+    fit_terms(fit, data, options);
+    break;
   }
-  if (law.calibrated != Calibrated::train)
+  if (!models::is_trained(law.calibrated))
     fit.model.experiment_gains = gains_of_new_experiments(
         experiment_gains(data.values("tau_R_MPa"), predict(fit.model, data), data.first_row),
         law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());

@@ -49,7 +49,7 @@ const models::Law& law_of(const std::string& name) {
   if (!law)
     throw InputError({}, "unknown friction law '" + name + "'",
                      suggest(name, job::shipped_law_names()));
-  if (law->calibrated == models::Calibrated::train)
+  if (models::is_trained(law->calibrated))
     throw InputError({}, name + " has no constants: it is trained on data", "frictab run JOB");
   return *law;
 }

@@ -48,11 +48,17 @@ struct Formula {
 };
 
 enum class Calibrated {
-  fixed, // constants of the literature
-  mean,  // means of mu_meas and m_meas over the training rows (the paper's way)
-  fit,   // by the loss of the job
-  train  // the formula itself is found: an ensemble of networks
+  fixed,  // constants of the literature
+  mean,   // means of mu_meas and m_meas over the training rows (the paper's way)
+  fit,    // by the loss of the job
+  train,  // the formula itself is found: an ensemble of networks
+  regress // the formula itself is found: a polynomial, by generalised least squares
 };
+
+// Whether the law's formula holds numbers from the data, behind one parameter that scales it.
+constexpr bool is_trained(Calibrated how) {
+  return how == Calibrated::train || how == Calibrated::regress;
+}
 
 struct Law {
   std::string name;

@@ -17,7 +17,7 @@ namespace {
 
 std::string parameters(const calibrate::ModelFit& fit) {
   const std::vector<models::Parameter>& list = fit.model.law->parameters;
-  if (fit.network) return calibrate::network_size(*fit.network);
+  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
   if (list.size() > 8) return fmt::format("{} parameters", list.size());
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < fit.model.parameters.size(); ++i) {

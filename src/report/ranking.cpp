@@ -34,6 +34,8 @@ std::string kind_text(const models::Law& law) {
     return "fitted";
   case Calibrated::train:
     return "trained";
+  case Calibrated::regress:
+    return "fitted, with its formula";
   }
   return "";
 }
@@ -86,7 +88,7 @@ std::string parameter_text(const models::Parameter& parameter, double value, dou
 
 std::string parameter_list(const calibrate::ModelFit& fit) {
   const models::Law& law = *fit.model.law;
-  if (fit.network) return calibrate::network_size(*fit.network);
+  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
   const std::size_t n = std::min(law.parameters.size(), fit.model.parameters.size());
   if (n > 8) return fmt::format("{} parameters, in models/{}.json", n, svg::escape(law.name));
   std::string text;

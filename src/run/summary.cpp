@@ -47,7 +47,7 @@ void add_data(std::string& out, const Pipeline& p) {
 }
 
 std::string parameters(const calibrate::ModelFit& fit) {
-  if (fit.network) return calibrate::network_size(*fit.network);
+  if (std::string size = calibrate::size_of_trained(fit); !size.empty()) return size;
   std::string text;
   for (std::size_t i = 0; i < fit.model.parameters.size(); ++i)
     text += fmt::format("{}{} {:.4g}", i ? ", " : "", fit.model.law->parameters[i].name,

@@ -27,10 +27,10 @@ using Eigen::VectorXd;
 constexpr double negligible_share = 1e-4; // of tau_R: the residual of a law that is exact
 
 bool is_trained(const models::Law& law) {
-  return law.calibrated == models::Calibrated::train;
+  return models::is_trained(law.calibrated);
 }
 
-// A trained law (a network) could have absorbed much that its one parameter cannot show: quadratic
+// A trained law could have absorbed much that its one parameter cannot show: quadratic
 // functions of its inputs stand for that.
 MatrixXd trained_directions(const std::vector<std::string>& inputs, const BlockColumns& columns,
                             const VectorXd& predicted) {

@@ -1,0 +1,247 @@
+// Experiments cut into bins by their states.
+#include "calibrate/polynomial_bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/quantity.h"
+
+namespace frictab::calibrate {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using models::PolynomialState;
+
+namespace {
+
+// Fewer blur the run-in, more say the same again: 7 to 14 are alike within 0.2 % of the error.
+constexpr std::size_t bins_of_an_experiment = 9;
+// Of the middle coefficient of all bins: less is noise about zero, of which a logarithm makes much.
+constexpr double least_share = 0.02;
+// How far beyond its outermost bins a state is followed, in shares of their range.
+constexpr double beyond_bins = 0.1;
+
+// Where a state reaches (nearly) zero its logarithm is taken of x + offset, the offset being what
+// 95 % of its positive values exceed. Degrees Celsius have no zero to count decades from, and a
+// signed state has no logarithm.
+PolynomialState coordinate(const std::string& name, std::span<const double> rows) {
+  PolynomialState state{.name = name};
+  const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+  state.low = *low;
+  state.high = *high;
+  if (data::find_quantity(name)->unit == "degC" || *low < 0) return state;
+  std::vector<double> positive;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(positive),
+               [](double x) { return x > 0; });
+  const auto small = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 20);
+  std::nth_element(positive.begin(), small, positive.end());
+  state.log = true;
+  if (*low < 0.1 * *small) state.offset = *small;
+  return state;
+}
+
+VectorXd standardised(const PolynomialState& state, std::span<const double> rows) {
+  VectorXd u(static_cast<Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    u(static_cast<Index>(i)) = state.u(rows[i]);
+  u.array() -= u.mean();
+  const double spread = std::sqrt(u.squaredNorm() / static_cast<double>(u.size()));
+  return spread > 0 ? VectorXd(u / spread) : u;
+}
+
+// The cuts of one experiment.
+class StateTree {
+public:
+  // sums: of the standardised states over the rows before each, rows + 1 x states.
+  explicit StateTree(const MatrixXd& sums) : sums_(sums) {}
+
+  std::vector<Index> cuts(Index from, Index to) const {
+    std::vector<Part> parts{best_cut(from, to)};
+    while (parts.size() < bins_of_an_experiment) {
+      const auto widest = std::max_element(
+          parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.gain < b.gain; });
+      if (widest->cut < 0) break;
+      const Part whole = *widest;
+      *widest = best_cut(whole.from, whole.cut);
+      parts.insert(widest + 1, best_cut(whole.cut, whole.to));
+    }
+    std::vector<Index> cuts;
+    for (const Part& part : parts)
+      cuts.push_back(part.from);
+    cuts.push_back(to);
+    return cuts;
+  }
+
+private:
+  struct Part {
+    Index from, to;
+    Index cut = -1;   // -1: a single row
+    double gain = -1; // what the cut takes off the sum of squares
+  };
+
+  Part best_cut(Index from, Index to) const {
+    Part part{from, to};
+    for (Index cut = from + 1; cut < to; ++cut) {
+      const double left = static_cast<double>(cut - from), right = static_cast<double>(to - cut);
+      const double gain =
+          left * right / (left + right) *
+          ((sums_.row(cut) - sums_.row(from)) / left - (sums_.row(to) - sums_.row(cut)) / right)
+              .squaredNorm();
+      if (gain > part.gain) part = {from, to, cut, gain};
+    }
+    return part;
+  }
+
+  const MatrixXd& sums_;
+};
+
+struct RowColumns {
+  std::span<const double> stress, tau;
+  std::span<const double> flow_stress; // empty without the shear limit
+  MatrixXd u;                          // rows x states
+};
+
+struct BinOfRows {
+  double stress = 0, tau = 0, limit = 0, position = 0, rows = 0;
+  VectorXd u;
+};
+
+// Means over the rows under load; rows = 0 where there are none.
+BinOfRows bin_of(const RowColumns& columns, Index from, Index to) {
+  BinOfRows bin;
+  bin.u = VectorXd::Zero(columns.u.cols());
+  for (Index i = from; i < to; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    if (!(columns.stress[row] > 0)) continue;
+    ++bin.rows;
+    bin.stress += columns.stress[row];
+    bin.tau += columns.tau[row];
+    if (!columns.flow_stress.empty()) bin.limit += columns.flow_stress[row];
+    bin.u += columns.u.row(i).transpose();
+  }
+  const double count = std::max(bin.rows, 1.0);
+  for (double* sum : {&bin.stress, &bin.tau, &bin.limit})
+    *sum /= count;
+  bin.u /= count;
+  return bin;
+}
+
+double median_coefficient(const std::vector<std::vector<BinOfRows>>& bins) {
+  std::vector<double> mu;
+  for (const auto& experiment : bins)
+    for (const BinOfRows& bin : experiment)
+      if (bin.tau > 0) mu.push_back(bin.tau / bin.stress);
+  if (mu.empty()) return 0;
+  const auto middle = mu.begin() + static_cast<std::ptrdiff_t>(mu.size() / 2);
+  std::nth_element(mu.begin(), middle, mu.end());
+  return *middle;
+}
+
+std::vector<std::vector<BinOfRows>> cut_experiments(const std::vector<PolynomialState>& states,
+                                                    const data::Dataset& data,
+                                                    const RowColumns& columns) {
+  MatrixXd sums = MatrixXd::Zero(columns.u.rows() + 1, columns.u.cols());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const VectorXd u = standardised(states[i], data.values(states[i].name));
+    double sum = 0;
+    for (Index row = 0; row < u.size(); ++row)
+      sums(row + 1, static_cast<Index>(i)) = sum += u(row);
+  }
+  const StateTree tree(sums);
+  std::vector<std::vector<BinOfRows>> bins(data.experiments.size());
+  for (std::size_t e = 0; e < bins.size(); ++e) {
+    const auto begin = static_cast<Index>(data.first_row[e]);
+    const auto end = static_cast<Index>(data.first_row[e + 1]);
+    const std::vector<Index> cuts = tree.cuts(begin, end);
+    for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
+      BinOfRows bin = bin_of(columns, cuts[b], cuts[b + 1]);
+      bin.position = 0.5 * static_cast<double>(cuts[b] + cuts[b + 1] - 2 * begin) /
+                         static_cast<double>(end - begin) -
+                     0.5;
+      if (bin.rows > 0) bins[e].push_back(std::move(bin));
+    }
+  }
+  return bins;
+}
+
+// From the bins: where each state is held, its centre and half its range; without those that vary
+// inside bins only.
+void scale_states(PolynomialBins& bins, const MatrixXd& u) {
+  std::vector<Index> kept;
+  std::vector<PolynomialState> states;
+  for (Index i = 0; i < u.cols(); ++i) {
+    PolynomialState state = bins.states[static_cast<std::size_t>(i)];
+    const double low = u.col(i).minCoeff(), high = u.col(i).maxCoeff();
+    if (!(high - low > 1e-9 * (std::abs(low) + std::abs(high)))) continue;
+    state.centre = 0.5 * (low + high);
+    state.half = 0.5 * (high - low);
+    const auto x = [&](double at) { return state.log ? std::exp(at) - state.offset : at; };
+    const double margin = beyond_bins * (high - low);
+    state.low = std::max(state.low, x(low - margin));
+    state.high = std::min(state.high, x(high + margin));
+    kept.push_back(i);
+    states.push_back(state);
+  }
+  bins.z.resize(u.rows(), static_cast<Index>(kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    bins.z.col(static_cast<Index>(i)) =
+        (u.col(kept[i]).array() - states[i].centre) / states[i].half;
+  bins.states = std::move(states);
+}
+
+void take_bins(PolynomialBins& bins, const std::vector<std::vector<BinOfRows>>& all,
+               double least_mu, bool limited) {
+  std::vector<const BinOfRows*> kept;
+  bins.first = {0};
+  for (const auto& experiment : all) {
+    for (const BinOfRows& bin : experiment)
+      if (bin.tau > least_mu * bin.stress)
+        kept.push_back(&bin);
+      else
+        ++bins.without_friction;
+    if (const auto end = static_cast<Index>(kept.size()); end > bins.first.back())
+      bins.first.push_back(end);
+  }
+  const auto count = static_cast<Index>(kept.size());
+  for (auto member : {&PolynomialBins::ln_mu, &PolynomialBins::stress, &PolynomialBins::limit,
+                      &PolynomialBins::position, &PolynomialBins::rows})
+    (bins.*member).resize(count);
+  MatrixXd u(count, static_cast<Index>(bins.states.size()));
+  for (Index b = 0; b < count; ++b) {
+    const BinOfRows& bin = *kept[static_cast<std::size_t>(b)];
+    bins.ln_mu(b) = std::log(bin.tau / bin.stress);
+    bins.stress(b) = bin.stress;
+    bins.limit(b) = limited ? bin.limit : std::numeric_limits<double>::infinity();
+    bins.position(b) = bin.position;
+    bins.rows(b) = bin.rows;
+    u.row(b) = bin.u.transpose();
+  }
+  if (count > 0) scale_states(bins, u);
+}
+
+} // namespace
+
+PolynomialBins polynomial_bins(const std::vector<std::string>& names, const data::Dataset& data,
+                               const models::Conventions& conventions) {
+  PolynomialBins bins;
+  RowColumns columns{data.values("sigma_n_MPa"), data.values("tau_R_MPa"), {}, {}};
+  if (conventions.shear_limit) columns.flow_stress = data.values("sigma_f_MPa");
+  columns.u.resize(static_cast<Index>(data.rows()), static_cast<Index>(names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto rows = data.values(names[i]);
+    bins.states.push_back(coordinate(names[i], rows));
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      columns.u(static_cast<Index>(row), static_cast<Index>(i)) = bins.states.back().u(rows[row]);
+  }
+  bins.without_load = static_cast<std::size_t>(std::count_if(
+      columns.stress.begin(), columns.stress.end(), [](double p) { return !(p > 0); }));
+  const auto all = cut_experiments(bins.states, data, columns);
+  take_bins(bins, all, least_share * std::max(0.0, median_coefficient(all)),
+            conventions.shear_limit);
+  if (conventions.shear_limit) bins.limit *= conventions.k_over_sigma_f;
+  return bins;
+}
+
+} // namespace frictab::calibrate
