@@ -122,6 +122,7 @@ Json polynomial_json(const PolynomialRecord& r) {
           {"coordinates", r.coordinates},
           {"order", r.order},
           {"cv_mae_MPa_by_order", r.cv_mae_MPa},
+          {"shares_of_orders", r.shares},
           {"bins", r.bins},
           {"experiments", r.experiments},
           {"scatter_of_ln_mu",
@@ -140,6 +141,7 @@ PolynomialRecord parse_polynomial(const Json& j) {
   r.coordinates = j.at("coordinates").get<std::vector<std::string>>();
   r.order = static_cast<unsigned>(io::count_of(j.at("order")));
   r.cv_mae_MPa = j.at("cv_mae_MPa_by_order").get<std::vector<double>>();
+  r.shares = j.at("shares_of_orders").get<std::vector<double>>();
   r.bins = io::count_of(j.at("bins"));
   r.experiments = io::count_of(j.at("experiments"));
   const Json& n = j.at("scatter_of_ln_mu");

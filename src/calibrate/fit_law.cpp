@@ -174,7 +174,8 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
 }
 
 void fit_terms(ModelFit& fit, const Dataset& data, const CalibrationOptions& options) {
-  FittedPolynomial fitted = regress_polynomial(*fit.model.law, data, fit.model.conventions);
+  FittedPolynomial fitted =
+      regress_polynomial(*fit.model.law, data, fit.model.conventions, options.seed);
   fit.model.law = models::unregistered_law(std::move(fitted.law));
   fit.model.parameters = {fitted.mu0};
   fit.std_error = {fitted.mu0_error};

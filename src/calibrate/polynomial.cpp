@@ -9,6 +9,7 @@
 
 #include "calibrate/network.h"
 #include "calibrate/polynomial_bins.h"
+#include "calibrate/resampling.h"
 #include "core/no_value.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -23,6 +24,7 @@ using Eigen::VectorXd;
 using models::PolynomialDegrees;
 
 constexpr std::size_t least_with_bins = 3;
+constexpr std::size_t draws = 1000;
 
 double term_at(const PolynomialDegrees& degrees, const Eigen::RowVectorXd& z) {
   double product = 1;
@@ -30,14 +32,6 @@ double term_at(const PolynomialDegrees& degrees, const Eigen::RowVectorXd& z) {
     product *= models::legendre(degrees[i], z(static_cast<Index>(i)));
   return product;
 }
-
-// One order: its terms, and the fit of them.
-struct OrderFit {
-  std::vector<PolynomialDegrees> terms;
-  PolynomialFit fit;
-  VectorXd unseen_MPa; // tau_R of each bin by the fit without its experiment
-  double mae_MPa = 0;  // of those, over rows
-};
 
 PolynomialProblem problem_of(const PolynomialBins& bins,
                              const std::vector<PolynomialDegrees>& terms) {
@@ -52,30 +46,92 @@ PolynomialProblem problem_of(const PolynomialBins& bins,
   return problem;
 }
 
-OrderFit fit_order(const PolynomialBins& bins, unsigned order) {
-  OrderFit found{models::polynomial_terms(bins.states.size(), order), {}, {}, 0};
-  const PolynomialProblem problem = problem_of(bins, found.terms);
-  found.fit = fit_polynomial(problem);
-  found.unseen_MPa.resize(bins.ln_mu.size());
+// tau_R of each bin by the fit without its experiment, MPa.
+VectorXd unseen_MPa(const PolynomialBins& bins, const PolynomialProblem& problem,
+                    const PolynomialFit& fit) {
+  VectorXd tau(bins.ln_mu.size());
   for (std::size_t e = 0; e < bins.experiments(); ++e) {
     const Index from = bins.first[e], count = bins.first[e + 1] - from;
     const VectorXd ln_mu =
-        problem.design.middleRows(from, count) * found.fit.without.col(static_cast<Index>(e));
-    found.unseen_MPa.segment(from, count) =
-        (ln_mu.array().exp() * bins.stress.segment(from, count).array())
-            .min(bins.limit.segment(from, count).array());
+        problem.design.middleRows(from, count) * fit.without.col(static_cast<Index>(e));
+    tau.segment(from, count) = (ln_mu.array().exp() * bins.stress.segment(from, count).array())
+                                   .min(bins.limit.segment(from, count).array());
   }
-  const VectorXd measured = bins.ln_mu.array().exp() * bins.stress.array();
-  found.mae_MPa = (measured - found.unseen_MPa).cwiseAbs().dot(bins.rows) / bins.rows.sum();
-  return found;
+  return tau;
 }
 
-std::vector<double> unseen_gains(const PolynomialBins& bins, const VectorXd& unseen_MPa) {
+// Absolute errors of the bins summed over the rows of each experiment.
+VectorXd errors_of_experiments(const PolynomialBins& bins, const VectorXd& tau) {
+  const VectorXd measured = bins.ln_mu.array().exp() * bins.stress.array();
+  VectorXd sums(static_cast<Index>(bins.experiments()));
+  for (std::size_t e = 0; e < bins.experiments(); ++e) {
+    const Index from = bins.first[e], count = bins.first[e + 1] - from;
+    sums(static_cast<Index>(e)) =
+        (measured - tau).segment(from, count).cwiseAbs().dot(bins.rows.segment(from, count));
+  }
+  return sums;
+}
+
+// The fits of order 1, 2 and 3 of the same bins.
+struct OrderFits {
+  std::vector<PolynomialDegrees> terms; // of the highest order: those of a lower one stand in front
+  std::vector<PolynomialProblem> problems;
+  std::vector<PolynomialFit> fits;
+  Eigen::MatrixXd errors; // experiments x orders, as summed above
+};
+
+OrderFits fit_orders(const PolynomialBins& bins) {
+  constexpr auto orders = models::highest_degree;
+  OrderFits all;
+  all.terms = models::polynomial_terms(bins.states.size(), orders);
+  all.problems.resize(orders);
+  all.fits.resize(orders);
+  all.errors.resize(static_cast<Index>(bins.experiments()), orders);
+  parallel_for(orders, [&](std::size_t i) {
+    const auto order = static_cast<unsigned>(i) + 1;
+    all.problems[i] = problem_of(bins, models::polynomial_terms(bins.states.size(), order));
+    all.fits[i] = fit_polynomial(all.problems[i]);
+    all.errors.col(static_cast<Index>(i)) =
+        errors_of_experiments(bins, unseen_MPa(bins, all.problems[i], all.fits[i]));
+  });
+  return all;
+}
+
+// How often each order has the least error where experiments are drawn again.
+VectorXd shares_of_orders(const Eigen::MatrixXd& errors, std::uint64_t seed) {
+  VectorXd shares = VectorXd::Zero(errors.cols());
+  VectorXd times(errors.rows());
+  for (std::size_t i = 0; i < draws; ++i) {
+    resample(seed, i, {times.data(), static_cast<std::size_t>(times.size())});
+    Index least = 0;
+    (errors.transpose() * times).minCoeff(&least);
+    shares(least) += 1.0 / static_cast<double>(draws);
+  }
+  return shares;
+}
+
+// The mean of the fits by their shares, as one fit of the highest order that has any.
+PolynomialFit averaged(const OrderFits& all, const VectorXd& shares) {
+  Index highest = shares.size() - 1;
+  while (highest > 0 && !(shares(highest) > 0))
+    --highest;
+  PolynomialFit mean = all.fits[static_cast<std::size_t>(highest)];
+  mean.coefficients *= shares(highest);
+  mean.without *= shares(highest);
+  for (Index i = 0; i < highest; ++i) {
+    const PolynomialFit& fit = all.fits[static_cast<std::size_t>(i)];
+    mean.coefficients.head(fit.coefficients.size()) += shares(i) * fit.coefficients;
+    mean.without.topRows(fit.without.rows()) += shares(i) * fit.without;
+  }
+  return mean;
+}
+
+std::vector<double> unseen_gains(const PolynomialBins& bins, const VectorXd& tau) {
   const VectorXd measured = bins.ln_mu.array().exp() * bins.stress.array();
   std::vector<double> gains;
   for (std::size_t e = 0; e < bins.experiments(); ++e) {
     const Index from = bins.first[e], count = bins.first[e + 1] - from;
-    const auto predicted = unseen_MPa.segment(from, count);
+    const auto predicted = tau.segment(from, count);
     const VectorXd weighted = bins.rows.segment(from, count).cwiseProduct(predicted);
     gains.push_back(weighted.dot(measured.segment(from, count)) / weighted.dot(predicted));
   }
@@ -91,14 +147,12 @@ std::string coordinate_text(const models::PolynomialState& state) {
                      state.centre, state.half, state.name, state.low, state.high);
 }
 
-std::vector<PolynomialTerm> listed_terms(const OrderFit& chosen, const PolynomialBins& bins) {
-  const VectorXd errors = jackknife_errors(chosen.fit);
+std::vector<PolynomialTerm> listed_terms(const models::Polynomial& polynomial,
+                                         const VectorXd& errors) {
   std::vector<PolynomialTerm> terms;
-  for (std::size_t t = 0; t < chosen.terms.size(); ++t) {
-    const auto column = static_cast<Index>(t) + 1;
-    terms.push_back({models::term_text(chosen.terms[t], bins.states),
-                     chosen.fit.coefficients(column), errors(column)});
-  }
+  for (std::size_t t = 0; t < polynomial.terms.size(); ++t)
+    terms.push_back({models::term_text(polynomial.terms[t], polynomial.states),
+                     polynomial.coefficients[t], errors(static_cast<Index>(t) + 1)});
   std::stable_sort(terms.begin(), terms.end(),
                    [](const PolynomialTerm& a, const PolynomialTerm& b) {
                      return std::abs(a.coefficient) > std::abs(b.coefficient);
@@ -131,9 +185,23 @@ FittedPolynomial coulomb_instead(const data::Dataset& data, std::vector<std::str
   return fitted;
 }
 
-models::Polynomial polynomial_of(const OrderFit& chosen, const PolynomialBins& bins) {
-  const VectorXd& c = chosen.fit.coefficients;
-  return {bins.states, chosen.terms, {c.begin() + 1, c.end()}};
+// What there is to say but for the terms.
+PolynomialRecord describe_polynomial(const PolynomialBins& bins, const OrderFits& all,
+                                     const VectorXd& shares, const PolynomialFit& fit) {
+  PolynomialRecord record;
+  for (const models::PolynomialState& state : bins.states) {
+    record.inputs.push_back(state.name);
+    record.coordinates.push_back(coordinate_text(state));
+  }
+  record.order = static_cast<unsigned>(fit.spread.size());
+  const VectorXd mae = all.errors.colwise().sum().transpose() / bins.rows.sum();
+  record.cv_mae_MPa.assign(mae.begin(), mae.end());
+  record.shares.assign(shares.begin(), shares.end());
+  record.bins = static_cast<std::size_t>(bins.ln_mu.size());
+  record.experiments = bins.experiments();
+  record.noise = fit.noise;
+  record.spread = fit.spread;
+  return record;
 }
 
 } // namespace
@@ -143,39 +211,30 @@ std::string polynomial_size(const PolynomialRecord& record) {
 }
 
 FittedPolynomial regress_polynomial(const models::Law& law, const data::Dataset& training,
-                                    const models::Conventions& conventions) {
+                                    const models::Conventions& conventions, std::uint64_t seed) {
   const PolynomialBins bins = polynomial_bins(network_inputs(law, training), training, conventions);
   std::vector<std::string> remarks = left_out_remarks(bins);
   if (bins.experiments() < least_with_bins) return coulomb_instead(training, std::move(remarks));
-  std::vector<OrderFit> orders(models::highest_degree);
-  parallel_for(orders.size(),
-               [&](std::size_t i) { orders[i] = fit_order(bins, static_cast<unsigned>(i) + 1); });
-  const auto best =
-      std::min_element(orders.begin(), orders.end(),
-                       [](const OrderFit& a, const OrderFit& b) { return a.mae_MPa < b.mae_MPa; });
-  FittedPolynomial fitted{models::polynomial(polynomial_of(*best, bins)),
-                          std::exp(best->fit.coefficients(0)),
+  const OrderFits all = fit_orders(bins);
+  const VectorXd shares = shares_of_orders(all.errors, seed);
+  const PolynomialFit fit = averaged(all, shares);
+  models::Polynomial polynomial{bins.states, all.terms, {}};
+  polynomial.terms.resize(static_cast<std::size_t>(fit.coefficients.size()) - 1);
+  polynomial.coefficients.assign(fit.coefficients.begin() + 1, fit.coefficients.end());
+  const VectorXd errors = jackknife_errors(fit);
+  FittedPolynomial fitted{models::polynomial(polynomial),
+                          std::exp(fit.coefficients(0)),
                           0,
-                          unseen_gains(bins, best->unseen_MPa),
+                          {},
                           std::move(remarks),
                           0,
-                          {}};
-  fitted.mu0_error = fitted.mu0 * jackknife_errors(best->fit)(0);
-  PolynomialRecord& record = fitted.record;
-  for (const models::PolynomialState& state : bins.states) {
-    record.inputs.push_back(state.name);
-    record.coordinates.push_back(coordinate_text(state));
-  }
-  record.order = static_cast<unsigned>(best - orders.begin()) + 1;
-  for (const OrderFit& order : orders) {
-    record.cv_mae_MPa.push_back(order.mae_MPa);
-    fitted.evaluations += order.fit.evaluations;
-  }
-  record.bins = static_cast<std::size_t>(bins.ln_mu.size());
-  record.experiments = bins.experiments();
-  record.noise = best->fit.noise;
-  record.spread = best->fit.spread;
-  record.terms = listed_terms(*best, bins);
+                          describe_polynomial(bins, all, shares, fit)};
+  fitted.mu0_error = fitted.mu0 * errors(0);
+  fitted.held_out_gains =
+      unseen_gains(bins, unseen_MPa(bins, all.problems[fit.spread.size() - 1], fit));
+  fitted.record.terms = listed_terms(polynomial, errors);
+  for (const PolynomialFit& one : all.fits)
+    fitted.evaluations += one.evaluations;
   return fitted;
 }
 

@@ -1,4 +1,4 @@
-// Calibrates the polynomial: its order by cross-validation over experiments, its coefficients by
+// Calibrates the polynomial: its orders by cross-validation over experiments, its coefficients by
 // generalised least squares, their errors by experiment.
 #pragma once
 
@@ -21,12 +21,13 @@ struct PolynomialTerm {
 struct PolynomialRecord {
   std::vector<std::string> inputs;
   std::vector<std::string> coordinates; // of each input: "z_v = (ln(v_rel_mm_s) - 3.9)/2.3, ..."
-  unsigned order = 0;                   // chosen
+  unsigned order = 0;                   // highest with a share
   std::vector<double> cv_mae_MPa;       // of the bins of left-out experiments, per order from 1
+  std::vector<double> shares;           // of the orders in the law
   std::size_t bins = 0;                 // of rows, fitted to
   std::size_t experiments = 0;          // that have them
-  PolynomialNoise noise;                // of ln mu
-  std::vector<double> spread;           // of the coefficients of order 1, 2, 3
+  PolynomialNoise noise;                // of ln mu, about the fit of that order
+  std::vector<double> spread;           // of its coefficients of order 1, 2, 3
   std::vector<PolynomialTerm> terms;    // by size of the coefficient
 };
 
@@ -43,11 +44,14 @@ struct FittedPolynomial {
   PolynomialRecord record;
 };
 
-// The order is the one of 1, 2 and 3 that predicts left-out experiments with the least mean
-// absolute error of tau_R; scatter and ridge of each order are estimated once, from all
-// experiments. Depends on the data alone, not on the number of threads. Where fewer than three
-// experiments have a coefficient at all, it is Coulomb's law.
+// Order 1, 2 and 3 are fitted, and each predicts every experiment from the others; scatter and
+// ridge of an order are estimated once, from all. An order's share is how often it has the least
+// mean absolute error of tau_R where experiments are drawn again (weights by how sure a choice is:
+// Buckland, Burnham and Augustin 1997), and the coefficients are averaged by these shares: a choice
+// of one order alone is decided by the scatter of few experiments. Depends on data and seed, not on
+// the number of threads. Where fewer than three experiments have a coefficient at all, it is
+// Coulomb's law.
 FittedPolynomial regress_polynomial(const models::Law& law, const data::Dataset& training,
-                                    const models::Conventions& conventions);
+                                    const models::Conventions& conventions, std::uint64_t seed);
 
 } // namespace frictab::calibrate

@@ -42,8 +42,8 @@ std::string how_calibrated(models::Calibrated how) {
     return "trained on squared residuals of tau_R; weight decay by cross-validation over "
            "experiments";
   case models::Calibrated::regress:
-    return "by generalised least squares of ln mu over bins of rows; order by cross-validation "
-           "over experiments, scatter and ridge by restricted likelihood";
+    return "by generalised least squares of ln mu over bins of rows; orders averaged by "
+           "cross-validation over experiments, scatter and ridge by restricted likelihood";
   }
   return "";
 }
