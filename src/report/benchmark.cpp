@@ -78,6 +78,33 @@ void add_published(std::string& out, const calibrate::Calibration& calibration) 
   }
 }
 
+// Which terms matter: those that move mu by more than their own error.
+void add_polynomial(std::string& out, const calibrate::Calibration& calibration) {
+  constexpr std::size_t most = 15;
+  for (const calibrate::ModelFit& fit : calibration.fits) {
+    if (!fit.polynomial || fit.polynomial->terms.empty()) continue;
+    const calibrate::PolynomialRecord& record = *fit.polynomial;
+    const std::size_t listed = std::min(most, record.terms.size());
+    out += fmt::format(
+        "\n## What the polynomial is made of\n\nln mu = ln mu0 + the sum of b times its term; each "
+        "z runs from -1 to 1 over the data, P2 = (3 z\u00B2 - 1)/2, P3 = (5 z\u00B3 - 3 z)/2, so "
+        "that a term moves ln mu by b at most. Errors by experiment, the ridge held. The {} "
+        "largest "
+        "of {} terms{}:\n\n| term | b \u00B1 standard error |\n|---|--:|\n",
+        listed, record.terms.size(),
+        listed < record.terms.size() ? "; all are in calibration.json" : "");
+    for (std::size_t t = 0; t < listed; ++t) {
+      const calibrate::PolynomialTerm& term = record.terms[t];
+      const ValueText v = with_error(term.coefficient, term.std_error);
+      out += fmt::format("| {} | {}{} |\n", term.text, v.value,
+                         v.std_error.empty() ? "" : " \u00B1 " + v.std_error);
+    }
+    out += "\n";
+    for (const std::string& coordinate : record.coordinates)
+      out += "- " + coordinate + "\n";
+  }
+}
+
 } // namespace
 
 std::string benchmark_md(const calibrate::Calibration& calibration) {
@@ -108,6 +135,7 @@ std::string benchmark_md(const calibrate::Calibration& calibration) {
   add_comparison(out, calibration, decimals);
   add_all_errors(out, calibration, decimals);
   add_band(out, calibration);
+  add_polynomial(out, calibration);
   add_published(out, calibration);
   add_conditional_use(out, calibration, decimals);
   return out;

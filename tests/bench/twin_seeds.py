@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """The benchmark table on several SYNTHETIC campaigns: validation MAE per law, mean and spread.
 
-    /usr/bin/python3 tests/bench/twin_seeds.py build/release/frictab [SEEDS] [--set KEY=VALUE ...]
+    /usr/bin/python3 tests/bench/twin_seeds.py build/release/frictab [SEEDS] [--twin=OPTIONS] [--set KEY=VALUE ...]
 
-SEEDS: how many seeds of `frictab twin`, default 10. Each campaign has 81 experiments to train and 30
-to validate; the oracle is the twin's noise-free stress.
+SEEDS: how many seeds of `frictab twin`, default 10; --twin: options of it, "--set-name W --noise t4".
+Each campaign has 81 experiments to train and 30 to validate, unless --twin says otherwise; the oracle
+is the twin's noise-free stress.
 """
 import json
 import pathlib
@@ -14,11 +15,11 @@ import sys
 import tempfile
 
 
-def campaign(binary, seed, more):
+def campaign(binary, seed, twin, more):
     with tempfile.TemporaryDirectory() as where:
         def run(*arguments):
             subprocess.run([binary, *arguments], check=True, capture_output=True)
-        run("twin", where, "--seed", str(seed), "--oracle", "--format", "hdf5", "-q")
+        run("twin", where, "--seed", str(seed), "--oracle", "--format", "hdf5", "-q", *twin)
         run("calibrate", f"{where}/job.toml", "-q", "--set", "calibration.bootstrap=0", *more)
         result = json.loads(pathlib.Path(where, "out/calibration.json").read_text())
     errors = {m["name"]: m["validation"]["mae_MPa"] for m in result["models"]}
@@ -31,9 +32,10 @@ def campaign(binary, seed, more):
 def main():
     binary = str(pathlib.Path(sys.argv[1]).resolve())
     numbers = [a for a in sys.argv[2:] if a.isdigit()]
-    more = [a for a in sys.argv[2:] if not a.isdigit()]
+    twin = [w for a in sys.argv[2:] if a.startswith("--twin=") for w in a.removeprefix("--twin=").split()]
+    more = [a for a in sys.argv[2:] if not a.isdigit() and not a.startswith("--twin=")]
     seeds = range(1, (int(numbers[0]) if numbers else 10) + 1)
-    runs = [campaign(binary, seed, more) for seed in seeds]
+    runs = [campaign(binary, seed, twin, more) for seed in seeds]
     print(f"SYNTHETIC data, {len(runs)} seeds of frictab twin; validation MAE, MPa")
     print(f"{'law':<16}{'mean':>8}{'sd':>7}{'least':>8}{'most':>8}{'over the oracle':>18}{'sd':>7}")
     for law in sorted(runs[0], key=lambda name: statistics.mean(r[name] for r in runs)):

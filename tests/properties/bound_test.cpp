@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "models/law.h"
+#include "support/polynomial_model.h"
 #include "support/sample_data.h"
 #include "table/bound.h"
 
@@ -110,6 +111,20 @@ TEST(SlowBound, OfANetworkThatBendsInFiveStatesIsCloseToo) {
       {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 5, 500, ""},
       {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
   const Case one = with_table(model, ranges, Interpolation::cubic, 1);
+  const table::ProvenDrift proven =
+      table::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
+  ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;
+  EXPECT_GE(*proven.bound.MPa, proven.worst.drift_MPa);
+  EXPECT_LT(*proven.bound.MPa, 1.5 * proven.worst.drift_MPa);
+}
+
+TEST(SlowBound, OfAPolynomialThatIsHeldOutsideItsDataIsClose) {
+  const Model model = test::polynomial_model();
+  const std::vector<table::StateRange> ranges = {
+      {"sigma_n_MPa", 500, 2750, ""}, {"psi", 1, 20, ""},  {"v_rel_mm_s", 2, 600, ""},
+      {"T_contact_C", 20, 200, ""},   {"s_mm", 0, 40, ""}, {"sigma_f_MPa", 250, 1200, ""}};
+  const Case one = with_table(model, ranges, Interpolation::cubic, 1);
+  EXPECT_LE(one.worst.drift_MPa, 1);
   const table::ProvenDrift proven =
       table::prove_drift(AssembledLaw(model), one.table, ranges, one.worst, 1);
   ASSERT_TRUE(proven.bound.MPa) << proven.bound.why_not;

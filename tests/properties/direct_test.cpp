@@ -8,6 +8,7 @@
 #include "codegen/layer.h"
 #include "core/random.h"
 #include "models/law.h"
+#include "support/polynomial_model.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/direct.h"
@@ -110,6 +111,10 @@ INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryLaw, testing::ValuesIn(m
 
 TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
   expect_law(test::network_model(20, 8));
+}
+
+TEST(SlowDirectForm, OfAPolynomialOfFiveStatesIsTheLawTo1e12InEveryTarget) {
+  expect_law(test::polynomial_model());
 }
 
 TEST(SlowDirectForm, OfANetworkKeepsTheLawWhereItsUnitsSaturate) {

@@ -154,9 +154,9 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names
 
 TEST(Laws, HaveTheNamesOfTheContract) {
   const std::vector<std::string> contract = {
-      "coulomb_0.04", "coulomb_0.08", "shear_0.12", "coulomb_mean",  "shear_mean",  "orowan_mean",
-      "coulomb",      "shear",        "orowan",     "shaw",          "wanheim_bay", "levanov",
-      "log_coulomb",  "exp_coulomb",  "wzl",        "neural_network"};
+      "coulomb_0.04", "coulomb_0.08", "shear_0.12", "coulomb_mean", "shear_mean",    "orowan_mean",
+      "coulomb",      "shear",        "orowan",     "shaw",         "wanheim_bay",   "levanov",
+      "log_coulomb",  "exp_coulomb",  "wzl",        "polynomial",   "neural_network"};
   EXPECT_EQ(models::law_names(), contract);
 }
 

@@ -15,6 +15,7 @@
 #include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/json.h"
+#include "support/polynomial_model.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
@@ -238,8 +239,9 @@ class SlowTracedLawFrom : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
   const models::Law& law = *models::find_law(GetParam());
-  const Model base = law.calibrated == models::Calibrated::train ? test::network_model(1)
-                                                                 : test::plausible_model(law);
+  const Model base = law.calibrated == models::Calibrated::train     ? test::network_model(1)
+                     : law.calibrated == models::Calibrated::regress ? test::polynomial_model()
+                                                                     : test::plausible_model(law);
   const Case c(test::traced_model(base, everywhere(law)));
   calibrate::ModelFit fit;
   fit.model = c.model;
