@@ -120,10 +120,9 @@ Expr coefficient_of(const Polynomial& polynomial) {
   std::map<PolynomialDegrees, double> coefficients;
   for (std::size_t t = 0; t < polynomial.terms.size(); ++t)
     coefficients[polynomial.terms[t]] = polynomial.coefficients[t];
-  const Expr mu0 = Expr::symbol("mu0");
-  if (coefficients.empty()) return mu0;
+  if (coefficients.empty()) return Expr::symbol("mu0");
   const NestedSum sum{basis, coefficients};
-  return mu0 * exp(sum.over(coefficients.begin(), coefficients.end(), 0));
+  return Expr::symbol("mu0") * exp(sum.over(coefficients.begin(), coefficients.end(), 0));
 }
 
 Law before_data() {
