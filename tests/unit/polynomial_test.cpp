@@ -151,6 +151,19 @@ TEST(PolynomialFormula, IsHeldOutsideItsData) {
   EXPECT_GT(mu(far, assembled.model.parameters), 0) << "at zero of every state";
 }
 
+TEST(PolynomialFormula, StaysNearTheCoefficientsOfTheDataInAllCornersOfAllStates) {
+  const Dataset data = campaign(0.05, 5, 40); // mu from 0.05 to 0.1
+  const models::AssembledLaw assembled(model_of(fitted_to(data), data));
+  const expr::Program mu(assembled.piece, assembled.inputs, assembled.parameters);
+  for (unsigned corner = 0; corner < 64; ++corner) {
+    std::vector<double> state;
+    for (std::size_t i = 0; i < assembled.inputs.size(); ++i)
+      state.push_back(corner >> i & 1 ? 1e5 : 0);
+    EXPECT_GT(mu(state, assembled.model.parameters), 0.03) << "corner " << corner;
+    EXPECT_LT(mu(state, assembled.model.parameters), 0.2) << "corner " << corner;
+  }
+}
+
 // ---- the fit ----
 
 TEST(PolynomialCriterion, IsTheRestrictedLikelihoodOfAnExplicitCovariance) {
