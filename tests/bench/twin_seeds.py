@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """The benchmark table on several SYNTHETIC campaigns: validation MAE per law, mean and spread.
 
-    /usr/bin/python3 tests/bench/twin_seeds.py build/release/frictab [SEEDS] [--twin=OPTIONS] [--distance] [--set KEY=VALUE ...]
+    /usr/bin/python3 tests/bench/twin_seeds.py build/release/frictab [SEEDS [FIRST]] [--twin=OPTIONS] [--distance] [--set KEY=VALUE ...]
 
-SEEDS: how many seeds of `frictab twin`, default 10; --twin: options of it, "--set-name W --noise t4".
+SEEDS: how many seeds of `frictab twin`, default 10, from FIRST (1) on; --twin: options of it, "--set-name W --noise t4".
 Each campaign has 81 experiments to train and 30 to validate, unless --twin says otherwise; the oracle
 is the twin's noise-free stress. --distance: also the root-mean-square distance of each law from it on
 the validation rows (slower).
@@ -52,7 +52,8 @@ def main():
     more = [a for a in sys.argv[2:]
             if not a.isdigit() and not a.startswith("--twin=") and a != "--distance"]
     distances = {} if "--distance" in sys.argv else None
-    seeds = range(1, (int(numbers[0]) if numbers else 10) + 1)
+    first = int(numbers[1]) if len(numbers) > 1 else 1
+    seeds = range(first, first + (int(numbers[0]) if numbers else 10))
     runs = [campaign(binary, seed, twin, more, distances) for seed in seeds]
     print(f"SYNTHETIC data, {len(runs)} seeds of frictab twin; validation MAE, MPa")
     print(f"{'law':<16}{'mean':>8}{'sd':>7}{'least':>8}{'most':>8}{'over the oracle':>18}{'sd':>7}")
