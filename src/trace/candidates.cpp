@@ -371,8 +371,12 @@ Candidates find_candidates(const Dataset& training, const Dataset& validation, c
       if (pressure > 0 && (found.lowest_pressure_MPa == 0 || pressure < found.lowest_pressure_MPa))
         found.lowest_pressure_MPa = pressure;
   }
-  for (const std::string& name : inputs)
-    if (!found.by_symbol.count(name)) found.by_symbol[name] = blocks.mean(training.values(name));
+  for (const std::string& name : inputs) {
+    if (found.by_symbol.count(name)) continue;
+    const data::DerivedQuantity* history = data::find_derived(name); // one that nobody searches
+    found.by_symbol[name] = history ? blocks.mean(data::derive(*history, training, predicted))
+                                    : blocks.mean(training.values(name));
+  }
   return found;
 }
 

@@ -39,6 +39,17 @@ TEST_F(SlowLiterature, GoesTheWholeWayToEveryTarget) {
     EXPECT_THAT(verified.out, HasSubstr(law->name));
 }
 
+TEST_F(SlowLiterature, ALawWithAStateIsTracedAndFittedToAllTests) {
+  write_job("[models]\nuse = [\"coulomb\", \"rate_and_state_aging\"]\n"
+            "[calibration]\ndeliver = \"all\"\n[trace]\nmodels = [\"rate_and_state_aging\"]\n"
+            "[table]\nmodel = \"rate_and_state_aging\"\n[export]\ntargets = [\"c\"]\n");
+  const CommandResult result = frictab({"run", "job.toml"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("What rate_and_state_aging lacks"));
+  EXPECT_THAT(directory.read("out/models/rate_and_state_aging.json"),
+              HasSubstr("aging_state_over_"));
+}
+
 TEST(LiteratureCommands, ListSaysThatTheyAreThereByName) {
   const CommandResult list = run_frictab({"list", "models"});
   EXPECT_THAT(list.out, HasSubstr("\n\nwhere models.use names them, as [\"all\", "
