@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "expr/program.h"
 #include "models/assembled_law.h"
 #include "support/sample_data.h"
 
