@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <nlopt.hpp>
@@ -211,7 +212,7 @@ std::vector<double> best_logs(const PolynomialProblem& problem, std::size_t& eva
   double least = 0;
   try {
     search.optimize(logs, least);
-  } catch (const nlopt::roundoff_limited&) { // logs are the best so far
+  } catch (const std::runtime_error&) { // it sees no further: logs are the best so far
   }
   return logs;
 }

@@ -238,7 +238,7 @@ Explanation explain_law(const models::Law& law) {
 }
 
 std::optional<Explanation> explain(const std::string& name) {
-  if (const models::Law* law = job::find_shipped_law(name)) return about(*law);
+  if (const models::Law* law = job::literature().find(name)) return about(*law);
   if (const effects::EffectForm* effect = effects::find_effect(name)) return about(*effect);
   if (const codegen::Exporter* target = codegen::find_exporter(name)) return about(*target);
   if (const data::Quantity* quantity = data::find_quantity(name)) return about(*quantity);
@@ -255,7 +255,7 @@ std::optional<Explanation> explain(const std::string& name) {
 
 std::vector<std::string> explainable() {
   std::vector<std::string> names;
-  for (const std::string& law : job::shipped_law_names())
+  for (const std::string& law : job::literature().names())
     names.push_back(law);
   for (const effects::EffectForm& effect : effects::all_effects())
     names.push_back(effect.name);

@@ -45,10 +45,10 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
 // ---- the law ----
 
 const models::Law& law_of(const std::string& name) {
-  const models::Law* law = job::find_shipped_law(name);
+  const models::Law* law = job::literature().find(name);
   if (!law)
     throw InputError({}, "unknown friction law '" + name + "'",
-                     suggest(name, job::shipped_law_names()));
+                     suggest(name, job::literature().names()));
   if (models::is_trained(law->calibrated))
     throw InputError({}, name + " has no constants: it is trained on data", "frictab run JOB");
   return *law;

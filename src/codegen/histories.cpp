@@ -73,6 +73,7 @@ public:
                {"from_stress", fortran_conversion(solver_unit("MPa", units))},
                {"from_speed", fortran_conversion(solver_unit("mm/s", units))},
                {"at_peak", fortran_number(data::at_peak)},
+               {"slowest", fortran_number(data::slowest_speed)},
                {"distance", distance_of(input)}} {}
 
   TemplateValues values() const {
@@ -244,6 +245,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.flags["asks_nan"] = calls(histories, "next", "ftnan");
   own.text = {{"n", std::to_string(count)},
               {"time", std::to_string(time)},
+              {"slowest", fortran_number(data::slowest_speed)},
               {"a", own.flags["has_area"] ? ", a" : ""}};
   values.text["histories_text"] =
       without_last_break(render_template("fortran/frictab_histories.f", own));

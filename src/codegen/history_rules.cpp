@@ -140,7 +140,7 @@ HistoryRule slip_state(C::Rule rule) {
   out.now = "@{x} = ftthta(@{h}, v@{from_speed}, @{distance})";
   out.next = rule == C::aging ? "@{h1} = ftaged(@{h}, v@{from_speed}, dt, @{distance})"
                               : "@{h1} = ftslpd(@{h}, v@{from_speed}, dt, @{distance})";
-  out.slope = "if (@{h} .le. 0.0D0 .and. v@{from_speed} .gt. 1.0D-9) then\n"
+  out.slope = "if (@{h} .le. 0.0D0 .and. v@{from_speed} .gt. @{slowest}) then\n"
               "  dv = dv - @{dy}*@{distance}/(v@{from_speed})**2\n"
               "end if";
   out.meaning = "state variable of rate-and-state friction; 0: none yet";

@@ -12,8 +12,8 @@ namespace frictab::codegen {
 // before and behind the increment), @{time} (the state variable of the time that means are taken
 // over), @{increments} (those that the speed is smoothed over), @{q} (the argument p, v, t or a
 // that the rule follows), @{dy} (the derivative of tau_R by x), and the conversions from the
-// solver's units @{convert} (of x), @{from_stress} and @{from_speed}; @{distance} in mm of a state
-// of rate-and-state friction.
+// solver's units @{convert} (of x), @{from_stress} and @{from_speed}; @{slowest} (speed) and
+// @{distance} in mm of a state of rate-and-state friction.
 struct HistoryRule {
   // sets @{x} by @{h} and the pressure p, speed v, temperature t and area a now
   std::string now = {};

@@ -419,7 +419,7 @@ std::vector<KeyRule> proof_keys() {
 } // namespace
 
 std::vector<std::string> laws_or_all() {
-  std::vector<std::string> names = shipped_law_names();
+  std::vector<std::string> names = literature().names();
   names.push_back("all");
   return names;
 }

@@ -34,20 +34,6 @@ const models::Laws& literature() {
   return laws;
 }
 
-const models::Law* find_shipped_law(std::string_view name) {
-  if (const models::Law* law = models::find_law(name)) return law;
-  for (const auto& law : literature().own())
-    if (law->name == name) return law.get();
-  return nullptr;
-}
-
-std::vector<std::string> shipped_law_names() {
-  std::vector<std::string> names = models::law_names();
-  for (const auto& law : literature().own())
-    names.push_back(law->name);
-  return names;
-}
-
 std::string literature_text(const std::string& name) {
   for (const std::string_view path : codegen::embedded_paths(folder)) {
     std::istringstream lines{std::string(codegen::embedded_template(path))};

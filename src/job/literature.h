@@ -4,18 +4,13 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "models/law.h"
 
 namespace frictab::job {
 
-// In order of their names.
+// Behind the registry's, in order of their names.
 const models::Laws& literature();
-
-// The registry's law or the literature's; nullptr where there is none.
-const models::Law* find_shipped_law(std::string_view name);
-std::vector<std::string> shipped_law_names();
 
 // The law as a job may have it, to be changed: [models.NAME] and what stands below. Empty where
 // `name` is no law of the literature.

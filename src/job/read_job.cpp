@@ -184,7 +184,7 @@ void add_literature(JobReader& reader) {
   std::vector<std::string>& use = reader.job.models.use;
   for (const std::string& name : use)
     if (!laws.find(name))
-      if (const models::Law* law = find_shipped_law(name)) {
+      if (const models::Law* law = literature().find(name)) {
         laws.add(*law);
         reader.job.sections["models"] += literature_text(name);
       }

@@ -36,7 +36,7 @@ void hide_columns(const TwinOptions& options, data::Dataset& data) {
 // Fits the law to the physics of the training part, and makes it the truth instead of that physics.
 void take_law(const std::string& name, TwinDraft& training, TwinDraft& validation) {
   find_column(training.data, "tau_R_MPa")->values = base_tau(training);
-  const auto law = std::make_shared<const LawTruth>(*job::find_shipped_law(name), training.data);
+  const auto law = std::make_shared<const LawTruth>(*job::literature().find(name), training.data);
   for (TwinDraft* draft : {&training, &validation}) {
     draft->law = law;
     draft->base.tau0.assign(draft->data.rows(), 1.0);

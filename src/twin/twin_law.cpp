@@ -102,8 +102,8 @@ std::vector<double> LawTruth::recalibrated(const data::Dataset& data, const TauP
 
 std::vector<std::string> truth_names() {
   std::vector<std::string> names;
-  for (const std::string& name : job::shipped_law_names()) {
-    const models::Law& law = *job::find_shipped_law(name);
+  for (const std::string& name : job::literature().names()) {
+    const models::Law& law = *job::literature().find(name);
     const std::vector<std::string> inputs = models::inputs(law, {});
     const bool of_states = std::all_of(inputs.begin(), inputs.end(), [](const std::string& input) {
       return data::find_quantity(input);

@@ -223,7 +223,7 @@ C     (mm/s) for long, over the distance d (mm), where there was none.
       ftthta = v
       if (ftnan(v)) return
       ftthta = theta
-      if (theta .le. 0.0D0) ftthta = d/max(v, 1.0D-9)
+      if (theta .le. 0.0D0) ftthta = d/max(v, @{slowest})
       return
       end
 C
@@ -254,7 +254,7 @@ C     It behind a time dt, by the slip law.
       external ftthta
       ftslpd = ftthta(theta, v, d)
       if (.not. dt .gt. 0.0D0) return
-      c = log(d/max(v, 1.0D-9))
+      c = log(d/max(v, @{slowest}))
       ftslpd = exp(c + (log(ftslpd) - c)*exp(-max(v, 0.0D0)*dt/d))
       return
       end

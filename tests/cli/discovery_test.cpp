@@ -66,7 +66,7 @@ TEST(ListCommand, NamesEveryLawEffectAndTarget) {
     }
     return out;
   };
-  const std::vector<std::string> laws = job::shipped_law_names();
+  const std::vector<std::string> laws = job::literature().names();
   std::vector<std::string> effects, targets;
   for (const effects::EffectForm& effect : effects::all_effects())
     effects.push_back(effect.name);

@@ -150,7 +150,7 @@ Dataset campaign(const models::Model& truth, double scatter, double noise) {
 
 models::Model truth_of(const std::string& law, double D) {
   models::Model truth;
-  const models::Law& open = *job::find_shipped_law(law);
+  const models::Law& open = *job::literature().find(law);
   truth.law = models::unregistered_law(
       calibrate::at_slip_distance(open, *calibrate::slip_distance(open, {}), D));
   truth.conventions.shear_limit = false;
