@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <latch>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -42,11 +43,20 @@ sigset_t interruptions() {
   ::_exit(128 + signal);
 }
 
+// A thread allocates as it starts. In a process that is forked meanwhile (io/isolated) that lock
+// stays held for ever, unless the allocator lets go of it in the child: glibc's does, that of
+// AddressSanitizer (GCC 12) does not.
+std::latch& thread_has_started() {
+  static std::latch started(1); // outlives both who wait on it and who count it down
+  return started;
+}
+
 void wait_for_interruption() {
   const sigset_t signals = interruptions();
+  ToUndo& list = to_undo();
+  thread_has_started().count_down();
   int signal = 0;
   if (sigwait(&signals, &signal) != 0) return;
-  ToUndo& list = to_undo();
   const std::lock_guard lock(list.mutex); // never given back
   for (auto at = list.all.rbegin(); at != list.all.rend(); ++at)
     at->second();
@@ -65,6 +75,7 @@ void tidy_up_when_interrupted() {
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread(wait_for_interruption).detach();
+  thread_has_started().wait();
 }
 
 WhenInterrupted::WhenInterrupted(std::function<void()> undo) {
