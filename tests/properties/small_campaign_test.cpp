@@ -45,7 +45,7 @@ const ModelFit& fit_of(const Calibration& calibration, const std::string& law) {
   throw std::logic_error(law);
 }
 
-TEST(SmallCampaign, EveryTestIsPredictedByALawThatHasNotSeenIt) {
+TEST(SlowSmallCampaign, EveryTestIsPredictedByALawThatHasNotSeenIt) {
   const Dataset data = few_tests();
   const std::vector<std::string> laws = {"coulomb_0.08", "coulomb_mean", "orowan", "log_coulomb",
                                          "neural_network"};
