@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/beyond_ends.h"
 #include "calibrate/calibration.h"
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
@@ -128,6 +129,18 @@ Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
                  options.seed);
 }
 
+void tell_beyond_ends(ModelFit& fit, const models::AssembledLaw& law, const InputColumns& columns,
+                      const CalibrationInput& input) {
+  const auto add = [&](const InputColumns& of, std::size_t rows, const char* data) {
+    for (std::string& remark : rows_beyond_ends(*law.model.law, law.inputs, of, rows, data))
+      fit.remarks.push_back(std::move(remark));
+  };
+  if (law.model.law->held.empty()) return;
+  add(columns, input.training.rows(), "training");
+  if (on_other_experiments(input.judged_by))
+    add(input_columns(law, law.inputs, input.validation), input.validation.rows(), "validation");
+}
+
 ModelFit calibrated(const models::Law& law, const models::Conventions& conventions,
                     const CalibrationInput& input) {
   const auto begin = std::chrono::steady_clock::now();
@@ -135,6 +148,7 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
   const models::AssembledLaw assembled(fit.model);
   const auto [columns, trained] = predict_with_columns(assembled, assembled.inputs, input.training);
   fit.data_range = columns.ranges();
+  tell_beyond_ends(fit, assembled, columns, input);
   fit.training = errors_on(input.training, trained, input.options);
   if (on_other_experiments(input.judged_by)) {
     const std::vector<double> unseen = predict(fit.model, input.validation);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/beyond_ends.h"
 #include "calibrate/cross_validation.h"
 #include "calibrate/experiment_errors.h"
 #include "calibrate/fit_law.h"
@@ -44,6 +45,9 @@ ModelFit fitted_to(const Dataset& all, const models::Law& law,
   const models::AssembledLaw assembled(fit.model);
   const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
   fit.data_range = columns.ranges();
+  for (std::string& remark :
+       rows_beyond_ends(law, assembled.inputs, columns, all.rows(), "training and validation"))
+    fit.remarks.push_back(std::move(remark));
   fit.training =
       metrics(all.values("tau_R_MPa"), tau, all.first_row, options.bootstrap, options.seed);
   fit.band = check_band(fit.model, {}, all.subset({}));

@@ -30,8 +30,9 @@ std::vector<Item> parameter_items(const std::vector<models::Parameter>& paramete
   return items;
 }
 
-std::string how_calibrated(models::Calibrated how) {
-  switch (how) {
+std::string how_calibrated(const models::Law& law) {
+  if (!law.held.empty()) return "no: a table, taken as it is";
+  switch (law.calibrated) {
   case models::Calibrated::fixed:
     return "no: constants of the literature";
   case models::Calibrated::mean:
@@ -55,8 +56,15 @@ std::string remarks_of(const models::Law& law) {
     std::vector<std::string> at;
     for (const double position : positions)
       at.push_back(shortest(position));
-    remarks.push_back(fmt::format("kink on {} at {}: gets a node", axis, join(at, ", ")));
+    constexpr std::size_t most = 8; // a table's nodes may be hundreds
+    const std::string places = at.size() <= most ? join(at, ", ")
+                                                 : fmt::format("{}, {}, ... {} ({} places)", at[0],
+                                                               at[1], at.back(), at.size());
+    remarks.push_back(fmt::format("kink on {} at {}: gets a node", axis, places));
   }
+  for (const auto& [input, ends] : law.held)
+    remarks.push_back(fmt::format("held below {} {} and above {}", input, shortest(ends.first),
+                                  shortest(ends.second)));
   remarks.push_back(
       "limited to 0 <= tau_R <= k where the data have sigma_f_MPa (models.shear_limit; k by "
       "models.shear_yield)");
@@ -71,7 +79,7 @@ Explanation about(const models::Law& law) {
   out.fields = {{"formula", law.formula},
                 {"inputs", join(free_inputs, ", ")},
                 {"may use", join(law.may_use, ", ")},
-                {"calibrated", how_calibrated(law.calibrated)},
+                {"calibrated", how_calibrated(law)},
                 {"tabulated", quantity_name(law.quantity)},
                 {"reference", law.reference},
                 {"remarks", remarks_of(law)}};

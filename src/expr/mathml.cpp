@@ -38,7 +38,7 @@ std::string call(const char* name, const std::string& arguments) {
 }
 
 // 1.5e-05 as 1.5 times a power of ten.
-Part number(double value) {
+Part number_part(double value) {
   std::string text = fmt::format("{:.6g}", std::abs(value));
   if (const std::size_t at = text.find('e'); at != text.npos)
     text = fmt::format("<mn>{}</mn><mo>&#183;</mo><msup><mn>10</mn><mn>{}</mn></msup>",
@@ -65,7 +65,7 @@ Part part_of(const Expr& e, const std::function<std::string(const std::string&)>
   const auto of = [&](std::size_t i) -> const Part& { return done.at(e.operands()[i].id()); };
   switch (e.op()) {
   case Op::constant:
-    return number(e.value());
+    return number_part(e.value());
   case Op::symbol:
     return {symbol(e.name()), Binding::atom};
   case Op::negate:

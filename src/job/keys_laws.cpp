@@ -19,6 +19,10 @@ std::vector<std::string> quantities_of_a_piece() {
   return {"mu", "tau_R"};
 }
 
+std::vector<std::string> interpolations_of_a_table() {
+  return {"linear"};
+}
+
 } // namespace
 
 models::LawText& law_text(Job& job, const std::string& name) {
@@ -82,6 +86,23 @@ std::vector<KeyRule> law_keys() {
           [](Job & job, const std::string& name) -> auto& { return law_text(job, name).quantity; },
           "what the piece is", "mu where `combine` has sigma_n_MPa, else tau_R", "\"mu\"") |
           Allowed{"", quantities_of_a_piece},
+      named<std::string>(
+          "models.*.table",
+          [](Job & job, const std::string& name) -> auto& { return law_text(job, name).table; },
+          "instead of a formula: a file, beside the job, with a column per axis, one of mu or "
+          "tau_R_MPa, and a row per node in any order (CSV, workbook, HDF5), or one of tables/*.h5",
+          "a formula says it", "\"mu_of_p_v.csv\""),
+      named<std::string>(
+          "models.*.interpolation", [](Job & job, const std::string& name) -> auto& {
+            return law_text(job, name).interpolation;
+          },
+          "between the nodes of `table`; beyond its axes the law is held at their ends",
+          "an error, where there is a table", "\"linear\"") |
+          Allowed{"", interpolations_of_a_table},
+      named<std::vector<std::string>>(
+          "models.*.log_axes",
+          [](Job & job, const std::string& name) -> auto& { return law_text(job, name).log_axes; },
+          "axes of `table` along which it is straight in ln x", "none", "[\"v_rel_mm_s\"]"),
       named<std::string>(
           "models.*.title",
           [](Job & job, const std::string& name) -> auto& { return law_text(job, name).title; },

@@ -1,10 +1,13 @@
 // Laws of a job's own: what their keys say together, and their formulas.
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
+#include "core/hash.h"
 #include "core/text.h"
 #include "job/reader.h"
+#include "job/table_law.h"
 
 namespace frictab::job {
 
@@ -40,6 +43,58 @@ bool check_name(JobReader& reader, const models::LawText& text) {
   return false;
 }
 
+bool has_formulas(const models::LawText& text) {
+  return !text.formula.text.empty() || !text.piece.text.empty() || !text.combine.text.empty() ||
+         !text.quantity.empty() || !text.where.empty() || !text.parameters.empty();
+}
+
+bool check_table_keys(JobReader& reader, const models::LawText& text) {
+  const std::size_t before = reader.faults.size();
+  const std::string path = "models." + text.name;
+  if (text.table.empty()) {
+    for (const auto& [key, given] : {std::pair("interpolation", !text.interpolation.empty()),
+                                     std::pair("log_axes", !text.log_axes.empty())})
+      if (given)
+        reader.fault(reader.place_of(path + "." + key),
+                     fmt::format("law {} has `{}` and no table", text.name, key),
+                     "table = \"mu_of_p_v.csv\", or leave it out");
+  } else {
+    if (has_formulas(text))
+      reader.fault(reader.place_of(path + ".table"),
+                   fmt::format("law {} has a table and a formula", text.name),
+                   "a table stands instead of formula, piece, combine, quantity, where and "
+                   "parameters");
+    if (text.interpolation.empty())
+      reader.fault(reader.place_of(path + ".table"),
+                   fmt::format("law {} does not say how its table is interpolated", text.name),
+                   "interpolation = \"linear\"");
+  }
+  return reader.faults.size() == before;
+}
+
+// What the file holds is part of what the job says: results are kept as long as both stay.
+void add_table(JobReader& reader, const models::LawText& text, FaultList& faults) {
+  const Place place = reader.place_of("models." + text.name + ".table");
+  const auto base = std::filesystem::path(reader.job.file).parent_path();
+  const auto table = read_law_table(text, (base / text.table).string(), place, faults);
+  models::Law law;
+  law.name = text.name; // other faults of a job shall not say that the law is not there
+  if (table) {
+    law = models::law_of_table(*table);
+    const models::Formula formula = law.build({});
+    const std::string written = expr::to_text(formula.value);
+    if (written.size() > expr::FormulaLimits::text)
+      faults.add(place,
+                 fmt::format("the formula of law {} has {} with its table in it", text.name,
+                             human_bytes(static_cast<double>(written.size()))),
+                 fmt::format("at most {}: fewer nodes, or shorter names of columns",
+                             human_bytes(static_cast<double>(expr::FormulaLimits::text))));
+    reader.job.sections["models"] +=
+        fmt::format("{} = {:016x}\n", text.name, hash_of(written + expr::to_text(formula.combine)));
+  }
+  reader.job.models.laws.add(std::move(law));
+}
+
 } // namespace
 
 void make_laws(JobReader& reader) {
@@ -51,6 +106,11 @@ void make_laws(JobReader& reader) {
       reader.fault(text.place, fmt::format("law '{}' stands in more than one place", text.name),
                    "in this job and a file of models.files, or in two of these");
     if (!check_name(reader, text)) continue;
+    if (!check_table_keys(reader, text)) continue;
+    if (!text.table.empty()) {
+      add_table(reader, text, faults);
+      continue;
+    }
     place_formulas(reader, text);
     models.laws.add(models::law_of_text(text, faults));
   }

@@ -42,6 +42,9 @@ struct LawText {
   std::string quantity;       // of the piece: "mu" or "tau_R"; empty: by `combine`
   std::vector<std::pair<std::string, FormulaText>> where; // named parts, each of those before it
   std::vector<ParameterText> parameters;
+  std::string table;         // instead of all formulas: the file of a table (models/law_table.h)
+  std::string interpolation; // between its nodes
+  std::vector<std::string> log_axes; // straight in ln x
   Place place;
 };
 

@@ -1,0 +1,20 @@
+// Rows beyond the ends at which a law is held: a law that is a table says nothing of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/input_columns.h"
+#include "models/law.h"
+
+namespace frictab::calibrate {
+
+// "12 of 4,000 training rows lie beyond the axes of the table, where it is held at their ends:
+// v_rel_mm_s above 200 (12)"; none where no row does, and of laws that are held nowhere. `names`
+// are those of the columns, `data` what the rows are called.
+std::vector<std::string> rows_beyond_ends(const models::Law& law,
+                                          const std::vector<std::string>& names,
+                                          const InputColumns& columns, std::size_t rows,
+                                          const std::string& data);
+
+} // namespace frictab::calibrate
