@@ -1,4 +1,5 @@
 // benchmark.md: the ranking as a table to read anywhere.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "report/benchmark_parts.h"
 #include "report/judged.h"
 #include "report/numbers.h"
+#include "report/polynomial_terms.h"
 #include "report/published.h"
 #include "report/report.h"
 
@@ -80,19 +82,14 @@ void add_published(std::string& out, const calibrate::Calibration& calibration) 
 
 // Which terms matter: those that move mu by more than their own error.
 void add_polynomial(std::string& out, const calibrate::Calibration& calibration) {
-  constexpr std::size_t most = 15;
   for (const calibrate::ModelFit& fit : calibration.fits) {
     if (!fit.polynomial || fit.polynomial->terms.empty()) continue;
     const calibrate::PolynomialRecord& record = *fit.polynomial;
-    const std::size_t listed = std::min(most, record.terms.size());
-    out += fmt::format(
-        "\n## What the polynomial is made of\n\nln mu = ln mu0 + the sum of b times its term; each "
-        "z runs from -1 to 1 over the data, P2 = (3 z\u00B2 - 1)/2, P3 = (5 z\u00B3 - 3 z)/2, so "
-        "that a term moves ln mu by b at most. Errors by experiment, the ridge held. The {} "
-        "largest "
-        "of {} terms{}:\n\n| term | b \u00B1 standard error |\n|---|--:|\n",
-        listed, record.terms.size(),
-        listed < record.terms.size() ? "; all are in calibration.json" : "");
+    const std::size_t listed = std::min(most_polynomial_terms, record.terms.size());
+    out += fmt::format("\n## What the polynomial is made of\n\n{} The {} largest of {} terms{}:\n\n"
+                       "| term | b \u00B1 standard error |\n|---|--:|\n",
+                       polynomial_words, listed, record.terms.size(),
+                       listed < record.terms.size() ? "; all are in calibration.json" : "");
     for (std::size_t t = 0; t < listed; ++t) {
       const calibrate::PolynomialTerm& term = record.terms[t];
       const ValueText v = with_error(term.coefficient, term.std_error);

@@ -30,6 +30,7 @@ std::string report_html(const ReportInput& input) {
   add_comparisons(page, input);
   add_errors(page, input);
   add_experiment_errors(page, input);
+  add_polynomial(page, input);
   add_conditional(page, input);
   add_trace(page, input);
   add_published_figures(page, input);

@@ -16,6 +16,7 @@ void add_ranking(codegen::TemplateValues& page, const ReportInput& input); // wi
 void add_comparisons(codegen::TemplateValues& page, const ReportInput& input);
 void add_errors(codegen::TemplateValues& page, const ReportInput& input); // with the noise floors
 void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& input);
+void add_polynomial(codegen::TemplateValues& page, const ReportInput& input);
 void add_conditional(codegen::TemplateValues& page, const ReportInput& input);
 void add_trace(codegen::TemplateValues& page, const ReportInput& input);
 void add_published_figures(codegen::TemplateValues& page, const ReportInput& input);

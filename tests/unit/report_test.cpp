@@ -189,6 +189,24 @@ TEST(Report, ShowsTheErrorOfEveryTestAndNamesTheOutlier) {
   }
 }
 
+TEST(Report, ShowsTheLargestTermsOfThePolynomialWithTheirErrors) {
+  ReportSample sample = report_sample(14, 6, 100);
+  EXPECT_THAT(report_html(sample.input()), Not(HasSubstr("What the polynomial is made of")));
+  calibrate::PolynomialRecord record;
+  record.coordinates = {"z_v = (ln(v_rel_mm_s) - 3.9)/2.3"};
+  for (int t = 0; t < 17; ++t)
+    record.terms.push_back({"P2(z_v) z_T" + std::to_string(t), 0.5 - 0.01 * t, 0.02});
+  sample.calibration.fits[0].polynomial = record;
+  const std::string page = report_html(sample.input());
+  EXPECT_EQ(xml_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("The 15 largest of 17 terms; all are in calibration.json."));
+  EXPECT_THAT(page, HasSubstr("<tr><th scope=\"row\">P2(z_v) z_T0</th><td class=\"num\">0.500</td>"
+                              "<td class=\"num\">0.020</td></tr>"));
+  EXPECT_THAT(page, HasSubstr("z_T14</th>"));
+  EXPECT_THAT(page, Not(HasSubstr("z_T15</th>")));
+  EXPECT_THAT(page, HasSubstr("<li>z_v = (ln(v_rel_mm_s) - 3.9)/2.3</li>"));
+}
+
 TEST(Report, SurvivesEmptyInput) {
   const ReportSample nothing;
   const std::string page = report_html(nothing.input());
