@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/json.h"
+#include "models/assembled_law.h"
 
 namespace frictab::calibrate {
 
@@ -183,6 +184,16 @@ Json made_law_json(const Law& law, const models::Conventions& conventions) {
   return j;
 }
 
+// Texts of what the law computes, in the names of its inputs and parameters, for whoever reads the
+// file without frictab. `law` has the piece already where it is there.
+Json expressions_json(const models::Model& model) {
+  const models::AssembledLaw law(model);
+  Json j;
+  if (models::is_registered(*model.law)) j["value"] = expr::to_text(law.piece);
+  j["combine"] = expr::to_text(law.combine);
+  return j;
+}
+
 // Parameters as the file lists them.
 std::vector<models::Parameter> parse_parameters(const Json& list, const Json& bounds) {
   std::vector<models::Parameter> parameters;
@@ -330,6 +341,7 @@ Json fit_json(const ModelFit& fit) {
   if (fit.polynomial) j["polynomial"] = polynomial_json(*fit.polynomial);
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
+  j["expressions"] = expressions_json(fit.model);
   if (fit.fitted_to_all) j["fitted_to"] = "all";
   if (fit.on_all) j["delivered"] = delivered_json(*fit.on_all);
   return j;
@@ -482,8 +494,9 @@ std::string model_json(const ModelFit& fit, const Calibration& calibration) {
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit.delivered());
-  for (const char* key : {"name", "title", "formula", "inputs", "conventions", "parameters",
-                          "experiment_gains", "data_range", "law", "revision", "fitted_to"})
+  for (const char* key :
+       {"name", "title", "formula", "inputs", "conventions", "parameters", "experiment_gains",
+        "data_range", "law", "expressions", "revision", "fitted_to"})
     if (body.contains(key)) j[key] = body.at(key);
   return io::json_text(j);
 }

@@ -1,0 +1,38 @@
+"""`import frictab.accessor` gives a table that xarray has opened the right interpolation:
+
+    ds = xarray.open_dataset("out/tables/wzl.h5")
+    ds.frictab.tau_R(sigma_n_MPa=800, v_rel_mm_s=20, ...)
+
+`ds.value.interp(...)` is linear in the axes' own values; a table is linear, or a cubic spline, in
+the logarithm of each axis with transform = "log".
+"""
+import numpy as np
+import xarray as xr
+
+from .faults import FrictabError
+from .table import Table, axis_of, plain
+
+
+@xr.register_dataset_accessor("frictab")
+class TableAccessor:
+    """A Dataset as a frictab.Table; its methods are those of the Table."""
+
+    def __init__(self, dataset):
+        if "value" not in dataset:
+            raise FrictabError("there is no variable 'value': this is no friction table")
+        value = dataset["value"]
+        axes = [axis_of(d, dataset[d].data, plain(dataset[d].attrs)) for d in value.dims]
+        self.table = Table("the dataset", axes, np.asarray(value.data, float), plain(value.attrs),
+                           plain(dataset.attrs))
+
+    def tau_R(self, states=None, /, **named):
+        return self.table.tau_R(states, **named)
+
+    def mu(self, states=None, /, **named):
+        return self.table.mu(states, **named)
+
+    def interp(self, states=None, /, **named):
+        return self.table.interp(states, **named)
+
+    def outside(self, states=None, /, **named):
+        return self.table.outside(states, **named)

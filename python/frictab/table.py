@@ -1,0 +1,232 @@
+"""Tables of friction laws: tables/NAME.h5."""
+import os
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .faults import FrictabError
+from .formula import Formula
+from .spline import Cubic, Grid, Linear
+from .states import Input, States, sides, warn_outside
+
+_SCHEMAS = ("frictab/table/2", "frictab/table/1") # of /1: logarithms where transform is log
+_END_ROUNDING = 1e-6 # what misses an end by no more is not refused
+_WORDS = {"clamp": "the table at that end", "law": "the law's own formula", "error": "NaN",
+          "held": "held at that end by the law", "free": "the formula goes on"}
+
+
+@dataclass
+class Axis:
+    """One axis of a table: `nodes` in its unit, interpolated in `coordinates`."""
+    name: str
+    nodes: np.ndarray
+    log: bool
+    below: str = "clamp" # or law, error: what holds beyond this end
+    above: str = "clamp"
+    kinks: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    unit: str = ""
+    meaning: str = ""
+
+    def coordinate(self, x):
+        if not self.log:
+            return x
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(x > 0, np.log(np.where(x > 0, x, 1.0)), np.where(x == x, -np.inf, x))
+
+    def asked_at(self, x):
+        """Where the law's formula is asked: at the end instead of beyond it unless it goes on."""
+        x = np.where((x < self.nodes[0]) & (self.below != "law"), self.nodes[0], x)
+        return np.where((x > self.nodes[-1]) & (self.above != "law"), self.nodes[-1], x)
+
+    def extends(self, x):
+        return ((x < self.nodes[0]) & (self.below == "law")
+                | (x > self.nodes[-1]) & (self.above == "law"))
+
+    def refuses(self, x):
+        low, high = self.nodes[0], self.nodes[-1]
+        return ((x < low - _END_ROUNDING * abs(low)) & (self.below == "error")
+                | (x > high + _END_ROUNDING * abs(high)) & (self.above == "error"))
+
+
+class Table:
+    """A friction table. `axes`, `inputs`, `value` (as its units say), `attributes` of the root."""
+
+    def __init__(self, source, axes, value, attributes, root):
+        self.source, self.axes, self.value = source, axes, value
+        self.attributes, self.root = attributes, root
+        self.model = str(root.get("model", ""))
+        self.interpolation = self._one_of("interpolation", "linear", "cubic")
+        self.log_value = self._one_of("transform", "linear", "log") == "log"
+        self._check()
+        self.combine = Formula(self._text("combine"))
+        self.extension = self._extension()
+        self._grid = self._make_grid()
+        self.inputs = self._inputs()
+
+    def tau_R(self, states=None, /, **named):
+        """Friction shear stress in MPa: sigma_n_MPa=..., one keyword per input, numbers or arrays
+        that broadcast; or a mapping, pandas.DataFrame or xarray.Dataset that has them by name.
+        What lies outside is answered as the table says (Table.axes) and counted in an
+        OutsideWarning."""
+        found = States(self, self.inputs, states, named)
+        warn_outside(self, self.inputs, found.columns)
+        return found.back(self._tau(found.columns, found.rows))
+
+    def mu(self, states=None, /, **named):
+        """tau_R / sigma_n_MPa."""
+        found = States(self, self.inputs, states, named)
+        if "sigma_n_MPa" not in found.columns:
+            raise FrictabError(f"{self} does not depend on sigma_n_MPa")
+        warn_outside(self, self.inputs, found.columns)
+        return found.back(self._tau(found.columns, found.rows) / found.columns["sigma_n_MPa"])
+
+    def interp(self, states=None, /, **named):
+        """The tabulated piece itself, held at the ends of the axes: `value` between its nodes."""
+        names = {axis.name for axis in self.axes}
+        found = States(self, [i for i in self.inputs if i.name in names], states, named)
+        return found.back(self._piece(found.columns, found.rows))
+
+    def outside(self, states=None, /, **named):
+        """Per input -1, 0 or 1: the state is below, inside, above its range. No warning."""
+        found = States(self, self.inputs, states, named)
+        return {n: found.back(s) for n, s in sides(self.inputs, found.columns).items()}
+
+    def __str__(self):
+        return f"table of {self.model or 'a law'}"
+
+    def __repr__(self):
+        return f"<frictab {self}: tau_R of {', '.join(map(str, self.inputs))}>"
+
+    def _tau(self, columns, rows):
+        value = self._piece(columns, rows)
+        refused, law = np.zeros(rows, bool), np.zeros(rows, bool)
+        for axis in self.axes:
+            refused |= axis.refuses(columns[axis.name])
+            law |= axis.extends(columns[axis.name])
+        if law.any():
+            held = {a.name: a.asked_at(columns[a.name])[law] for a in self.axes}
+            used = {n: held[n] if n in held else self._constant(n) for n in self.extension.names}
+            value[law] = self.extension(**used)
+        used = {n: value if n == "value" else columns[n] if n in columns else self._constant(n)
+                for n in self.combine.names}
+        tau = np.broadcast_to(self.combine(**used), rows).copy()
+        missing = np.any([np.isnan(c) for c in columns.values()], axis=0) if columns else False
+        tau[refused | missing] = np.nan
+        return tau
+
+    def _piece(self, columns, rows):
+        points = [axis.coordinate(columns[axis.name]) for axis in self.axes]
+        raw = self._grid(points, rows)
+        return np.exp(raw) if self.log_value else raw
+
+    def _constant(self, name):
+        return float(np.ravel(self.attributes[name])[0])
+
+    def _make_grid(self):
+        axes = []
+        for axis in self.axes:
+            u = axis.coordinate(axis.nodes)
+            at = np.flatnonzero(np.isin(axis.nodes, axis.kinks))
+            axes.append(Cubic(u, at) if self.interpolation == "cubic" else Linear(u))
+        return Grid(axes, np.log(self.value) if self.log_value else self.value)
+
+    def _extension(self):
+        text, part = "", 1
+        while (name := "extension" if part == 1 else f"extension_{part}") in self.attributes:
+            text, part = text + str(self.attributes[name]), part + 1
+        return Formula(text) if text else None
+
+    def _inputs(self):
+        by_axis = {axis.name: axis for axis in self.axes}
+        used = self.combine.names - {"value"} - set(map(str, self.attributes))
+        held = self.combine.held_ranges()
+        return [self._input(name, by_axis.get(name), held.get(name))
+                for name in [*by_axis, *sorted(used - set(by_axis))]]
+
+    def _input(self, name, axis, held):
+        if axis:
+            return Input(name, axis.unit, axis.nodes[0], axis.nodes[-1], _WORDS[axis.below],
+                         _WORDS[axis.above], axis.meaning)
+        levels = str(self.root.get(f"levels_{name}", ""))
+        low, high = (float(np.ravel(self.root.get(f"range_{end}_{name}", infinite))[0])
+                     for end, infinite in (("low", -np.inf), ("high", np.inf)))
+        low, high = held if held else (low, high)
+        word = _WORDS["held" if held else "free"]
+        return Input(name, str(self.root.get(f"units_{name}", "")), low, high, word, word,
+                     str(self.root.get(f"long_name_{name}", "")), _levels(levels))
+
+    def _text(self, name):
+        if name not in self.attributes:
+            raise FrictabError(f"{self.source}: 'value' has no attribute '{name}'")
+        return str(self.attributes[name])
+
+    def _one_of(self, name, *allowed):
+        found = self._text(name)
+        if found not in allowed:
+            raise FrictabError(f"{self.source}: attribute '{name}' of 'value' is '{found}'; "
+                               f"it is one of {', '.join(allowed)}")
+        return found
+
+    def _check(self):
+        schema = str(self.root.get("schema", ""))
+        if schema.startswith("frictab/") and schema not in _SCHEMAS:
+            raise FrictabError(f"{self.source}: the layout is {schema}; this version reads "
+                               + " and ".join(_SCHEMAS))
+        if self.log_value and not schema:
+            raise FrictabError(f"{self.source}: the root has no attribute 'schema', which says "
+                               "what 'value' holds where its transform is log")
+        if self.log_value and schema == _SCHEMAS[1]:
+            self.value = np.exp(self.value)
+        if self.interpolation == "cubic" and self._text("spline") != "not-a-knot":
+            raise FrictabError(f"{self.source}: its spline is '{self._text('spline')}'; "
+                               "this version reads not-a-knot")
+
+
+def _levels(text): # "0 = A, 1 = B"
+    levels, number = [], 0
+    while text:
+        text = text.removeprefix(f"{number} = ")
+        number += 1
+        level, _, text = text.partition(f", {number} = ")
+        levels.append(level)
+    return tuple(levels)
+
+
+def plain(attributes):
+    """Attributes with their texts as str, whichever way HDF5 keeps them."""
+    return {str(n): a.decode() if isinstance(a, bytes) else a for n, a in attributes.items()}
+
+
+def axis_of(name, nodes, attributes):
+    """One axis from its dimension scale's nodes and attributes."""
+    transform = attributes.get("transform")
+    if transform not in ("linear", "log"):
+        raise FrictabError(f"axis '{name}' says transform = {transform}; it is linear or log")
+    return Axis(name, np.asarray(nodes, float), transform == "log",
+                attributes.get("outside_low", "clamp"), attributes.get("outside_high", "clamp"),
+                np.array(str(attributes.get("kinks", "")).split(), float),
+                str(attributes.get("units", "")), str(attributes.get("long_name", "")))
+
+
+def open_table(path):
+    """Reads a table file; frictab.open. Raises FrictabError where it is none."""
+    import h5py
+    path = os.fspath(path)
+    if not os.path.exists(path):
+        raise FrictabError(f"{path}: there is no such file")
+    try:
+        file = h5py.File(path, "r")
+    except OSError:
+        raise FrictabError(f"{path}: is no HDF5 file; a table is tables/NAME.h5 of a run") from None
+    with file:
+        if "value" not in file or not isinstance(file["value"], h5py.Dataset):
+            raise FrictabError(f"{path}: there is no dataset 'value': this is no friction table")
+        value = file["value"]
+        axes = []
+        for d in range(value.ndim):
+            if len(value.dims[d]) == 0:
+                raise FrictabError(f"{path}: axis {d} of 'value' has no dimension scale")
+            scale = value.dims[d][0]
+            axes.append(axis_of(scale.name.lstrip("/"), scale[()], plain(scale.attrs)))
+        return Table(path, axes, np.asarray(value[()], float), plain(value.attrs),
+                     plain(file.attrs))

@@ -1,0 +1,157 @@
+// The Python package: the same values as the kernel, whatever a table or law is made of.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibrate/calibration_file.h"
+#include "core/text.h"
+#include "support/polynomial_model.h"
+#include "support/run_command.h"
+#include "support/sample_data.h"
+#include "support/sample_tables.h"
+#include "support/traced_law.h"
+#include "table/build.h"
+#include "table/drift.h"
+#include "table/outside.h"
+#include "table/table_file.h"
+
+namespace frictab::python_test {
+namespace {
+
+using table::Table;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::size_t rows = 400;
+const std::string house = FRICTAB_SOURCE_DIR;
+
+class SlowPython : public testing::Test {
+protected:
+  void SetUp() override {
+    if (python({"-c", "import h5netcdf, h5py, numpy, pandas, xarray"}).exit_code != 0)
+      GTEST_SKIP() << "Debian's python3-h5py, -h5netcdf, -pandas, -xarray are not installed";
+  }
+
+  test::CommandResult python(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), FRICTAB_PYTHON);
+    return test::run_command(arguments, directory.path(),
+                             {"PYTHONPATH=" + house + "/python", "PYTHONDONTWRITEBYTECODE=1",
+                              "FRICTAB=" FRICTAB_BINARY});
+  }
+
+  void write_rows(const std::string& name, const std::vector<std::string>& header,
+                  const std::vector<std::vector<double>>& columns) const {
+    std::string csv = join(header, "\t") + "\n";
+    for (std::size_t row = 0; row < columns.front().size(); ++row) {
+      std::vector<std::string> cells;
+      for (const auto& column : columns)
+        cells.push_back(fmt::format("{}", column[row]));
+      csv += join(cells, "\t") + "\n";
+    }
+    directory.write(name + ".csv", csv);
+  }
+
+  // With rows inside, half a range beyond every end, and one that is not known.
+  void add(const std::string& name, const Table& table) const {
+    table::write_table(table, directory.path(name + ".h5"));
+    test::States states(table, rows, 5, 0.5);
+    std::vector<std::string> header = table.inputs();
+    std::vector<std::vector<double>> columns;
+    for (std::size_t c = 0; c < header.size(); ++c) {
+      states.column(c)[c] = std::nan("");
+      columns.push_back(states.column(c));
+    }
+    std::vector<double> tau(rows);
+    std::vector<unsigned> bits(rows);
+    table::TableFunction(table).evaluate(rows, states.columns(), tau, bits);
+    header.push_back("tau_R_MPa");
+    columns.push_back(tau);
+    const std::vector<table::AxisEnds> ends = table::all_ends(table);
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+      header.push_back("outside:" + ends[e].name);
+      std::vector<double> there(rows);
+      for (std::size_t row = 0; row < rows; ++row)
+        there[row] = bits[row] >> e & 1;
+      columns.push_back(there);
+    }
+    write_rows(name, header, columns);
+  }
+
+  void add(const std::string& name, const models::Model& model) const {
+    const models::AssembledLaw law(model);
+    calibrate::ModelFit fit;
+    fit.model = model;
+    fit.std_error.assign(model.parameters.size(), 0.001);
+    directory.write(name + ".json", calibrate::model_json(fit, {}));
+    std::vector<std::string> header = law.inputs;
+    std::vector<std::vector<double>> columns = test::random_states(law.inputs, rows, 11);
+    const table::LawFunction function(law, law.inputs);
+    std::vector<double> tau;
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::vector<double> state;
+      for (const auto& column : columns)
+        state.push_back(column[row]);
+      tau.push_back(function(state));
+    }
+    header.push_back("tau_R_MPa");
+    columns.push_back(tau);
+    write_rows(name, header, columns);
+  }
+
+  void expect_the_same(std::size_t files) const {
+    const auto result = python({house + "/tests/python/compare.py", directory.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, StartsWith(fmt::format("ok {} ", files)));
+  }
+
+  test::TemporaryDirectory directory;
+};
+
+// A sample has a constant that no text can name.
+bool can_be_read(const Table& table) {
+  return std::all_of(table.constants.begin(), table.constants.end(),
+                     [](const auto& constant) { return expr::is_name(constant.first); });
+}
+
+Table table_of(const models::Model& model, table::Interpolation interpolation) {
+  table::TableOptions options;
+  options.interpolation = interpolation;
+  const models::AssembledLaw law(model);
+  return table::build_table(law, table::state_ranges(law, test::sample_data(model), options),
+                            options);
+}
+
+TEST_F(SlowPython, TablesGiveWhatTheKernelGivesTo1e12InsideAndBeyondTheirEnds) {
+  std::size_t files = 0;
+  for (const auto& [name, table] : test::sample_tables())
+    if (!table.is_direct() && can_be_read(table)) {
+      add(name, table);
+      ++files;
+    }
+  add("histories", test::history_table());
+  for (const std::string& law : models::law_names())
+    for (const auto interpolation : table::grid_interpolations) {
+      add(law + "_" + std::string(table::interpolation_name(interpolation)),
+          table_of(test::plausible_model(*models::find_law(law)), interpolation));
+      ++files;
+    }
+  expect_the_same(files + 1);
+}
+
+TEST_F(SlowPython, LawsGiveWhatFrictabGivesTo1e12ByTheirFormulaAlone) {
+  std::size_t files = 0;
+  for (const std::string& law : models::law_names()) {
+    add(law, test::plausible_model(*models::find_law(law)));
+    ++files;
+  }
+  add("network", test::network_model());
+  add("large_network", test::network_model(20, 8));
+  add("third_order", test::polynomial_model());
+  add("traced", test::traced_model({"humidity", "work"}));
+  add("curve_by_tool", test::traced_model({"curve_by_tool", "unloading"}));
+  expect_the_same(files + 5);
+}
+
+} // namespace
+} // namespace frictab::python_test
