@@ -18,6 +18,7 @@
 #include "models/law.h"
 #include "table/beyond_data.h"
 #include "table/frictab_kernel.h"
+#include "table/self_description.h"
 #include "table/spline.h"
 
 namespace frictab::table {
@@ -63,6 +64,18 @@ void write_data_range(io::Hdf5Writer& out, const TableAxis& axis) { // absent: n
   out.attribute(axis.name, "share_beyond_data", share_beyond_data(axis));
 }
 
+// In which readers of netCDF may interpolate as they are used to.
+void write_logarithm(io::Hdf5Writer& out, const TableAxis& axis) {
+  const std::string name = logarithm_name(axis);
+  if (name.empty()) return;
+  const std::size_t size = axis.nodes.size();
+  out.dataset(name, {&size, 1}, axis.coordinates());
+  out.attribute(name, "units", std::string("1"));
+  out.attribute(name, "long_name",
+                fmt::format("natural logarithm of {} in {}", axis.name, axis.unit));
+  out.dimension_scale(name, 0, axis.name);
+}
+
 void write_axes(io::Hdf5Writer& out, const Table& table) {
   for (const TableAxis& axis : table.axes) {
     const std::size_t size = axis.nodes.size();
@@ -77,9 +90,20 @@ void write_axes(io::Hdf5Writer& out, const Table& table) {
   }
 }
 
+void write_coordinates(io::Hdf5Writer& out, const Table& table) {
+  std::vector<std::string> logarithms;
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    const TableAxis& axis = table.axes[a];
+    out.dimension_scale("value", a, axis.name);
+    write_logarithm(out, axis);
+    if (const std::string name = logarithm_name(axis); !name.empty()) logarithms.push_back(name);
+  }
+  if (!logarithms.empty()) out.attribute("value", "coordinates", join(logarithms, " ")); // of CF
+}
+
 void write_attributes(io::Hdf5Writer& out, const Table& table) {
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    out.dimension_scale("value", a, table.axes[a].name);
+  write_coordinates(out, table);
+  out.attribute("value", "comment", value_comment(table));
   out.attribute("value", "quantity", std::string(models::quantity_name(table.quantity)));
   out.attribute("value", "units", std::string(models::quantity_unit(table.quantity)));
   out.attribute("value", "transform", std::string(table.log_value ? "log" : "linear"));
@@ -95,7 +119,8 @@ void write_attributes(io::Hdf5Writer& out, const Table& table) {
   }
   out.attribute("value", "constants", join(names, " "));
   out.attribute("/", "schema", std::string(schema));
-  const TableAttributes attributes = root_attributes(table);
+  TableAttributes attributes = root_attributes(table);
+  attributes.texts.merge(root_description(table)); // a title that someone gave stays
   for (const auto& [name, text] : attributes.texts)
     out.attribute("/", name, text);
   for (const auto& [name, value] : attributes.numbers)
@@ -198,6 +223,10 @@ private:
       else if (const auto number = in_.number_attribute("/", name))
         take_attribute(table_.record, name, *number);
     }
+    for (const auto& [name, text] : root_description(table_)) // written anew from what it says
+      if (const auto found = table_.record.others.texts.find(name);
+          found != table_.record.others.texts.end() && found->second == text)
+        table_.record.others.texts.erase(found);
   }
 
   void read_value() {
