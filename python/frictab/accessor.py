@@ -24,15 +24,6 @@ class TableAccessor:
         axes = [axis_of(d, dataset[d].data, plain(dataset[d].attrs)) for d in value.dims]
         self.table = Table("the dataset", axes, np.asarray(value.data, float), plain(value.attrs),
                            plain(dataset.attrs))
-
-    def tau_R(self, states=None, /, **named):
-        return self.table.tau_R(states, **named)
-
-    def mu(self, states=None, /, **named):
-        return self.table.mu(states, **named)
-
-    def interp(self, states=None, /, **named):
-        return self.table.interp(states, **named)
-
-    def outside(self, states=None, /, **named):
-        return self.table.outside(states, **named)
+        # Not methods of its own: warnings name the line that called.
+        self.tau_R, self.mu = self.table.tau_R, self.table.mu
+        self.interp, self.outside = self.table.interp, self.table.outside

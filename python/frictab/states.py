@@ -99,7 +99,7 @@ def sides(inputs, columns):
                     - (columns[i.name] < i.low).astype(np.int8) for i in inputs}
 
 
-def warn_outside(owner, inputs, columns, level=4):
+def warn_outside(owner, inputs, columns):
     """One OutsideWarning that counts the rows of each side."""
     found = []
     for i, side in zip(inputs, sides(inputs, columns).values()):
@@ -112,4 +112,4 @@ def warn_outside(owner, inputs, columns, level=4):
                              f"{farthest(x[there]):g}; {rule})")
     if found:
         rows = len(next(iter(columns.values())))
-        warnings.warn(f"{owner}: of {rows} states, " + ", ".join(found), OutsideWarning, level)
+        warnings.warn(f"{owner}: of {rows} states, " + ", ".join(found), OutsideWarning, 3)

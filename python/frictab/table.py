@@ -120,7 +120,10 @@ class Table:
         return np.exp(raw) if self.log_value else raw
 
     def _constant(self, name):
-        return float(np.ravel(self.attributes[name])[0])
+        if not isinstance(self.attributes.get(name), (int, float)):
+            raise FrictabError(f"{self.source}: the formula uses '{name}', which is no state and "
+                               "no number attribute of 'value'")
+        return float(self.attributes[name])
 
     def _make_grid(self):
         axes = []
@@ -148,9 +151,8 @@ class Table:
             return Input(name, axis.unit, axis.nodes[0], axis.nodes[-1], _WORDS[axis.below],
                          _WORDS[axis.above], axis.meaning)
         levels = str(self.root.get(f"levels_{name}", ""))
-        low, high = (float(np.ravel(self.root.get(f"range_{end}_{name}", infinite))[0])
-                     for end, infinite in (("low", -np.inf), ("high", np.inf)))
-        low, high = held if held else (low, high)
+        low, high = held or (self.root.get(f"range_low_{name}", -np.inf),
+                             self.root.get(f"range_high_{name}", np.inf))
         word = _WORDS["held" if held else "free"]
         return Input(name, str(self.root.get(f"units_{name}", "")), low, high, word, word,
                      str(self.root.get(f"long_name_{name}", "")), _levels(levels))
@@ -193,8 +195,16 @@ def _levels(text): # "0 = A, 1 = B"
 
 
 def plain(attributes):
-    """Attributes with their texts as str, whichever way HDF5 keeps them."""
-    return {str(n): a.decode() if isinstance(a, bytes) else a for n, a in attributes.items()}
+    """Attributes as str and float, whichever way HDF5 keeps them."""
+    return {str(n): _plain(a) for n, a in attributes.items()}
+
+
+def _plain(attribute):
+    if isinstance(attribute, bytes):
+        return attribute.decode()
+    if isinstance(attribute, (np.ndarray, np.number)) and np.size(attribute) == 1:
+        return np.ravel(attribute)[0].item()
+    return attribute
 
 
 def axis_of(name, nodes, attributes):

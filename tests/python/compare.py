@@ -1,8 +1,8 @@
 """Compares the package frictab with frictab itself.
 
-Usage: compare.py DIRECTORY   of NAME.h5 (tables) or NAME.json (laws), each with NAME.csv (tabs between): a
-column per input, tau_R_MPa, and for each axis and held input outside:NAME (1 where a state lies outside).
-Prints a line for each file that differs, then "ok" and the count.
+Usage: compare.py DIRECTORY   of NAME.h5 (tables) or NAME.json (laws), each with NAME.csv, tabs
+between: a column per input, tau_R_MPa, and for each axis and held input outside:NAME (1 where a
+state lies outside). Prints a line for each file that differs, then "ok" and the count.
 """
 import pathlib
 import sys

@@ -1,5 +1,7 @@
 // The Python package: the same values as the kernel, whatever a table or law is made of.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -151,6 +153,35 @@ TEST_F(SlowPython, LawsGiveWhatFrictabGivesTo1e12ByTheirFormulaAlone) {
   add("traced", test::traced_model({"humidity", "work"}));
   add("curve_by_tool", test::traced_model({"curve_by_tool", "unloading"}));
   expect_the_same(files + 5);
+}
+
+TEST_F(SlowPython, CallsTakeArraysFramesAndDatasetsAndTellWhatIsWrong) {
+  add("sides", test::sides_table());
+  add("spline", test::spline_table());
+  add("tool", test::traced_model({"tool"}));
+  const auto result = python({house + "/tests/python/calls.py", directory.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("OK\n"));
+}
+
+TEST_F(SlowPython, TheNotebookOfTheExamplesRuns) {
+  const auto result =
+      python({house + "/tests/python/run_notebook.py", house + "/examples/10_python/tables.ipynb"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, HasSubstr("five lines 76.345, the package 76.345; interp along the axes "
+                                    "themselves 76.298 MPa"));
+}
+
+TEST_F(SlowPython, AWheelIsBuiltWithoutACompilerAndWithoutTheNetwork) {
+  if (python({"-c", "import setuptools, wheel, pip"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-pip, -setuptools, -wheel are not installed";
+  const std::string copy = directory.path("python"); // setuptools writes beside its sources
+  ASSERT_EQ(test::run_command({"cp", "-r", house + "/python", copy}).exit_code, 0);
+  const auto result = python({"-m", "pip", "wheel", "--no-build-isolation", "--no-deps",
+                              "--no-index", "-q", "-w", directory.path("wheels"), copy});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_TRUE(std::filesystem::exists(
+      directory.path("wheels/frictab-" FRICTAB_VERSION "-py3-none-any.whl")));
 }
 
 } // namespace

@@ -1,0 +1,137 @@
+"""How the package frictab is called. Usage: calls.py TABLES, with sides.h5, spline.h5, tool.json."""
+import pathlib
+import sys
+import unittest
+import warnings
+
+import numpy as np
+import pandas
+import xarray
+
+import frictab
+import frictab.accessor
+
+HERE = pathlib.Path(sys.argv.pop(1))
+
+
+def middle(law, **others):
+    """A state in the middle of every range."""
+    return {**{i.name: (i.low + i.high) / 2 if np.isfinite(i.high - i.low) else 400.0
+               for i in law.inputs}, **others}
+
+
+class Calls(unittest.TestCase):
+    def setUp(self):
+        self.table = frictab.open(HERE / "spline.h5")
+        self.state = middle(self.table)
+        self.axis = self.table.axes[0].name
+
+    def fails(self, text, function, *arguments, **named):
+        with self.assertRaises(frictab.FrictabError) as fault:
+            function(*arguments, **named)
+        self.assertIn(text, str(fault.exception))
+
+    def test_numbers_give_a_number_and_arrays_broadcast(self):
+        one = self.table.tau_R(**self.state)
+        self.assertIsInstance(one, float)
+        many = dict(self.state, **{self.axis: np.full((3, 1), self.state[self.axis])})
+        many[self.table.axes[1].name] = np.full(2, self.state[self.table.axes[1].name])
+        np.testing.assert_array_equal(self.table.tau_R(**many), np.full((3, 2), one))
+        empty = {**self.state, self.axis: []}
+        self.assertEqual(self.table.tau_R(empty).shape, (0,))
+
+    def test_frames_and_datasets_give_their_own_kind(self):
+        one = self.table.tau_R(**self.state)
+        frame = pandas.DataFrame([self.state] * 2, index=["a", "b"]).assign(note="not asked for")
+        series = self.table.tau_R(frame)
+        self.assertEqual(series.index.tolist(), ["a", "b"])
+        self.assertEqual(series["b"], one)
+        data = xarray.Dataset({n: ("node", [x, x]) for n, x in self.state.items()})
+        self.assertEqual(self.table.tau_R(data).dims, ("node",))
+
+    def test_names_that_are_wrong_or_missing_are_told(self):
+        self.fails("did you mean 'sigma_n_MPa'?", self.table.tau_R, sigma_n=1)
+        self.fails(f"needs {self.table.inputs[0]}", self.table.tau_R)
+        self.fails("is no number", self.table.tau_R, {**self.state, self.axis: "much"})
+        self.fails("do not fit together", self.table.tau_R, {
+            **self.state, self.axis: [1, 2], self.table.axes[1].name: [1, 2, 3]})
+
+    def test_states_outside_are_counted_by_side(self):
+        axis = self.table.axes[0]
+        state = {**self.state, self.axis: [axis.nodes[0] / 2, self.state[self.axis],
+                                           axis.nodes[-1] * 2, axis.nodes[-1] * 3]}
+        with self.assertWarns(frictab.OutsideWarning) as said:
+            self.table.tau_R(state)
+        self.assertIn(f"of 4 states, {self.axis} below {axis.nodes[0]:g} in 1", str(said.warning))
+        self.assertIn(f"{self.axis} above {axis.nodes[-1]:g} in 2", str(said.warning))
+        self.assertEqual(said.filename, __file__)
+        self.assertEqual(self.table.outside(state)[self.axis].tolist(), [-1, 0, 1, 1])
+
+    def test_a_state_that_is_not_known_gives_nan(self):
+        self.assertTrue(np.isnan(self.table.tau_R(self.state, **{self.axis: np.nan})))
+
+    def test_a_side_that_refuses_gives_nan(self):
+        table = frictab.open(HERE / "sides.h5")
+        ends = [(a, sign) for a in table.axes for sign in (-1, 1)
+                if (a.below if sign < 0 else a.above) == "error"]
+        self.assertTrue(ends)
+        for axis, sign in ends:
+            end = axis.nodes[0] if sign < 0 else axis.nodes[-1]
+            for part, refused in ((1e-7, False), (1e-5, True)):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    tau = table.tau_R(middle(table), **{axis.name: end * (1 + sign * part)})
+                self.assertEqual(np.isnan(tau), refused, axis.name)
+
+    def test_the_accessor_interpolates_as_the_table_where_interp_of_xarray_does_not(self):
+        with xarray.open_dataset(HERE / "spline.h5") as data:
+            self.assertEqual(data.frictab.tau_R(self.state), self.table.tau_R(self.state))
+            piece = data.frictab.interp(self.state)
+            at = {axis.name: self.state[axis.name] for axis in self.table.axes}
+            self.assertGreater(abs(data["value"].interp(at).item() / piece - 1), 1e-3)
+            self.assertIn("is WRONG between the nodes", data["value"].attrs["comment"])
+            log = [a for a in self.table.axes if a.log]
+            self.assertTrue(log)
+            for axis in log:
+                np.testing.assert_array_equal(data.coords["ln_" + axis.name], np.log(axis.nodes))
+                self.assertEqual(data.coords["ln_" + axis.name].dims, (axis.name,))
+            self.assertEqual(data.attrs["Conventions"], "CF-1.8, ACDD-1.3")
+
+    def test_text_columns_are_taken_by_their_levels(self):
+        law = frictab.read_model(HERE / "tool.json")
+        named, = [i for i in law.inputs if i.levels]
+        state = middle(law)
+        for number, level in enumerate(named.levels):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.assertEqual(law.tau_R(state, **{named.name: level}),
+                                 law.tau_R(state, **{named.name: number}))
+        self.fails("it is one of A, B", law.tau_R, state, **{named.name: "Z"})
+
+    def test_files_of_another_kind_are_told_apart(self):
+        self.fails("is no HDF5 file", frictab.open, HERE / "tool.json")
+        self.fails("there is no such file", frictab.open, HERE / "none.h5")
+        self.fails("is no JSON file", frictab.read_model, HERE / "spline.h5")
+        self.fails('its schema is "frictab/model/1"', frictab.read_calibration, HERE / "tool.json")
+        self.fails("no variable 'value'", lambda: xarray.Dataset().frictab)
+
+
+class Formulas(unittest.TestCase):
+    def test_binds_as_python_does(self):
+        for text in ("-x**2", "2**-x", "x/2*3", "1 - x - 2", "2**x**2", "-(x + 1)*.5e1",
+                     "where(x <= 3, minimum(x, 1), exp(x))"):
+            scope = {n: getattr(np, n) for n in ("minimum", "exp", "where")}
+            self.assertEqual(frictab.Formula(text)(x=3.0), eval(text, scope, {"x": 3.0}), text)
+
+    def test_runs_nothing_but_arithmetic(self):
+        for text in ("__import__('os')", "x.real", "open(x)", "x[0]", "lambda: 1", "1 if x else 2",
+                     "x; x", "", "(" * 500 + "x", "1 +", "minimum(x)", "where(x, 1, 2)"):
+            with self.assertRaises(frictab.FrictabError, msg=text):
+                frictab.Formula(text)
+
+    def test_nan_goes_through_every_choice(self):
+        for text in ("minimum(x, 1)", "maximum(1, x)", "where(x <= 1, 1, 2)", "where(1 <= x, 1, 2)"):
+            self.assertTrue(np.isnan(frictab.Formula(text)(x=np.nan)), text)
+
+
+unittest.main(argv=["calls.py"])
