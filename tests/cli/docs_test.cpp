@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "codegen/exporter.h"
@@ -126,6 +127,87 @@ void write_tests(const test::TemporaryDirectory& directory) {
     files.try_emplace(row.substr(0, row.find(',')), header + "\n").first->second += row + "\n";
   for (const auto& [test, text] : files)
     directory.write("tests/" + test + ".csv", text);
+}
+
+struct Block {
+  std::string language, text; // no language: what the commands before it print
+};
+
+std::vector<Block> all_blocks(const std::string& text) {
+  std::vector<Block> all;
+  std::istringstream lines(text);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) all.push_back({line.substr(3), ""});
+    } else if (inside) {
+      all.back().text += line + "\n";
+    }
+  }
+  return all;
+}
+
+// Every line of `shown` stands in `printed`, in this order.
+void expect_printed(const std::string& shown, const std::string& printed) {
+  std::istringstream lines(shown);
+  std::size_t at = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t found = printed.find(line, at);
+    EXPECT_NE(found, printed.npos) << "not printed: " << line;
+    if (found != printed.npos) at = found + line.size();
+  }
+}
+
+TEST(SlowDocsExample, TheTutorialPrintsWhatItShows) {
+  const test::TemporaryDirectory directory;
+  const std::string program = fs::path(FRICTAB_BINARY).parent_path().string();
+  std::string printed;
+  std::size_t run = 0, compared = 0;
+  for (const Block& block : all_blocks(text_of(house / "docs/tutorial.md")))
+    if (block.language == "sh") {
+      const auto result = test::run_command({"/bin/sh", "-ec", block.text}, directory.path(),
+                                            {"PATH=" + program + ":/usr/bin:/bin"});
+      EXPECT_EQ(result.exit_code, 0) << block.text << result.err;
+      printed = result.out;
+      ++run;
+    } else {
+      expect_printed(block.text, printed);
+      ++compared;
+    }
+  EXPECT_GE(run, 6u);
+  EXPECT_GE(compared, 8u);
+}
+
+TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
+  if (test::run_command({FRICTAB_PYTHON, "-c", "import markdown"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-markdown is not installed";
+  const test::TemporaryDirectory directory;
+  const std::string report = directory.write("a_report.html", "<html></html>");
+  const auto built = test::run_command(
+      {FRICTAB_PYTHON, (house / "docs/build").string(), directory.path("site"), report});
+  ASSERT_EQ(built.exit_code, 0) << built.err;
+  EXPECT_EQ(built.out,
+            fmt::format("wrote {} pages to {}\n", pages().size(), directory.path("site")));
+  std::size_t links = 0;
+  for (const fs::path& page : pages()) {
+    fs::path place = fs::path(directory.path("site")) / fs::relative(page, house);
+    place.replace_extension(".html");
+    if (page == house / "README.md") place.replace_filename("index.html");
+    const std::string text = text_of(place);
+    EXPECT_NE(text.find("<main><h1"), text.npos) << place;
+    for (const auto& m : matches(text, std::regex("href=\"([^\"#]*)#?([^\"]*)\""))) {
+      if (m[1].str().find("://") != std::string::npos) continue;
+      const fs::path target = m[1].length() > 0 ? place.parent_path() / m[1].str() : place;
+      EXPECT_TRUE(fs::exists(target)) << place << " links to " << m[1];
+      if (m[2].length() > 0) {
+        EXPECT_NE(text_of(target).find("id=\"" + m[2].str() + "\""), std::string::npos)
+            << place << " links to " << m[0];
+      }
+      ++links;
+    }
+  }
+  EXPECT_GE(links, 200u);
 }
 
 TEST(SlowDocsExample, CommandsOfTheGuideRun) {
