@@ -34,7 +34,10 @@ class Formula:
         self.text = text
         self._parts = [] # ("number", x), ("name", n) or (function, operand, ...), operands first
         self._known = {}
-        self._root = _Parser(text, self._part).parse()
+        try:
+            self._root = _Parser(text, self._part).parse()
+        except RecursionError: # of a caller that is deep in calls itself
+            raise FrictabError("too many nested terms in a formula") from None
         self._last_use = {o: i for i, part in enumerate(self._parts)
                           if callable(part[0]) for o in part[1:]}
         self.names = {part[1] for part in self._parts if part[0] == "name"}

@@ -1,6 +1,6 @@
 """Tables of friction laws: tables/NAME.h5."""
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -78,12 +78,16 @@ class Table:
         if "sigma_n_MPa" not in found.columns:
             raise FrictabError(f"{self} does not depend on sigma_n_MPa")
         warn_outside(self, self.inputs, found.columns)
-        return found.back(self._tau(found.columns, found.rows) / found.columns["sigma_n_MPa"])
+        with np.errstate(divide="ignore", invalid="ignore"): # no pressure: NaN
+            return found.back(self._tau(found.columns, found.rows) / found.columns["sigma_n_MPa"])
 
     def interp(self, states=None, /, **named):
         """The tabulated piece itself, held at the ends of the axes: `value` between its nodes."""
         names = {axis.name for axis in self.axes}
-        found = States(self, [i for i in self.inputs if i.name in names], states, named)
+        held = [replace(i, below="held at that end", above="held at that end")
+                for i in self.inputs if i.name in names]
+        found = States(self, held, states, named)
+        warn_outside(self, held, found.columns)
         return found.back(self._piece(found.columns, found.rows))
 
     def outside(self, states=None, /, **named):
@@ -137,6 +141,9 @@ class Table:
         text, part = "", 1
         while (name := "extension" if part == 1 else f"extension_{part}") in self.attributes:
             text, part = text + str(self.attributes[name]), part + 1
+        if not text and any("law" in (axis.below, axis.above) for axis in self.axes):
+            raise FrictabError(f"{self.source}: an axis goes on by the law, and 'value' has no "
+                               "attribute 'extension'")
         return Formula(text) if text else None
 
     def _inputs(self):
@@ -179,9 +186,28 @@ class Table:
                                "what 'value' holds where its transform is log")
         if self.log_value and schema == _SCHEMAS[1]:
             self.value = np.exp(self.value)
+        self._check_numbers()
         if self.interpolation == "cubic" and self._text("spline") != "not-a-knot":
             raise FrictabError(f"{self.source}: its spline is '{self._text('spline')}'; "
                                "this version reads not-a-knot")
+
+    def _check_numbers(self):
+        for axis, size in zip(self.axes, self.value.shape):
+            x = axis.nodes
+            if x.shape != (size,) or size < 2 or not np.all(np.isfinite(x)) or np.any(np.diff(x) <= 0):
+                raise FrictabError(f"{self.source}: axis '{axis.name}' has no {size} ascending nodes")
+            if axis.log and x[0] <= 0:
+                raise FrictabError(f"{self.source}: axis '{axis.name}' is logarithmic and starts at "
+                                   f"{x[0]:g}")
+            if not np.all(np.isin(axis.kinks, x)):
+                raise FrictabError(f"{self.source}: axis '{axis.name}' has a kink without a node")
+            for side in (axis.below, axis.above):
+                if side not in ("clamp", "law", "error"):
+                    raise FrictabError(f"{self.source}: what lies outside axis '{axis.name}' is "
+                                       f"'{side}'; it is one of clamp, error, law")
+        if not np.all(np.isfinite(self.value)) or self.log_value and np.any(self.value <= 0):
+            raise FrictabError(f"{self.source}: 'value' has numbers that are not finite"
+                               + (" and above 0" if self.log_value else ""))
 
 
 def _levels(text): # "0 = A, 1 = B"
@@ -229,14 +255,20 @@ def open_table(path):
     except OSError:
         raise FrictabError(f"{path}: is no HDF5 file; a table is tables/NAME.h5 of a run") from None
     with file:
-        if "value" not in file or not isinstance(file["value"], h5py.Dataset):
-            raise FrictabError(f"{path}: there is no dataset 'value': this is no friction table")
-        value = file["value"]
-        axes = []
-        for d in range(value.ndim):
-            if len(value.dims[d]) == 0:
-                raise FrictabError(f"{path}: axis {d} of 'value' has no dimension scale")
-            scale = value.dims[d][0]
-            axes.append(axis_of(scale.name.lstrip("/"), scale[()], plain(scale.attrs)))
-        return Table(path, axes, np.asarray(value[()], float), plain(value.attrs),
-                     plain(file.attrs))
+        try:
+            return _read(file, path)
+        except (OSError, RuntimeError, TypeError) as fault: # damaged, or of another kind
+            raise FrictabError(f"{path}: cannot be read: {fault}") from None
+
+
+def _read(file, path):
+    value = file.get("value")
+    if value is None or not hasattr(value, "dims"):
+        raise FrictabError(f"{path}: there is no dataset 'value': this is no friction table")
+    axes = []
+    for d in range(value.ndim):
+        if len(value.dims[d]) == 0:
+            raise FrictabError(f"{path}: axis {d} of 'value' has no dimension scale")
+        scale = value.dims[d][0]
+        axes.append(axis_of(scale.name.lstrip("/"), scale[()], plain(scale.attrs)))
+    return Table(path, axes, np.asarray(value[()], float), plain(value.attrs), plain(file.attrs))

@@ -174,7 +174,7 @@ Explanation about_table_layout() {
                "outside_low and outside_high say"},
       {"not needed", "all other attributes; frictab writes model, data_hash, "
                      "data_origin, tool_version, tolerance_MPa, worst_case_MPa, refinement "
-                     "and others to the root"}};
+                     "and others to the root, and Conventions, title, source and comment of CF"}};
   out.items = {
       {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
       {"value: quantity", "mu or tau_R: what is tabulated", {}},
@@ -200,6 +200,10 @@ Explanation about_table_layout() {
        {}},
       {"AXIS: data_low, data_high",
        "optional: what the data reach on which the law was calibrated",
+       {}},
+      {"ln_AXIS",
+       "written for readers of netCDF: the logarithm of a log axis, in which interpolation is "
+       "right",
        {}},
       {"AXIS: share_beyond_data",
        "written for readers: share of the nodes that lie beyond them, 0 to 1",

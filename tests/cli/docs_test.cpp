@@ -196,6 +196,8 @@ TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
     if (page == house / "README.md") place.replace_filename("index.html");
     const std::string text = text_of(place);
     EXPECT_NE(text.find("<main><h1"), text.npos) << place;
+    EXPECT_EQ(text.find("<p>| "), text.npos) << place << " has a table that is none";
+    EXPECT_EQ(text.find("<p>* "), text.npos) << place << " has a list that is none";
     for (const auto& m : matches(text, std::regex("href=\"([^\"#]*)#?([^\"]*)\""))) {
       if (m[1].str().find("://") != std::string::npos) continue;
       const fs::path target = m[1].length() > 0 ? place.parent_path() / m[1].str() : place;

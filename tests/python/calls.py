@@ -1,9 +1,12 @@
 """How the package frictab is called. Usage: calls.py TABLES, with sides.h5, spline.h5, tool.json."""
 import pathlib
+import random
+import shutil
 import sys
 import unittest
 import warnings
 
+import h5py
 import numpy as np
 import pandas
 import xarray
@@ -115,6 +118,39 @@ class Calls(unittest.TestCase):
         self.fails('its schema is "frictab/model/1"', frictab.read_calibration, HERE / "tool.json")
         self.fails("no variable 'value'", lambda: xarray.Dataset().frictab)
 
+    def changed(self, change):
+        """A copy of the table after change(file)."""
+        copy = HERE / "changed.h5"
+        shutil.copy(HERE / "spline.h5", copy)
+        with h5py.File(copy, "r+") as file:
+            change(file)
+        return copy
+
+    def test_tables_of_the_first_layout_hold_logarithms(self):
+        def as_it_was(file):
+            file["value"][...] = np.log(file["value"][...])
+            file.attrs["schema"] = "frictab/table/1"
+        old = frictab.open(self.changed(as_it_was))
+        self.assertAlmostEqual(old.tau_R(self.state) / self.table.tau_R(self.state), 1, 12)
+
+    def test_damaged_tables_are_refused(self):
+        def node(file):
+            file[self.axis][1] = file[self.axis][0]
+        def number(file):
+            file["value"][(0,) * file["value"].ndim] = np.nan
+        def side(file):
+            file[self.axis].attrs["outside_low"] = "law"
+        def constant(file):
+            file["value"].attrs["combine"] = "value*nobody"
+        def scale(file):
+            file["value"].dims[0].detach_scale(file[self.axis])
+        for change, text in ((node, "ascending nodes"), (number, "not finite and above 0"),
+                             (side, "no attribute 'extension'"), (scale, "no dimension scale")):
+            self.fails(text, frictab.open, self.changed(change))
+        self.fails("needs nobody", frictab.open(self.changed(constant)).tau_R, self.state)
+        (HERE / "cut.h5").write_bytes((HERE / "spline.h5").read_bytes()[:3000])
+        self.fails("cut.h5: ", frictab.open, HERE / "cut.h5")
+
 
 class Formulas(unittest.TestCase):
     def test_binds_as_python_does(self):
@@ -128,6 +164,17 @@ class Formulas(unittest.TestCase):
                      "x; x", "", "(" * 500 + "x", "1 +", "minimum(x)", "where(x, 1, 2)"):
             with self.assertRaises(frictab.FrictabError, msg=text):
                 frictab.Formula(text)
+
+    def test_any_text_is_a_formula_or_a_fault(self):
+        pieces = ["x", "1.5", "2e3", "+", "-", "*", "/", "**", "(", ")", ",", "<=", "where", "log", " ", "."]
+        draw, read = random.Random(1), 0
+        for _ in range(5000):
+            try:
+                frictab.Formula("".join(draw.choices(pieces, k=draw.randint(1, 8))))
+                read += 1
+            except frictab.FrictabError:
+                pass
+        self.assertGreater(read, 100)
 
     def test_nan_goes_through_every_choice(self):
         for text in ("minimum(x, 1)", "maximum(1, x)", "where(x <= 1, 1, 2)", "where(1 <= x, 1, 2)"):

@@ -164,6 +164,10 @@ TEST_F(SlowPython, CallsTakeArraysFramesAndDatasetsAndTellWhatIsWrong) {
   EXPECT_THAT(result.err, HasSubstr("OK\n"));
 }
 
+TEST_F(SlowPython, ThePackageHasTheVersionOfTheProgram) {
+  EXPECT_EQ(python({"-c", "import frictab; print(frictab.__version__)"}).out, FRICTAB_VERSION "\n");
+}
+
 TEST_F(SlowPython, TheNotebookOfTheExamplesRuns) {
   const auto result =
       python({house + "/tests/python/run_notebook.py", house + "/examples/10_python/tables.ipynb"});

@@ -106,6 +106,15 @@ INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(models::la
 INSTANTIATE_TEST_SUITE_P(Registry, SlowTableOfEveryLaw, testing::ValuesIn(models::law_names()),
                          test_name);
 
+TEST(Table, ATitleThatSomeoneGaveStaysAndOursIsWrittenAnew) {
+  Table table = table_of("orowan");
+  table.record.others.texts["title"] = "Rig 3";
+  const test::TemporaryDirectory directory;
+  write_table(table, directory.path("table.h5"));
+  const Table again = read_table(directory.path("table.h5"));
+  EXPECT_THAT(again.record.others.texts, testing::ElementsAre(testing::Pair("title", "Rig 3")));
+}
+
 TEST(Table, ProductsOfPowersAndLogarithmsNeedTwoNodesPerAxis) {
   for (const char* law : {"log_coulomb", "exp_coulomb"}) {
     const Table table = table_of(law);
