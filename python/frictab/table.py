@@ -27,6 +27,18 @@ class Axis:
     unit: str = ""
     meaning: str = ""
 
+    def fault(self, size):
+        """What is wrong with it as one of `size` nodes, in words; nothing where it is right."""
+        x = self.nodes
+        if x.shape != (size,) or size < 2 or not np.all(np.isfinite(x)) or np.any(np.diff(x) <= 0):
+            return f"has no {size} ascending nodes"
+        if self.log and x[0] <= 0:
+            return f"is logarithmic and starts at {x[0]:g}"
+        if not np.all(np.isin(self.kinks, x)):
+            return "has a kink without a node"
+        wrong = {self.below, self.above} - {"clamp", "law", "error"}
+        return f"says {min(wrong)} of what lies outside; clamp, error or law" if wrong else ""
+
     def coordinate(self, x):
         if not self.log:
             return x
@@ -193,18 +205,8 @@ class Table:
 
     def _check_numbers(self):
         for axis, size in zip(self.axes, self.value.shape):
-            x = axis.nodes
-            if x.shape != (size,) or size < 2 or not np.all(np.isfinite(x)) or np.any(np.diff(x) <= 0):
-                raise FrictabError(f"{self.source}: axis '{axis.name}' has no {size} ascending nodes")
-            if axis.log and x[0] <= 0:
-                raise FrictabError(f"{self.source}: axis '{axis.name}' is logarithmic and starts at "
-                                   f"{x[0]:g}")
-            if not np.all(np.isin(axis.kinks, x)):
-                raise FrictabError(f"{self.source}: axis '{axis.name}' has a kink without a node")
-            for side in (axis.below, axis.above):
-                if side not in ("clamp", "law", "error"):
-                    raise FrictabError(f"{self.source}: what lies outside axis '{axis.name}' is "
-                                       f"'{side}'; it is one of clamp, error, law")
+            if fault := axis.fault(size):
+                raise FrictabError(f"{self.source}: axis '{axis.name}' {fault}")
         if not np.all(np.isfinite(self.value)) or self.log_value and np.any(self.value <= 0):
             raise FrictabError(f"{self.source}: 'value' has numbers that are not finite"
                                + (" and above 0" if self.log_value else ""))

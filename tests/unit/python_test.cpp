@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,6 +106,7 @@ protected:
     const auto result = python({house + "/tests/python/compare.py", directory.path()});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, StartsWith(fmt::format("ok {} ", files)));
+    std::cout << result.out; // docs/python.md states it
   }
 
   test::TemporaryDirectory directory;
