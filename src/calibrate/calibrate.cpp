@@ -221,6 +221,15 @@ models::Conventions conventions_of(const ModelOptions& models, const Dataset& da
   return conventions;
 }
 
+std::vector<std::string> names_of_laws(const CalibrationInput& input) {
+  check_conditional(input);
+  std::vector<std::string> names;
+  for (const models::Law* law :
+       select_laws(input, conventions_of(input.models, input.training)).laws)
+    names.push_back(law->name);
+  return names;
+}
+
 Calibration calibrate(const CalibrationInput& input) {
   const models::Conventions conventions = conventions_of(input.models, input.training);
   Selection selection = select_laws(input, conventions);

@@ -121,6 +121,9 @@ models::Conventions conventions_of(const ModelOptions& models, const data::Datas
 // options.condition_on_mm cannot be done with these data.
 Calibration calibrate(const CalibrationInput& input);
 
+// The laws it would fit, in the order of the registry. Throws as calibrate() does.
+std::vector<std::string> names_of_laws(const CalibrationInput& input);
+
 // tau_R in MPa of every row; histories of the law's own stress are self-consistent. Throws
 // InputError that names the inputs the data do not have.
 std::vector<double> predict(const models::Model& model, const data::Dataset& data);

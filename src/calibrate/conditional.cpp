@@ -13,6 +13,7 @@
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/text.h"
 
 namespace frictab::calibrate {
@@ -253,8 +254,10 @@ void add_conditional(Calibration& calibration, const CalibrationInput& input) {
   c.usual_rows = static_cast<std::size_t>(
       gain_prior(input.training, input.training.values("tau_R_MPa"), c.condition_on_mm).usual_rows);
   c.laws.resize(calibration.fits.size());
+  const Progress progress("laws at a known sliding distance", c.laws.size());
   parallel_for(c.laws.size(), [&](std::size_t i) {
     c.laws[i] = fit_of(calibration.fits[i], input, c.condition_on_mm);
+    progress.tick();
   });
   std::stable_sort(c.laws.begin(), c.laws.end(),
                    [](const ConditionalFit& a, const ConditionalFit& b) {

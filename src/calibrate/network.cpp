@@ -12,6 +12,7 @@
 #include "calibrate/folds.h"
 #include "calibrate/network_fit.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/random.h"
 #include "data/quantity.h"
 
@@ -171,8 +172,10 @@ public:
   std::vector<std::vector<NetworkFit>> all_paths(std::size_t count, NetworkScatter scatter,
                                                  const std::vector<double>& path_decays) const {
     std::vector<std::vector<NetworkFit>> paths(count * folds_);
+    const Progress progress("training networks", paths.size());
     parallel_for(paths.size(), [&](std::size_t i) {
       paths[i] = path(i / folds_, i % folds_, scatter, path_decays);
+      progress.tick();
     });
     return paths;
   }

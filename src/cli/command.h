@@ -27,6 +27,29 @@ struct CommonOptions {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set; // --set key=value
   std::optional<bool> progress; // --[no-]progress; absent: on a terminal only
+  bool dry_run = false;
+};
+
+// Which of the common options change what a command does: its help shows these. The others are
+// taken as well, so that a script can give the same ones to every command.
+enum Uses : unsigned {
+  uses_output = 1,
+  uses_force = 2,
+  uses_threads = 4,
+  uses_quiet = 8,
+  uses_verbose = 16,
+  uses_json = 32,
+  uses_seed = 64,
+  uses_set = 128,
+  uses_progress = 256,
+  uses_dry_run = 512,
+  stage_uses = uses_output | uses_threads | uses_quiet | uses_json | uses_seed | uses_set |
+               uses_progress | uses_dry_run, // of a command that runs stages of a job
+};
+
+struct Example {
+  std::string command; // "frictab run job.toml"
+  std::string does;    // a few words
 };
 
 struct Command {
@@ -37,7 +60,13 @@ struct Command {
   // thrown. Results go to stdout or files; notes to stderr through note() below. nullptr: only the
   // commands below it run.
   std::function<int()> (*declare)(CLI::App& app, const CommonOptions& common) = nullptr;
+  unsigned uses = 0; // of Uses
+  std::vector<Example> examples = {};
 };
+
+// For CLI::Option::check: what is wrong with the text of a number, "" where nothing is.
+std::string positive_number(const std::string& text);
+std::string number_from_0(const std::string& text);
 
 // In a catch block: says on stderr what was thrown, and gives the exit code for it.
 int tell_error();

@@ -1,14 +1,18 @@
 // Builds the CLI11 application from the registered commands.
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
 #include <limits>
 #include <new>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -43,34 +47,69 @@ Number whole_number(const char* option, const std::string& text, Number most) {
   return value;
 }
 
-void add_common(CLI::App& app, CommonOptions& common) {
-  app.add_option("-o,--output", common.output, "Output directory, instead of the job's")
-      ->type_name("DIR");
-  app.add_flag("--force", common.force, "Overwrite files that frictab would leave alone");
-  app.add_option_function<std::string>(
-         "-j,--threads",
-         [&common](const std::string& text) {
-           common.threads = whole_number("--threads", text, most_threads);
-         },
-         "Threads; 0 = all cores")
-      ->type_name("N");
-  app.add_flag("-q,--quiet", common.quiet, "Nothing on stderr unless something fails");
-  app.add_flag("-v,--verbose", common.verbose, "Say more on stderr");
-  app.add_flag("--json", common.json, "Print the result as JSON");
-  app.add_option_function<std::string>(
-         "--seed",
-         [&common](const std::string& text) {
-           common.seed = whole_number("--seed", text, largest_seed);
-         },
-         "Seed of everything random")
-      ->type_name("N");
-  app.add_option("--set", common.set, "Override a job key: --set table.tolerance_MPa=0.1")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_flag("--progress,!--no-progress", common.progress,
-               "Progress line on or off; otherwise on a terminal only");
-  app.footer(exit_codes);
+// CLI11's own checks take nan, and name the largest number there is in all its digits.
+std::string number_above(const std::string& text, bool (*allowed)(double), const char* wanted) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && stopped == end && std::isfinite(value) && allowed(value)) return "";
+  return fmt::format("'{}' is not {}", text, wanted);
+}
+
+std::string footer_of(const Command& command) {
+  std::string text;
+  std::size_t width = 0;
+  for (const Example& example : command.examples)
+    width = std::max(width, example.command.size());
+  for (const Example& example : command.examples)
+    text += fmt::format("  {:<{}}  # {}\n", example.command, width, example.does);
+  if (!text.empty()) text = "Examples:\n" + text + "\n";
+  return text + exit_codes;
+}
+
+// An option without a group is taken, and not shown.
+void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
+  const auto shown = [uses](CLI::Option* option, unsigned use) {
+    if ((uses & use) == 0) option->group("");
+  };
+  shown(app.add_option("-o,--output", common.output, "Output directory, instead of the job's")
+            ->type_name("DIR"),
+        uses_output);
+  shown(app.add_flag("--force", common.force, "Overwrite files that frictab would leave alone"),
+        uses_force);
+  shown(app.add_option_function<std::string>(
+               "-j,--threads",
+               [&common](const std::string& text) {
+                 common.threads = whole_number("--threads", text, most_threads);
+               },
+               "Threads; 0 = all cores")
+            ->type_name("N"),
+        uses_threads);
+  shown(app.add_flag("-q,--quiet", common.quiet, "Nothing on stderr unless something fails"),
+        uses_quiet);
+  shown(app.add_flag("-v,--verbose", common.verbose, "Say more on stderr"), uses_verbose);
+  shown(app.add_flag("--json", common.json, "Print the result as JSON"), uses_json);
+  shown(app.add_option_function<std::string>(
+               "--seed",
+               [&common](const std::string& text) {
+                 common.seed = whole_number("--seed", text, largest_seed);
+               },
+               "Seed of everything random")
+            ->type_name("N"),
+        uses_seed);
+  shown(app.add_option("--set", common.set, "Override a job key: --set table.tolerance_MPa=0.1")
+            ->type_name("KEY=VALUE")
+            ->take_all()
+            ->allow_extra_args(false),
+        uses_set);
+  shown(app.add_flag_function(
+            "--progress,!--no-progress",
+            [&common](std::int64_t count) { common.progress = count > 0; },
+            "Progress line on or off; otherwise on a terminal only"),
+        uses_progress);
+  if (uses & uses_dry_run)
+    app.add_flag("--dry-run", common.dry_run,
+                 "Say what would run, what is kept and what would be written; write nothing");
 }
 
 // -o "$OUT" of a script whose OUT is empty: the results belong somewhere else than the job says.
@@ -83,9 +122,18 @@ void check_output(const CLI::App& app, const CommonOptions& common) {
 // The runner of the subcommand that was called.
 using Runners = std::vector<std::pair<CLI::App*, std::function<int()>>>;
 
+// A terminal that is called dumb shows no line in place of another.
+ProgressStyle progress_style(const CommonOptions& common) {
+  const char* const terminal = std::getenv("TERM");
+  const bool draws =
+      isatty(STDERR_FILENO) != 0 && terminal && *terminal && terminal != std::string_view("dumb");
+  if (common.quiet || !common.progress.value_or(draws)) return ProgressStyle::off;
+  return draws ? ProgressStyle::line : ProgressStyle::lines;
+}
+
 int run_chosen(const Runners& runners, const CommonOptions& common) {
   set_threads(common.threads);
-  enable_progress(common.progress.value_or(isatty(STDERR_FILENO) != 0) && !common.quiet);
+  show_progress(progress_style(common));
   for (const auto& [app, run] : runners)
     if (app->parsed()) {
       check_output(*app, common);
@@ -151,6 +199,16 @@ int run_parsed(CLI::App& app, const Runners& runners, const CommonOptions& commo
 
 } // namespace
 
+std::string positive_number(const std::string& text) {
+  return number_above(
+      text, [](double x) { return x > 0; }, "a number above 0");
+}
+
+std::string number_from_0(const std::string& text) {
+  return number_above(
+      text, [](double x) { return x >= 0; }, "a number from 0 on");
+}
+
 int tell_error() {
   try {
     throw;
@@ -183,9 +241,11 @@ void commit(io::OutputFiles& files, const std::string& directory, const CommonOp
 
 int run_command_line(int argc, char** argv) {
   CLI::App app{"frictab - from tribometer data to a verified friction subroutine", "frictab"};
-  app.set_version_flag("--version", "frictab " FRICTAB_VERSION);
+  app.set_version_flag("-V,--version", "frictab " FRICTAB_VERSION);
   app.require_subcommand(1);
-  app.footer(exit_codes);
+  app.footer(std::string("`frictab help COMMAND` has the options of a command, with examples; "
+                         "`frictab explain job` the keys of the job file.\n") +
+             exit_codes);
   CommonOptions common;
   Runners runners;
   for (const Command& command : Registry<Command>::instance().all()) {
@@ -194,12 +254,12 @@ int run_command_line(int argc, char** argv) {
                           ? &app
                           : app.get_subcommand(command.name.substr(0, blank)); // its order is less
     CLI::App* sub = above->add_subcommand(command.name.substr(blank + 1), command.title);
+    sub->footer(footer_of(command));
     if (command.declare) {
-      add_common(*sub, common);
+      add_common(*sub, common, command.uses);
       runners.emplace_back(sub, command.declare(*sub, common));
     } else {
       sub->require_subcommand(1);
-      sub->footer(exit_codes);
     }
   }
   return told_all(run_parsed(app, runners, common, argc, argv));

@@ -30,7 +30,7 @@ std::vector<std::string> texts_of(const FaultList& faults) {
 
 // Everything is shown and written, also where most rows are implausible: then that is the error.
 int run(const Options& options, const CommonOptions& common) {
-  const job::Job job = read_job(options.job, common);
+  const job::Job job = read_job(job_file(options.job), common);
   FaultList implausible;
   const run::JobData data = run::load_job_data(job, implausible);
   io::OutputFiles files(job.directory);
@@ -51,7 +51,7 @@ int run(const Options& options, const CommonOptions& common) {
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
-  app.add_option("JOB", options->job, "Job file (TOML)")->required();
+  add_job(app, options->job);
   app.add_option("--write", options->write,
                  "also write the data in canonical names and units: data.csv or data.h5")
       ->check(CLI::IsMember({"csv", "hdf5"}))
@@ -61,8 +61,14 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"data", 2, "Show what was read: each test, what was converted, computed, left out",
-                 declare};
+  return Command{
+      "data",
+      2,
+      "Show what was read: each test, what was converted, computed, left out",
+      declare,
+      uses_output | uses_threads | uses_quiet | uses_json | uses_seed | uses_set,
+      {{"frictab data job.toml", "a line per test; data.html has all strokes"},
+       {"frictab data job.toml --write hdf5", "and the data in canonical names and units"}}};
 }};
 
 } // namespace

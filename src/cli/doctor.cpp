@@ -207,8 +207,9 @@ std::function<int()> declare(CLI::App&, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"doctor", 90, "Say what this machine has for the job, and what is missing",
-                 declare};
+  return Command{
+      "doctor", 90,        "Say what this machine has for the job, and what is missing",
+      declare,  uses_json, {{"frictab doctor", "compilers, libraries, what verify can run here"}}};
 }};
 
 } // namespace

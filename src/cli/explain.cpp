@@ -1,7 +1,6 @@
 // frictab explain NAME: a law, an effect, a target, a quantity, the job file or one of its keys.
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +9,8 @@
 #include "cli/command.h"
 #include "cli/explanation.h"
 #include "cli/job_commands.h"
+#include "cli/printed_explanation.h"
+#include "cli/topics.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "job/literature.h"
@@ -19,50 +20,6 @@ namespace frictab::cli::explain_command {
 namespace {
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
-
-// Text broken at blanks, later lines indented; lines of the text's own are kept.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  constexpr std::size_t width = 96;
-  std::istringstream paragraphs(text);
-  std::string out, paragraph;
-  const std::string margin = "\n" + std::string(indent, ' ');
-  while (std::getline(paragraphs, paragraph)) {
-    if (!out.empty()) out += margin;
-    std::istringstream words(paragraph);
-    std::size_t column = indent;
-    for (std::string word; words >> word;) {
-      const bool first = column == indent;
-      if (!first && column + 1 + word.size() > width) {
-        out += margin + word;
-        column = indent + word.size();
-      } else {
-        out += first ? word : " " + word;
-        column += word.size() + (first ? 0 : 1);
-      }
-    }
-  }
-  return out;
-}
-
-void print_fields(const Fields& fields, std::size_t indent) {
-  std::size_t width = 0;
-  for (const auto& [label, text] : fields)
-    width = std::max(width, label.size());
-  for (const auto& [label, text] : fields)
-    if (!text.empty())
-      fmt::print("{:{}}{:<{}}  {}\n", "", indent, label + ":", width + 1,
-                 wrapped(text, indent + width + 3));
-}
-
-void print_text(const Explanation& it) {
-  fmt::print("{} ({})\n  {}\n", it.name, it.kind, wrapped(it.title, 2));
-  print_fields(it.fields, 2);
-  if (!it.items.empty()) fmt::print("  {}:\n", it.items_label);
-  for (const Explanation::Item& item : it.items) {
-    fmt::print("    {}\n      {}\n", item.name, wrapped(item.text, 6));
-    print_fields(item.fields, 6);
-  }
-}
 
 nlohmann::ordered_json json_of(const Fields& fields) {
   auto out = nlohmann::ordered_json::object();
@@ -110,19 +67,24 @@ int run(const std::string& name, const std::string& job, bool toml, const Common
   if (!explanation) {
     const std::string near = nearest_name(name, explainable());
     throw InputError({}, fmt::format("nothing is called '{}'", name),
-                     near.empty() ? "names: frictab list models, list effects, list targets; "
-                                    "frictab explain job for the keys of the job file"
-                                  : fmt::format("did you mean '{}'?", near));
+                     near.empty()
+                         ? "names: frictab list; frictab explain job for the keys of the job "
+                           "file; topics: " +
+                               join(topic_names(), ", ")
+                         : fmt::format("did you mean '{}'?", near));
   }
-  common.json ? print_json(*explanation) : print_text(*explanation);
+  common.json ? print_json(*explanation) : print_explanation(*explanation);
   return 0;
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   auto name = std::make_shared<std::string>(), job = std::make_shared<std::string>();
-  app.add_option("NAME", *name,
-                 "a law, an effect, a target, a quantity, `job`, a key such as table.model, or\n"
-                 "`table-layout`")
+  app.add_option(
+         "NAME", *name,
+         "A law, an effect, a target, a quantity, `job`, a key such as table.model, or a topic:\n"
+         "table-layout, " +
+             join(topic_names(), ", "))
+      ->type_name("NAME")
       ->required();
   app.add_option("--job", *job,
                  "The job file that a law of your own stands in; job.toml of this directory")
@@ -133,8 +95,14 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"explain", 81, "Explain a law, an effect, a target, a quantity or a job key",
-                 declare};
+  return Command{"explain",
+                 81,
+                 "Explain a law, an effect, a target, a quantity, a job key or a topic",
+                 declare,
+                 uses_json | uses_set,
+                 {{"frictab explain wanheim_bay", "formula, parameters, source"},
+                  {"frictab explain tolerance_MPa", "a key of the job, by its last part"},
+                  {"frictab explain exit-codes", "a topic; units, csv, experiment are others"}}};
 }};
 
 } // namespace

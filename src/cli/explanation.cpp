@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/topics.h"
 #include "codegen/exporter.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -243,6 +244,17 @@ std::string rule_path(const std::string& path) {
   return out;
 }
 
+// "tolerance_MPa": the key that ends so, or all of them.
+std::optional<Explanation> about_last_part(const std::string& name) {
+  Explanation all{name, "job keys", "keys of the job file that end so", {}, "keys", {}};
+  for (const job::KeyRule& rule : job::key_rules())
+    if (job::last_part(rule.path) == name)
+      all.items.push_back({rule.path, rule.meaning, key_fields(rule)});
+  if (all.items.empty()) return std::nullopt;
+  if (all.items.size() == 1) return about(*job::find_key(all.items.front().name));
+  return all;
+}
+
 } // namespace
 
 Explanation explain_law(const models::Law& law) {
@@ -258,11 +270,12 @@ std::optional<Explanation> explain(const std::string& name) {
     return about_section("", "the job file (TOML): every key, all optional but data.training; "
                              "'*' stands for a name: of a quantity, an option or a target");
   if (name == "table-layout") return about_table_layout();
+  if (auto topic = explain_topic(name)) return topic;
   const std::string path = rule_path(name);
   if (const job::KeyRule* key = job::find_key(path)) return about(*key);
   if (const job::SectionRule* section = job::find_section(path))
     return about_section(path, section->meaning);
-  return std::nullopt;
+  return about_last_part(name);
 }
 
 std::vector<std::string> explainable() {
@@ -277,10 +290,14 @@ std::vector<std::string> explainable() {
     names.push_back(quantity.name);
   names.push_back("job");
   names.push_back("table-layout");
+  for (const std::string& topic : topic_names())
+    names.push_back(topic);
   for (const job::SectionRule& section : job::section_rules())
     names.push_back(section.path);
-  for (const job::KeyRule& key : job::key_rules())
+  for (const job::KeyRule& key : job::key_rules()) {
     names.push_back(key.path);
+    if (job::last_part(key.path) != "*") names.push_back(job::last_part(key.path));
+  }
   return names;
 }
 

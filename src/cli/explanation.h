@@ -12,8 +12,8 @@ namespace frictab::cli {
 
 struct Explanation {
   std::string name;
-  std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job section",
-                     // "file"
+  std::string kind;  // "friction law", "effect", "target", "quantity", "job key", "job keys",
+                     // "job section", "file", "topic"
   std::string title; // one line
   std::vector<std::pair<std::string, std::string>> fields; // label, text; in order
   struct Item {

@@ -1,5 +1,6 @@
 // frictab export: the sources of a job's tables, of one table file alone, or of several laws in one
 // user file.
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -41,13 +42,13 @@ int export_alone(const Options& options, const CommonOptions& common) {
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
-  app.add_option("JOB", options->job, "Job file; the sources of its tables are written");
+  add_job(app, options->job, "Job file; the sources of its tables are written");
   app.add_option("--table", options->table, "A table file, without a job; needs -o DIR")
       ->type_name("FILE");
   app.add_option("--targets", options->targets,
                  "Without a JOB: FE codes, a list or all (frictab list targets)")
       ->delimiter(',')
-      ->type_name("NAMES");
+      ->type_name("TARGETS");
   app.add_option("--units", options->units, "Without a JOB: mm-t-s (MPa, mm/s) or m-kg-s (Pa, m/s)")
       ->type_name("SYSTEM");
   app.add_option("--combine", options->combine,
@@ -56,7 +57,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->type_name("NAME=TABLE");
   app.add_option("--law", options->law,
                  "A friction law with known constants, without data; needs -o DIR")
-      ->type_name("NAME");
+      ->type_name("LAW");
   app.add_option("--param", options->parameters, "With --law: one of its parameters")
       ->type_name("NAME=NUMBER");
   app.add_option("--range", options->ranges,
@@ -83,17 +84,29 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
     const std::string how =
         "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
         "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
-    if (options->table.empty() && options->job.empty())
+    if (options->table.empty() && options->job.empty() && !std::filesystem::exists("job.toml"))
       throw InputError({}, "nothing to export", how);
     if (!options->table.empty() && !options->job.empty())
       throw InputError({}, "JOB and --table exclude each other", how);
     if (!options->table.empty()) return export_alone(*options, common);
-    return run_stages(options->job, common, [](run::Pipeline& p) { p.generate(); });
+    return run_stages(options->job, common, "export", [](run::Pipeline& p) { p.generate(); });
   };
 }
 
 const Registered<Command> registered{[] {
-  return Command{"export", 5, "Generate the friction subroutines from the tables", declare};
+  return Command{
+      "export",
+      5,
+      "Generate the friction subroutines from the tables",
+      declare,
+      stage_uses | uses_verbose | uses_force,
+      {{"frictab export job.toml", "the routines of the job's tables"},
+       {"frictab export --table out/tables/coulomb.h5 --targets c,marc_ufric -o routines",
+        "of one table"},
+       {"frictab export --law coulomb --param mu=0.08 -o literature", "of known constants"},
+       {"frictab export --combine PUNCH=out/tables/coulomb.h5 DIE=out/tables/shear.h5 --targets "
+        "abaqus_vfric -o both",
+        "two laws in one user file"}}};
 }};
 
 } // namespace

@@ -132,8 +132,13 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"init", 10, "Write a job file: with every key, or made --from data files",
-                 declare};
+  return Command{"init",
+                 10,
+                 "Write a job file: with every key, or made --from data files",
+                 declare,
+                 uses_force | uses_quiet,
+                 {{"frictab init my_job", "my_job/job.toml with every key and its default"},
+                  {"frictab init guessed --from data/*.csv", "a job guessed from data files"}}};
 }};
 
 } // namespace

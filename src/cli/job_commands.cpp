@@ -1,15 +1,32 @@
 // The commands that work on a job file alone: run, and most of its stages.
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/job_commands.h"
+#include "core/error.h"
 #include "core/interrupt.h"
 #include "core/text.h"
+#include "run/plan.h"
 #include "run/summary.h"
 
 namespace frictab::cli {
+
+void add_job(CLI::App& app, std::string& file, const std::string& description) {
+  app.add_option("JOB", file, description + "; without it job.toml of this folder");
+}
+
+std::string job_file(const std::string& given) {
+  constexpr const char* usual = "job.toml";
+  if (!given.empty()) return given;
+  std::error_code error;
+  if (std::filesystem::exists(usual, error)) return usual;
+  throw InputError({}, "no JOB is given, and this folder has no job.toml",
+                   "name a job file; frictab init --from FILES makes one from data files, "
+                   "frictab twin DIR a synthetic campaign with one");
+}
 
 job::Job read_job(const std::string& file, const CommonOptions& common) {
   job::Job job = job::read_job(file, common.set);
@@ -25,8 +42,17 @@ void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common) {
     note(common, line);
 }
 
-int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages) {
-  run::Pipeline pipeline(read_job(file, common));
+int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
+  const run::Plan plan = run::plan_of(job, command);
+  show(common.json ? run::plan_json(plan) : run::plan_text(plan));
+  return plan.refused() ? 2 : 0;
+}
+
+int run_stages(const std::string& file, const CommonOptions& common, const std::string& command,
+               const Stages& stages) {
+  job::Job job = read_job(job_file(file), common);
+  if (common.dry_run) return tell_plan(job, command, common);
+  run::Pipeline pipeline(std::move(job));
   const auto tell_kept = [&] {
     if (const std::string kept = pipeline.kept_text(); !kept.empty()) note(common, kept);
   };
@@ -52,13 +78,6 @@ int run_stages(const std::string& file, const CommonOptions& common, const Stage
 
 namespace {
 
-// Declares "frictab NAME JOB": runs the stages, commits, prints the summary.
-std::function<int()> declare(CLI::App& app, const CommonOptions& common, Stages stages) {
-  const auto file = std::make_shared<std::string>();
-  app.add_option("JOB", *file, "Job file (TOML)")->required();
-  return [file, &common, stages] { return run_stages(*file, common, stages); };
-}
-
 void all_stages(run::Pipeline& p) {
   p.go_on();
   p.calibrate();
@@ -71,38 +90,50 @@ void all_stages(run::Pipeline& p) {
   p.compare_forms();
 }
 
-Command stage(int order, const char* name, const char* title,
-              std::function<int()> (*declared)(CLI::App&, const CommonOptions&)) {
-  Command command;
-  command.name = name;
-  command.order = order;
-  command.title = title;
-  command.declare = declared;
-  return command;
+// "frictab NAME JOB": runs the stages, commits, prints the summary.
+template <void (*stages)(run::Pipeline&)>
+Command stage(int order, const char* name, const char* title, std::vector<Example> examples) {
+  static const std::string command = name;
+  const auto declare = [](CLI::App& app, const CommonOptions& common) -> std::function<int()> {
+    const auto file = std::make_shared<std::string>();
+    add_job(app, *file);
+    return [file, &common] { return run_stages(*file, common, command, stages); };
+  };
+  return {name, order, title, declare, stage_uses | uses_verbose, std::move(examples)};
+}
+
+void calibrate_stage(run::Pipeline& p) {
+  p.calibrate();
+}
+void tabulate_stage(run::Pipeline& p) {
+  p.tabulate();
+}
+void report_stage(run::Pipeline& p) {
+  p.report();
 }
 
 const Registered<Command> run{[] {
-  return stage(
+  return stage<all_stages>(
       2, "run", "Everything: calibrate, trace, tabulate, export, verify, report",
-      [](CLI::App& app, const CommonOptions& common) { return declare(app, common, all_stages); });
+      {{"frictab run", "job.toml of this folder"},
+       {"frictab run job.toml --dry-run", "what it would do and write"},
+       {"frictab run job.toml -o loose --set table.tolerance_MPa=2", "another tolerance"}});
 }};
 const Registered<Command> calibrate{[] {
-  return stage(3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
-               [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](run::Pipeline& p) { p.calibrate(); });
-               });
+  return stage<calibrate_stage>(
+      3, "calibrate", "Fit the friction laws and rank them on unseen experiments",
+      {{"frictab calibrate job.toml", "the ranking, calibration.json, models/"},
+       {"frictab calibrate job.toml --json", "the same as JSON, for a script"}});
 }};
 const Registered<Command> tabulate{[] {
-  return stage(4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
-               [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](run::Pipeline& p) { p.tabulate(); });
-               });
+  return stage<tabulate_stage>(
+      4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
+      {{"frictab tabulate job.toml", "tables/NAME.h5 of table.model"},
+       {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
 }};
 const Registered<Command> report{[] {
-  return stage(8, "report", "Write report.html from the results so far",
-               [](CLI::App& app, const CommonOptions& common) {
-                 return declare(app, common, [](run::Pipeline& p) { p.report(); });
-               });
+  return stage<report_stage>(8, "report", "Write report.html from the results so far",
+                             {{"frictab report job.toml", "out/report.html"}});
 }};
 
 } // namespace

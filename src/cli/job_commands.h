@@ -10,13 +10,24 @@ namespace frictab::cli {
 
 using Stages = std::function<void(run::Pipeline&)>;
 
+// JOB, which may be left out where the current folder has a job.toml.
+void add_job(CLI::App& app, std::string& file, const std::string& description = "Job file (TOML)");
+
+// `given`, else job.toml of the current folder. Throws InputError where there is none.
+std::string job_file(const std::string& given);
+
 // The job file with -o, --seed and --set.
 job::Job read_job(const std::string& file, const CommonOptions& common);
 
 // What a user should know of a run, to stderr.
 void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common);
 
-// Reads the job, runs the stages, commits, prints the summary; the exit code.
-int run_stages(const std::string& file, const CommonOptions& common, const Stages& stages);
+// Reads the job, runs the stages, commits, prints the summary; the exit code. `command` as
+// run::plan_text knows it: what --dry-run tells instead.
+int run_stages(const std::string& file, const CommonOptions& common, const std::string& command,
+               const Stages& stages);
+
+// --dry-run of a command that runs stages of a job.
+int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common);
 
 } // namespace frictab::cli

@@ -1,4 +1,4 @@
-// frictab list models|effects|targets: what there is, one line each.
+// frictab list [models|effects|targets|quantities]: what there is, one line each.
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "data/quantity.h"
 #include "effects/effect.h"
 #include "job/literature.h"
 #include "models/law.h"
@@ -30,8 +31,20 @@ template <class T> std::vector<Line> lines_of(const std::vector<T>& items) {
   return lines;
 }
 
+std::vector<Line> quantity_lines() {
+  std::vector<Line> lines;
+  for (const data::Quantity& quantity : data::quantities())
+    lines.push_back({quantity.name, fmt::format("{} [{}]", quantity.meaning, quantity.unit)});
+  return lines;
+}
+
+const std::vector<std::string>& lists() {
+  static const std::vector<std::string> names{"models", "effects", "targets", "quantities"};
+  return names;
+}
+
 std::vector<Line> lines_of(const std::string& what) {
-  if (what == "models") {
+  if (what == "models" || what == "laws") {
     std::vector<Line> lines = lines_of(models::all_laws());
     for (const auto& law : job::literature().own())
       lines.push_back({law->name, law->title, true});
@@ -39,25 +52,20 @@ std::vector<Line> lines_of(const std::string& what) {
   }
   if (what == "effects") return lines_of(effects::all_effects());
   if (what == "targets") return lines_of(codegen::all_exporters());
-  const std::vector<std::string> known{"models", "effects", "targets"};
-  throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, known));
+  if (what == "quantities") return quantity_lines();
+  throw InputError({}, fmt::format("there is no list of '{}'", what), suggest(what, lists()));
 }
 
-void print_json(const std::vector<Line>& lines) {
+nlohmann::ordered_json json_of(const std::vector<Line>& lines) {
   auto list = nlohmann::ordered_json::array();
   for (const Line& line : lines) {
     list.push_back({{"name", line.name}, {"title", line.title}});
     if (line.by_name) list.back()["by_name"] = true;
   }
-  fmt::print("{}\n", list.dump(2));
+  return list;
 }
 
-int run(const std::string& what, const CommonOptions& common) {
-  const std::vector<Line> lines = lines_of(what);
-  if (common.json) {
-    print_json(lines);
-    return 0;
-  }
+void print(const std::vector<Line>& lines) {
   std::size_t width = 0;
   for (const Line& line : lines)
     width = std::max(width, line.name.size());
@@ -68,17 +76,40 @@ int run(const std::string& what, const CommonOptions& common) {
     by_name = line.by_name;
     fmt::print("{:<{}}  {}\n", line.name, width, line.title);
   }
+}
+
+int run(const std::string& what, const CommonOptions& common) {
+  if (!what.empty()) {
+    const std::vector<Line> lines = lines_of(what);
+    common.json ? fmt::print("{}\n", json_of(lines).dump(2)) : print(lines);
+    return 0;
+  }
+  nlohmann::ordered_json all;
+  for (const std::string& name : lists()) {
+    const std::vector<Line> lines = lines_of(name);
+    all[name] = json_of(lines);
+    if (common.json) continue;
+    fmt::print("{}{} (frictab list {}):\n", name == lists().front() ? "" : "\n", name, name);
+    print(lines);
+  }
+  if (common.json) fmt::print("{}\n", all.dump(2));
   return 0;
 }
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   auto what = std::make_shared<std::string>();
-  app.add_option("WHAT", *what, "models, effects or targets")->required();
+  app.add_option("WHAT", *what, "models (or laws), effects, targets or quantities; all without it")
+      ->type_name("{models,effects,targets,quantities}");
   return [what, &common] { return run(*what, common); };
 }
 
 const Registered<Command> registered{[] {
-  return Command{"list", 80, "List friction laws, effects or targets", declare};
+  return Command{"list",
+                 80,
+                 "List friction laws, effects, targets or quantities",
+                 declare,
+                 uses_json,
+                 {{"frictab list", "everything"}, {"frictab list targets", "the FE codes"}}};
 }};
 
 } // namespace

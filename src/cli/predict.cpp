@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/job_commands.h"
 #include "cli/table_command.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -27,6 +28,16 @@ run::LawToPredict law_of(const Options& options, const CommonOptions& common) {
   return run::law_of_model_file(options.law);
 }
 
+// DATA alone: the job is that of this folder.
+Options with_job(Options options) {
+  if (!options.data.empty()) return options;
+  if (options.law.ends_with(".json") || options.law.ends_with(".toml"))
+    throw InputError({}, "no DATA is given: the rows to predict", "frictab predict JOB DATA");
+  options.data = options.law;
+  options.law = job_file("");
+  return options;
+}
+
 int predict(const Options& options, const CommonOptions& common) {
   if (common.json && common.output.empty())
     throw InputError({}, "--json prints the summary where the rows would go",
@@ -47,17 +58,24 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
          "A job that was calibrated: its mapping reads DATA; or models/NAME.json: then DATA "
          "has canonical columns")
       ->required();
-  app.add_option("DATA", options->data, "Rows to predict (CSV or HDF5); no stress is needed")
-      ->required();
+  app.add_option("DATA", options->data,
+                 "Rows to predict (CSV or HDF5); no stress is needed. DATA "
+                 "alone: of job.toml in this folder");
   app.add_option("--model", options->model, "Law of the job, instead of the first of table.model")
-      ->type_name("NAME");
+      ->type_name("LAW");
   output_is_a_file(app);
-  return [options, &common] { return predict(*options, common); };
+  return [options, &common] { return predict(with_job(*options), common); };
 }
 
 const Registered<Command> registered{[] {
-  return Command{"predict", 9, "tau_R of a calibrated law for rows of data, with its band",
-                 declare};
+  return Command{
+      "predict",
+      9,
+      "tau_R of a calibrated law for rows of data, with its band",
+      declare,
+      uses_output | uses_force | uses_threads | uses_quiet | uses_json | uses_set,
+      {{"frictab predict job.toml data/validation.csv -o predicted.csv", "by the job's first law"},
+       {"frictab predict out/models/coulomb.json data/validation.csv", "by one law, to stdout"}}};
 }};
 
 } // namespace

@@ -89,12 +89,18 @@ int run(const std::string& file, const CommonOptions& common) {
 
 std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   const auto file = std::make_shared<std::string>();
-  app.add_option("JOB", *file, "Job file (TOML)")->required();
-  return [file, &common] { return run(*file, common); };
+  add_job(app, *file);
+  return [file, &common] { return run(job_file(*file), common); };
 }
 
 const Registered<Command> registered{[] {
-  return Command{"status", 9, "What is there of a job, what is stale, what comes next", declare};
+  return Command{"status",
+                 9,
+                 "What is there of a job, what is stale, what comes next",
+                 declare,
+                 uses_output | uses_threads | uses_json | uses_seed | uses_set,
+                 {{"frictab status", "of job.toml in this folder"},
+                  {"frictab status job.toml --json", "for a script"}}};
 }};
 
 } // namespace

@@ -47,7 +47,8 @@ void add_held_states_option(CLI::App& app, std::vector<std::string>& at) {
 namespace {
 
 const Registered<Command> registered{[] {
-  return Command{"table", 10, "Look into table files: info, slice, diff, convert", nullptr};
+  return Command{"table", 10, "Look into table files: info, slice, diff, convert",
+                 nullptr, 0,  {{"frictab help table slice", "options of a command below it"}}};
 }};
 
 } // namespace

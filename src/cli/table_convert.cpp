@@ -47,8 +47,13 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"table convert", 14,
-                 "Plain-text grids: csv, txt, Abaqus *FRICTION, LS-DYNA tables", declare};
+  return Command{"table convert",
+                 14,
+                 "Plain-text grids: csv, txt, Abaqus *FRICTION, LS-DYNA tables",
+                 declare,
+                 uses_output | uses_force | uses_quiet,
+                 {{"frictab table convert out/tables/coulomb.h5 --to csv -o grid.csv",
+                   "every node, with tau_R"}}};
 }};
 
 } // namespace

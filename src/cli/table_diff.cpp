@@ -47,14 +47,21 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   add_held_states_option(app, options->at);
   app.add_option("--max-MPa", options->max_MPa, "Exit with 1 where they are further apart")
       ->type_name("X")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_0);
   output_is_a_file(app);
   return [options, &common] { return run(*options, common); };
 }
 
 const Registered<Command> registered{[] {
-  return Command{"table diff", 13, "Difference of two tables as tau_R over their common range",
-                 declare};
+  return Command{
+      "table diff",
+      13,
+      "Difference of two tables as tau_R over their common range",
+      declare,
+      uses_output | uses_force | uses_quiet | uses_json | uses_threads,
+      {{"frictab table diff out/tables/coulomb.h5 out/tables/shear.h5", "how far apart, and where"},
+       {"frictab table diff out/tables/coulomb.h5 loose/tables/coulomb.h5 --max-MPa 5",
+        "exit code 1 where it is more"}}};
 }};
 
 } // namespace

@@ -30,7 +30,12 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"table info", 11, "Describe a table: axes, formula, drift, storage", declare};
+  return Command{"table info",
+                 11,
+                 "Describe a table: axes, formula, drift, storage",
+                 declare,
+                 uses_output | uses_force | uses_json,
+                 {{"frictab table info out/tables/coulomb.h5", "axes, formula, drift"}}};
 }};
 
 } // namespace

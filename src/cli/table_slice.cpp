@@ -59,7 +59,17 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 const Registered<Command> registered{[] {
-  return Command{"table slice", 12, "tau_R along one or two states, as CSV or SVG", declare};
+  return Command{
+      "table slice",
+      12,
+      "tau_R along one or two states, as CSV or SVG",
+      declare,
+      uses_output | uses_force | uses_quiet,
+      {{"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --at sigma_f_MPa=480",
+        "CSV"},
+       {"frictab table slice out/tables/coulomb.h5 --along sigma_n_MPa --at sigma_f_MPa=480 --svg "
+        "-o mu.svg",
+        "a plot"}}};
 }};
 
 } // namespace

@@ -17,12 +17,12 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
     bool power = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  app.add_option("JOB", arguments->file, "Job file (TOML); calibrated before")->required();
+  add_job(app, arguments->file);
   app.add_flag("--power", arguments->power,
                "Say how large an effect these experiments would have shown, column by column");
   return [arguments, &common] {
     std::string power;
-    const int code = run_stages(arguments->file, common, [&](run::Pipeline& p) {
+    const int code = run_stages(arguments->file, common, "trace", [&](run::Pipeline& p) {
       p.trace();
       if (arguments->power && !common.json)
         for (const trace::Trace& trace : p.traces())
@@ -39,6 +39,9 @@ const Registered<Command> trace{[] {
   command.order = 7;
   command.title = "Search the residual for effects the law lacks, and add them";
   command.declare = declare;
+  command.uses = stage_uses | uses_verbose;
+  command.examples = {{"frictab trace job.toml", "trace.json; models with the effects"},
+                      {"frictab trace job.toml --power", "and what these tests could have shown"}};
   return command;
 }};
 

@@ -113,9 +113,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
                  "on = mu, m or tau; column may be a derived quantity or latent")
       ->allow_extra_args(false);
   app.add_option(
-      "--law", options->twin.law,
-      "the truth is this friction law, fitted to the twin's own physics, instead of that "
-      "physics (frictab list models)");
+         "--law", options->twin.law,
+         "the truth is this friction law, fitted to the twin's own physics, instead of that "
+         "physics (frictab list models)")
+      ->type_name("LAW");
   app.add_option("--profile", options->twin.profile,
                  "contact normal stress over the stroke: constant, or varied (by test constant, "
                  "rising, falling or a pulse, 0.3 to 1 of its level)")
@@ -139,7 +140,16 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
 }
 
 Command make() {
-  return {"twin", 20, "write a synthetic tribometer campaign with a known truth", declare};
+  return {"twin",
+          20,
+          "Write a synthetic tribometer campaign with a known truth",
+          declare,
+          uses_output | uses_force | uses_threads | uses_json | uses_seed,
+          {{"frictab twin campaign", "81 tests to train on, 30 to validate, and a job"},
+           {"frictab twin small --design \"p=1725,2005;psi=1,20;v=5,500;T=20;points=10\"",
+            "fewer and shorter tests"},
+           {"frictab twin humid --effect form=power,column=humidity_pct,strength=0.1,on=mu",
+            "with an effect planted"}}};
 }
 
 const Registered<Command> registered{make};

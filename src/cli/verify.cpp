@@ -1,5 +1,6 @@
 // frictab verify: a job's tables and sources, one table alone for CI pipelines, or several laws in
 // one user file.
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -77,10 +78,11 @@ int verify_together(const Options& options, const CommonOptions& common) {
 }
 
 int verify_job(const Options& options, const CommonOptions& common) {
-  job::Job job = read_job(options.job, common);
+  job::Job job = read_job(job_file(options.job), common);
   if (options.max_drift_MPa) job.verify.max_drift_MPa = options.max_drift_MPa;
   if (options.require_proof) job.verify.require_proof = true;
   if (options.require_run) job.verify.require_run = true;
+  if (common.dry_run) return tell_plan(job, "verify", common);
   run::Pipeline pipeline(std::move(job));
   pipeline.verify();
   pipeline.commit();
@@ -97,7 +99,7 @@ const Registered<Command> registered{[] {
   command.title = "Prove how far tables and sources are from the law";
   command.declare = [](CLI::App& app, const CommonOptions& common) -> std::function<int()> {
     const auto options = std::make_shared<Options>();
-    app.add_option("JOB", options->job, "Job file; its tables and sources are verified");
+    add_job(app, options->job, "Job file; its tables and sources are verified");
     app.add_option("--table", options->table, "A table file, without a job")->type_name("FILE");
     app.add_option("--model", options->model, "The model file it was made from")->type_name("FILE");
     app.add_option("--data", options->data, "Rows to compare on (CSV or HDF5)")->type_name("FILE");
@@ -108,7 +110,7 @@ const Registered<Command> registered{[] {
         ->type_name("DIR");
     app.add_option("--max-drift-MPa", options->max_drift_MPa, "Largest drift allowed")
         ->type_name("X")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number);
     app.add_flag("--require-proof", options->require_proof,
                  "A table passes only where a bound within the tolerance is proven");
     app.add_flag("--require-run", options->require_run,
@@ -124,13 +126,20 @@ const Registered<Command> registered{[] {
       if (alone && (options->table.empty() || options->model.empty()))
         throw InputError({}, "--table and --model belong together",
                          "give both: --table tables/NAME.h5 --model models/NAME.json");
-      if (!alone && options->job.empty())
+      if (!alone && options->job.empty() && !std::filesystem::exists("job.toml"))
         throw InputError({}, "nothing to verify",
                          "give a JOB file, --table FILE --model FILE [--data FILE], or --combined "
                          "DIR");
       return alone ? verify_alone(*options, common) : verify_job(*options, common);
     };
   };
+  command.uses = stage_uses;
+  command.examples = {
+      {"frictab verify job.toml --junit drift.xml", "tables and routines, for CI"},
+      {"frictab verify --table out/tables/coulomb.h5 --model out/models/coulomb.json --data "
+       "data/validation.csv --max-drift-MPa 0.5",
+       "one table"},
+      {"frictab verify --combined both", "what export --combine wrote"}};
   return command;
 }};
 

@@ -1,4 +1,4 @@
-// Draws the progress line from a thread of its own, first after one second.
+// Draws from a thread of its own, which lives as long as there is work: first after one second.
 #include "core/progress.h"
 
 #include <algorithm>
@@ -7,84 +7,193 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "core/interrupt.h"
 
 namespace frictab {
 
-namespace {
-std::atomic<bool> enabled{false};
-std::atomic<const void*> innermost{nullptr}; // is shown
-} // namespace
+using Clock = std::chrono::steady_clock;
 
-void enable_progress(bool on) {
-  enabled = on;
-}
-
-struct Progress::Line {
+struct Progress::Work {
   std::string title;
-  std::size_t total = 0;
-  std::size_t before = 0;
-  const void* outer = nullptr;
+  std::size_t total = 0, before = 0;
   std::atomic<std::size_t> done{0};
-  std::mutex mutex;
-  std::condition_variable wake;
-  bool stop = false;
-  std::thread thread;
+  Clock::time_point begin = Clock::now();
 
-  void draw(double seconds) const {
-    constexpr std::size_t width = 30;
-    const std::size_t now = std::min(done.load(), total);
-    const std::size_t filled = total == 0 ? 0 : now * width / total;
-    const std::size_t here = now - std::min(before, now);
-    const double left =
-        here == 0 ? 0 : seconds * static_cast<double>(total - now) / static_cast<double>(here);
-    const std::string eta = here == 0 ? "" : fmt::format(", {:.0f} s left", left);
-    fmt::print(stderr, "\r\x1b[K{} [{}{}] {}/{}, {:.0f} s{}", title, std::string(filled, '#'),
-               std::string(width - filled, '.'), now, total, seconds, eta);
-    std::fflush(stderr);
-  }
-
-  void run() {
-    const auto begin = std::chrono::steady_clock::now();
-    std::unique_lock lock(mutex);
-    bool shown = false;
-    auto wait = std::chrono::milliseconds(1000);
-    while (!wake.wait_for(lock, wait, [&] { return stop; })) {
-      wait = std::chrono::milliseconds(200);
-      if (innermost != this) continue;
-      draw(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-      shown = true;
-    }
-    if (shown) fmt::print(stderr, "\r\x1b[K");
+  ProgressState state() const {
+    return {title, done.load(), total, before,
+            std::chrono::duration<double>(Clock::now() - begin).count()};
   }
 };
 
+namespace {
+
+std::atomic<ProgressStyle> style{ProgressStyle::off};
+
+std::size_t terminal_width() {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual;
+  return size.ws_col;
+}
+
+// All work there is, and the thread that shows it.
+class Display {
+public:
+  void add(std::shared_ptr<Progress::Work> work) {
+    const std::lock_guard turn(turns_);
+    if (!thread_.joinable()) {
+      stop_ = false;
+      tidy_.emplace([this] { erase_at_the_end(); });
+      thread_ = std::thread([this] { run(); });
+    }
+    const std::lock_guard lock(mutex_);
+    works_.push_back(std::move(work));
+  }
+
+  void remove(const std::shared_ptr<Progress::Work>& work) {
+    const std::lock_guard turn(turns_);
+    {
+      const std::lock_guard lock(mutex_);
+      std::erase(works_, work);
+      if (!works_.empty()) return;
+      stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+    tidy_.reset();
+  }
+
+private:
+  void run() {
+    const bool in_place = style == ProgressStyle::line;
+    const auto pause = in_place ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
+    auto wait = std::chrono::milliseconds(1000);
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, wait, [&] { return stop_; })) {
+      wait = pause;
+      if (!works_.empty()) draw(in_place);
+    }
+    erase();
+  }
+
+  void draw(bool in_place) {
+    std::vector<ProgressState> states{works_.front()->state()};
+    if (works_.size() > 1) states.push_back(works_.back()->state());
+    // A line that ends in the last column would go on in the next one.
+    const std::string text = progress_text(states, terminal_width() - 1);
+    if (in_place)
+      fmt::print(stderr, "\r\x1b[K{}", text);
+    else
+      fmt::print(stderr, "{}\n", text);
+    std::fflush(stderr);
+    drawn_ = in_place;
+  }
+
+  void erase() {
+    if (!drawn_) return;
+    fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+    drawn_ = false;
+  }
+
+  // Before an interrupted program says what it leaves: nothing is drawn after this.
+  void erase_at_the_end() {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    erase();
+  }
+
+  std::mutex turns_; // of what starts and ends the thread
+  std::mutex mutex_; // of what follows; whoever holds it waits for nothing
+  std::condition_variable wake_;
+  std::vector<std::shared_ptr<Progress::Work>> works_; // the outermost first
+  std::optional<WhenInterrupted> tidy_;
+  std::thread thread_;
+  bool stop_ = false, drawn_ = false;
+};
+
+Display& display() {
+  static Display it;
+  return it;
+}
+
+std::string count_text(const ProgressState& work) {
+  if (work.total == 0) return work.done == 0 ? "" : fmt::format(" {}", work.done);
+  if (work.total == 1) return "";
+  return fmt::format(" {}/{}", std::min(work.done, work.total), work.total);
+}
+
+std::string time_text(double seconds) {
+  const auto whole = static_cast<long>(seconds);
+  if (whole < 100) return fmt::format("{} s", whole);
+  if (whole < 6000) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
+// Of the steps so far, how long the others take; "" where none is done.
+std::string left_text(const ProgressState& work) {
+  const std::size_t done = std::min(work.done, work.total);
+  const std::size_t here = done - std::min(work.before, done);
+  if (here == 0) return "";
+  return fmt::format(", {} left", time_text(work.seconds * static_cast<double>(work.total - done) /
+                                            static_cast<double>(here)));
+}
+
+std::string bar_text(const ProgressState& work, std::size_t width) {
+  const std::size_t filled = std::min(work.done, work.total) * width / work.total;
+  return fmt::format(" [{}{}]", std::string(filled, '#'), std::string(width - filled, '.'));
+}
+
+} // namespace
+
+std::string progress_text(const std::vector<ProgressState>& works, std::size_t width) {
+  constexpr std::size_t widest_bar = 30, narrowest_bar = 5, brackets = 3;
+  const ProgressState& inner = works.back();
+  std::string before;
+  if (works.size() > 1)
+    before = works.front().title + count_text(works.front()) + ": " + inner.title;
+  else
+    before = inner.title;
+  std::string behind = count_text(inner);
+  behind += ", " + time_text(works.front().seconds);
+  const bool has_steps = inner.total > 1;
+  if (has_steps) behind += left_text(inner);
+  std::string bar;
+  const std::size_t taken = before.size() + behind.size() + brackets;
+  if (has_steps && taken + narrowest_bar <= width)
+    bar = bar_text(inner, std::min(widest_bar, width - taken));
+  std::string line = before + bar + behind;
+  if (line.size() > width) line.resize(width);
+  return line;
+}
+
+void show_progress(ProgressStyle how) {
+  style = how;
+}
+
 Progress::Progress(std::string title, std::size_t total, std::size_t before) {
-  if (!enabled) return;
-  line_ = std::make_unique<Line>();
-  line_->title = std::move(title);
-  line_->total = total;
-  line_->before = before;
-  line_->done = before;
-  line_->outer = innermost.exchange(line_.get());
-  line_->thread = std::thread([line = line_.get()] { line->run(); });
+  if (style == ProgressStyle::off) return;
+  work_ = std::make_shared<Work>();
+  work_->title = std::move(title);
+  work_->total = total;
+  work_->before = before;
+  work_->done = before;
+  display().add(work_);
 }
 
 Progress::~Progress() {
-  if (!line_) return;
-  {
-    const std::lock_guard lock(line_->mutex);
-    line_->stop = true;
-  }
-  line_->wake.notify_one();
-  line_->thread.join();
-  innermost = line_->outer;
+  if (work_) display().remove(work_);
 }
 
 void Progress::tick(std::size_t steps) const {
-  if (line_) line_->done += steps;
+  if (work_) work_->done += steps;
 }
 
 } // namespace frictab

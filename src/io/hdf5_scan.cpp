@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include "io/hdf5_handle.h"
 
@@ -198,14 +199,20 @@ std::vector<std::size_t> shape_of(const std::string& name, hid_t set) {
   return {dims.begin(), dims.end()};
 }
 
+Unreadable not_opened(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {"cannot be read", "there is no such file"};
+  if (std::filesystem::is_directory(file, error)) return {"is a directory, a file is needed", ""};
+  if (::access(file.c_str(), R_OK) != 0) return {"cannot be read", "check its permissions"};
+  return {"cannot be opened as HDF5",
+          "it may be cut short or of another format; write it again, or give a CSV file"};
+}
+
 class Scan {
 public:
   explicit Scan(const std::filesystem::path& file)
       : file_(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
-    if (!file_.ok())
-      throw Unreadable{"cannot be opened as HDF5",
-                       "it may be cut short or of another format; write it again, or give a CSV "
-                       "file"};
+    if (!file_.ok()) throw not_opened(file);
     H5Fget_filesize(file_, &bytes_);
   }
 

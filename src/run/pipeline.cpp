@@ -65,7 +65,9 @@ void Pipeline::check_as_written(const std::string& stage, const std::string& pat
 }
 
 void Pipeline::load_data() {
-  if (!data_) data_ = load_job_data(job_);
+  if (data_) return;
+  const Progress progress("reading data", 0);
+  data_ = load_job_data(job_);
 }
 
 // Files of an earlier run: by their names, which is all there is of those of 0.1, and as
@@ -251,9 +253,12 @@ void Pipeline::trace() {
   if (fits.empty())
     throw InputError({job_.file, 0, 0}, "trace.models names no law that was calibrated",
                      "\"best\", or a name from the ranking");
-  for (const ModelFit* fit : fits)
+  const Progress progress("tracing", fits.size());
+  for (const ModelFit* fit : fits) {
     traces_.push_back(trace::trace({data_->training, data_->validation, *fit, job_.trace,
                                     job_.calibration.bootstrap, job_.calibration.seed}));
+    progress.tick();
+  }
   add_traced_laws();
   laws_.clear();
   output_.write("trace.json", trace::trace_json(traces_, calibration_->synthetic));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "expr/coordinates.h"
 #include "expr/sensitivity.h"
@@ -361,10 +362,14 @@ DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
   constexpr std::size_t per_task = 16;
   std::vector<Cells::Result> results(cells.count());
   const std::size_t most = std::clamp<std::size_t>(options.most_boxes / results.size(), 20, 4000);
+  const Progress progress("proving the table of " + table.model, results.size());
   parallel_for((results.size() + per_task - 1) / per_task, [&](std::size_t task) {
     Cells::Work work(cells);
-    for (std::size_t c = task * per_task; c < std::min(results.size(), (task + 1) * per_task); ++c)
+    for (std::size_t c = task * per_task; c < std::min(results.size(), (task + 1) * per_task);
+         ++c) {
       results[c] = cells.run(c, options.goal_MPa, most, work);
+      progress.tick();
+    }
   });
   double bound = 0;
   for (const Cells::Result& one : results) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "data/meaning.h"
 #include "table/direct.h"
@@ -113,7 +114,8 @@ class Builder {
 public:
   Builder(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
           const TableOptions& options)
-      : law_(law), ranges_(ranges), options_(options), limit_(0.96 * options.tolerance_MPa),
+      : law_(law), ranges_(ranges), options_(options),
+        progress_("grids for " + law.model.name(), 0), limit_(0.96 * options.tolerance_MPa),
         pieces_(law, ranges), tau_R_(law, pieces_.names) {
     const models::Law& description = *law.model.law;
     for (std::size_t r = 0; r < ranges.size(); ++r)
@@ -191,6 +193,7 @@ private:
   // Samples the whole table and looks for the worst state; not further than to a known state where
   // the table is already past `enough`.
   Trial attempt(const Counts& cells, double enough) {
+    progress_.tick();
     Trial trial;
     trial.cells = cells;
     std::vector<TableAxis> axes = axes_with(cells);
@@ -375,7 +378,8 @@ private:
   const models::AssembledLaw& law_;
   const std::vector<StateRange>& ranges_;
   const TableOptions& options_;
-  const double limit_; // below the tolerance: what is found is not quite the largest there is
+  const Progress progress_; // of the grids tried, of which nobody knows how many it takes
+  const double limit_;      // below the tolerance: what is found is not quite the largest there is
   Pieces pieces_;
   LawFunction tau_R_;
   std::vector<AxisPlan> plans_;

@@ -8,6 +8,7 @@
 
 #include "core/columns.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/random.h"
 
 namespace frictab::table {
@@ -190,8 +191,10 @@ WorstCase worst_case(const LawFunction& law, const TableFunction& table,
                       return drift(a) != drift(b) ? drift(a) > drift(b) : a < b;
                     });
   std::vector<WorstCase> found(climbs);
+  const Progress progress("searching the largest drift", climbs);
   parallel_for(climbs, [&](std::size_t s) {
     found[s] = ascend(law, table, ranges, state_of(probed, order[s]), drift(order[s]));
+    progress.tick();
   });
   WorstCase worst = found.front();
   worst.points = count;

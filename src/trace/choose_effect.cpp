@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "trace/projection.h"
 #include "trace/smooth.h"
 
@@ -230,7 +231,11 @@ std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screen
         best.size() < (search.campaign().quick ? 1 : fitted_rivals))
       best.push_back(std::move(option));
   std::vector<Rival> rivals(best.size());
-  parallel_for(best.size(), [&](std::size_t i) { rivals[i] = rival_of(search, best[i], noise); });
+  const Progress progress("fitting causes", best.size());
+  parallel_for(best.size(), [&](std::size_t i) {
+    rivals[i] = rival_of(search, best[i], noise);
+    progress.tick();
+  });
   for (std::size_t i = 0; i < best.size(); ++i)
     rivals[i].criterion = best[i].criterion;
   return rivals;
@@ -338,6 +343,7 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
   std::erase_if(starts,
                 [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
   std::vector<Rival> rivals(starts.size());
+  const Progress progress("fitting forms", starts.size());
   parallel_for(starts.size(), [&](std::size_t i) {
     std::vector<PlacedEffect> effects = winner.effects;
     effects[index] = starts[i].effect;
@@ -345,6 +351,7 @@ std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::s
                           winner.noise, NoiseSearch::kept);
     if (starts[i].effect.form->penalty) rivals[i].penalised -= smooth_margin;
     rivals[i].penalised -= site_margins[site_of(starts[i].effect)];
+    progress.tick();
   });
   rivals.push_back(winner);
   rivals.back().penalised -= site_margins[site_of(winner.effects[index])];

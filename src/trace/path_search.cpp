@@ -10,6 +10,7 @@
 #include <gsl/gsl_sf_gamma.h>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/random.h"
 #include "trace/noise.h"
 #include "trace/projection.h"
@@ -275,6 +276,7 @@ PathResult search_path(const PathInput& input) {
       left.array() / (1 - leverage.array()).max(0.05).sqrt(); // of equal variance
   const std::size_t longest = std::clamp<std::size_t>((ground.free - 2) / 3, 1, input.longest);
   std::vector<Paths> all(input.permutations + 1);
+  const Progress progress("searching between tests", all.size());
   parallel_for(all.size(), [&](std::size_t b) {
     VectorXd e = left;
     if (b > 0) {
@@ -285,6 +287,7 @@ PathResult search_path(const PathInput& input) {
       e = drawn - known * (known.transpose() * drawn);
     }
     all[b] = walk_all(ground, ground.columns.transpose() * e, e.squaredNorm() + 1e-300, longest);
+    progress.tick();
   });
   decide(all, input.alpha, result);
   return result;

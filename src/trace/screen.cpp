@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "core/random.h"
 #include "trace/projection.h"
 
@@ -220,8 +221,10 @@ double ScreenResult::threshold(double alpha) const {
 ScreenResult screen(const ScreenInput& input) {
   const Screening screening(input);
   std::vector<CauseScores> parts(input.shapes.size());
+  const Progress progress("screening causes", parts.size());
   parallel_for(parts.size(), [&](std::size_t s) {
     parts[s] = screening.run(s);
+    progress.tick();
     if (!input.keep_scores) parts[s].scores.resize(0, 0);
   });
   ScreenResult result;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "trace/directions.h"
 #include "trace/noise_fit.h"
 #include "trace/projection.h"
@@ -83,6 +84,7 @@ std::size_t in_rows(const data::Dataset& data, std::size_t experiment) {
 
 Search::Search(const TraceInput& in, const Effort& how_much) : input(in), effort(how_much) {
   const std::size_t experiments = in.training.experiments.size();
+  const Progress progress("columns and noise", 0);
   units.resize(experiments);
   std::iota(units.begin(), units.end(), 0);
   blocks = make_blocks(in.training);

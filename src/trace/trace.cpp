@@ -13,6 +13,7 @@
 #include "calibrate/metrics.h"
 #include "calibrate/sandwich.h"
 #include "core/no_value.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
@@ -72,6 +73,7 @@ public:
     trace.validation_shift = validation_shift_of(search_, delivery_.rival);
     add_law(trace);
     add_effects(trace);
+    const Progress progress("what would have been seen", 0);
     add_scatter(trace, search_, delivery_.rival);
     add_detectable(trace, search_, in_.seed);
     add_leads(trace, search_);

@@ -11,6 +11,7 @@
 #include "codegen/coefficient.h"
 #include "codegen/compile.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "table/bound.h"
 #include "table/outside.h"
@@ -405,11 +406,14 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
   const Subjects s = prepare(input);
   std::vector<DriftRecord> records;
   records.push_back(input.known ? *input.known : compare_table(input, s));
-  for (const GeneratedSource& source : sources)
+  const Progress progress("routines of " + input.law.model.name(), sources.size());
+  for (const GeneratedSource& source : sources) {
     for (const codegen::BuildVariant& variant : source.exporter->variants(source.request)) {
       records.push_back(verify_variant(input, s, source, variant));
       records.back().unit_roundoff = variant.eps;
     }
+    progress.tick();
+  }
   return records;
 }
 

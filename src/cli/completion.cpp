@@ -1,0 +1,249 @@
+// frictab completion bash|zsh|fish: a script that completes commands, options and their values.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/command_tree.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace frictab::cli::completion_command {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  return "'" + replace_all(text, "'", "'\\''") + "'";
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+std::vector<std::string> names_below(const CommandText& command) {
+  std::vector<std::string> names;
+  for (const CommandText& below : command.below)
+    names.push_back(below.last_name());
+  return names;
+}
+
+// What the value of an option, or one by place, is called in the scripts.
+std::string kind_of(const OptionText& option) {
+  if (!option.words.empty()) return "words " + join(option.words, " ");
+  return option.is_directory() ? "directory" : "file";
+}
+
+// ---- bash ----
+
+// An option's value may begin behind '=', and a list goes on behind a comma.
+constexpr const char* bash_head = R"(# bash completion of frictab, made by `frictab completion bash`
+_frictab_values() { # kind [WORD ...]
+  local kind=$1
+  shift
+  case $kind in
+  words)
+    local before=
+    [[ $cur != *,* ]] || before=${cur%,*},
+    mapfile -t COMPREPLY < <(compgen -P "$before" -W "$*" -- "${cur##*,}")
+    ;;
+  directory)
+    compopt -o filenames
+    mapfile -t COMPREPLY < <(compgen -d -- "$cur")
+    ;;
+  file)
+    compopt -o filenames
+    mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+    ;;
+  esac
+}
+
+_frictab() {
+  local cur=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} at=frictab word
+  if [[ $cur == = ]]; then
+    cur=
+  elif [[ $before == = ]]; then
+    before=${COMP_WORDS[COMP_CWORD - 2]}
+  fi
+  COMPREPLY=()
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case "$at $word" in
+)";
+
+constexpr const char* bash_tail = R"(  esac
+}
+complete -F _frictab frictab
+)";
+
+std::string bash_of(const CommandText& command) {
+  std::string out = fmt::format("  {})\n    case $before in\n", quoted(command.name));
+  std::vector<std::string> names;
+  for (const OptionText& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+    if (!option.value.empty())
+      out += fmt::format("    {}) _frictab_values {}; return ;;\n", join(option.names, " | "),
+                         kind_of(option));
+  }
+  out += fmt::format("    esac\n    if [[ $cur == -* ]]; then\n      _frictab_values words {}\n",
+                     join(names, " "));
+  if (!command.below.empty())
+    out +=
+        fmt::format("    else\n      _frictab_values words {}\n", join(names_below(command), " "));
+  else if (!command.places.empty())
+    out += fmt::format("    else\n      _frictab_values {}\n", kind_of(command.places.front()));
+  return out + "    fi\n    ;;\n";
+}
+
+std::string bash(const std::vector<const CommandText*>& commands) {
+  std::string out = bash_head;
+  for (const CommandText* command : commands)
+    if (command != commands.front())
+      out += fmt::format("    {}) at+=\" $word\" ;;\n", quoted(command->name));
+  out += "    esac\n  done\n  case $at in\n";
+  for (const CommandText* command : commands)
+    out += bash_of(*command);
+  return out + bash_tail;
+}
+
+// ---- zsh ----
+
+// In "[...]" of a specification of _arguments.
+std::string zsh_text(const std::string& text) {
+  std::string out;
+  for (const char c : first_line(text)) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string zsh_action(const OptionText& option) {
+  if (!option.words.empty())
+    return option.value == "TARGETS" ? "_values -s , target " + join(option.words, " ")
+                                     : "(" + join(option.words, " ") + ")";
+  return option.is_directory() ? "_files -/" : "_files";
+}
+
+std::string zsh_option(const OptionText& option) {
+  std::string out;
+  const std::string value =
+      option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + zsh_action(option);
+  for (const std::string& name : option.names)
+    out += " \\\n      " + quoted("(" + join(option.names, " ") + ")" + name +
+                                  (value.empty() || name.size() == 2 ? "" : "=") + "[" +
+                                  zsh_text(option.description) + "]" + value);
+  return out;
+}
+
+std::string zsh_of(const CommandText& command) {
+  std::string out = fmt::format("  ({})\n", quoted(command.name));
+  if (!command.below.empty()) {
+    out += "    local -a commands=(";
+    for (const CommandText& below : command.below)
+      out += " \\\n      " + quoted(below.last_name() + ":" + replace_all(below.title, ":", "\\:"));
+    out += ")\n    [[ $PREFIX == -* ]] || _describe command commands\n";
+  }
+  out += "    _arguments";
+  for (const OptionText& option : command.options)
+    out += zsh_option(option);
+  for (const OptionText& place : command.places)
+    out += " \\\n      " +
+           quoted((place.many ? "*:" : ":") + zsh_text(place.value) + ":" + zsh_action(place));
+  return out + "\n    ;;\n";
+}
+
+std::string zsh(const std::vector<const CommandText*>& commands) {
+  std::string out = "#compdef frictab\n# zsh completion of frictab, made by `frictab completion "
+                    "zsh`\n_frictab() {\n  local at=frictab word\n  integer i depth=1\n"
+                    "  for ((i = 2; i < CURRENT; i++)); do\n    word=$words[i]\n"
+                    "    case \"$at $word\" in\n";
+  for (const CommandText* command : commands)
+    if (command != commands.front())
+      out += fmt::format("    ({}) at+=\" $word\"; depth=i ;;\n", quoted(command->name));
+  out += "    esac\n  done\n  words=(\"${(@)words[depth,-1]}\")\n  ((CURRENT -= depth - 1))\n"
+         "  case $at in\n";
+  for (const CommandText* command : commands)
+    out += zsh_of(*command);
+  return out + "  esac\n}\n_frictab \"$@\"\n";
+}
+
+// ---- fish ----
+
+std::string fish_quoted(const std::string& text) {
+  return "'" + replace_all(replace_all(text, "\\", "\\\\"), "'", "\\'") + "'";
+}
+
+std::string fish_option(const OptionText& option, const std::string& here) {
+  std::string out = here;
+  for (const std::string& name : option.names)
+    out += name.size() == 2 ? " -s " + name.substr(1) : " -l " + name.substr(2);
+  out += " -d " + fish_quoted(first_line(option.description));
+  if (option.value.empty()) return out + "\n";
+  if (!option.words.empty()) return out + " -x -a " + fish_quoted(join(option.words, " ")) + "\n";
+  return out + (option.is_directory() ? " -x -a '(__fish_complete_directories)'" : " -r -F") + "\n";
+}
+
+std::string fish_of(const CommandText& command) {
+  const std::string here =
+      fmt::format("complete -c frictab -n \"test (__frictab_at) = '{}'\"", command.name);
+  std::string out;
+  for (const CommandText& below : command.below)
+    out += fmt::format("{} -f -a {} -d {}\n", here, below.last_name(), fish_quoted(below.title));
+  for (const OptionText& option : command.options)
+    out += fish_option(option, here);
+  for (const OptionText& place : command.places)
+    if (!place.words.empty())
+      out += fmt::format("{} -f -a {}\n", here, fish_quoted(join(place.words, " ")));
+  return out;
+}
+
+std::string fish(const std::vector<const CommandText*>& commands) {
+  std::string out = "# fish completion of frictab, made by `frictab completion fish`\n"
+                    "function __frictab_at\n  set -l at frictab\n"
+                    "  for word in (commandline -opc)[2..-1]\n    switch \"$at $word\"\n      case";
+  for (const CommandText* command : commands)
+    if (command != commands.front()) out += " " + fish_quoted(command->name);
+  out += "\n        set at \"$at $word\"\n    end\n  end\n  echo $at\nend\n";
+  for (const CommandText* command : commands)
+    out += fish_of(*command);
+  return out;
+}
+
+// ---- the command ----
+
+int run(const CLI::App& app, const std::string& shell) {
+  const CommandText root = command_tree(app);
+  const std::vector<const CommandText*> commands = all_commands(root);
+  if (shell == "bash")
+    fmt::print("{}", bash(commands));
+  else if (shell == "zsh")
+    fmt::print("{}", zsh(commands));
+  else if (shell == "fish")
+    fmt::print("{}", fish(commands));
+  else
+    throw InputError({}, fmt::format("there is no completion for '{}'", shell),
+                     "frictab completion bash, zsh or fish");
+  return 0;
+}
+
+std::function<int()> declare(CLI::App& app, const CommonOptions&) {
+  const auto shell = std::make_shared<std::string>();
+  app.add_option("SHELL", *shell, "bash, zsh or fish")->required()->type_name("{bash,zsh,fish}");
+  return [shell, &app] { return run(app, *shell); };
+}
+
+const Registered<Command> registered{[] {
+  return Command{
+      "completion",
+      84,
+      "Completion of commands, options and their values for a shell",
+      declare,
+      0,
+      {{"frictab completion bash > ~/.local/share/bash-completion/completions/frictab", "bash"},
+       {"frictab completion fish > ~/.config/fish/completions/frictab.fish", "fish"},
+       {"frictab completion zsh > ~/.zfunc/_frictab", "zsh, with ~/.zfunc in fpath"}}};
+}};
+
+} // namespace
+
+} // namespace frictab::cli::completion_command

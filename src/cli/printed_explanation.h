@@ -1,0 +1,10 @@
+// How an explanation is printed.
+#pragma once
+
+#include "cli/explanation.h"
+
+namespace frictab::cli {
+
+void print_explanation(const Explanation& it);
+
+} // namespace frictab::cli

@@ -1,0 +1,31 @@
+// frictab schema: the keys of the job file for editors.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "job/json_schema.h"
+
+namespace frictab::cli::schema_command {
+
+namespace {
+
+std::function<int()> declare(CLI::App&, const CommonOptions&) {
+  return [] {
+    fmt::print("{}", job::json_schema());
+    return 0;
+  };
+}
+
+const Registered<Command> registered{[] {
+  return Command{"schema",
+                 85,
+                 "JSON Schema of the job file: editors complete and check its keys",
+                 declare,
+                 0,
+                 {{"frictab schema > job.schema.json", "then `#:schema job.schema.json` on top of "
+                                                       "the job"}}};
+}};
+
+} // namespace
+
+} // namespace frictab::cli::schema_command

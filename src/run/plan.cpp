@@ -1,0 +1,180 @@
+// Stages by name: those the command is for, and those they go on from.
+#include "run/plan.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "calibrate/calibration.h"
+#include "codegen/exporter.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "data/dataset.h"
+#include "io/json.h"
+#include "run/job_data.h"
+#include "run/kept_work.h"
+#include "run/stages.h"
+
+namespace frictab::run {
+
+namespace {
+
+using Action = PlannedStage::Action;
+
+// What a stage goes on from: the laws and tables of trace and export are those of earlier runs.
+std::vector<std::string> needed_by(const std::string& command) {
+  if (command == "trace" || command == "tabulate") return {"calibrate"};
+  if (command == "export" || command == "report") return {"calibrate", "tabulate"};
+  if (command == "verify") return {"calibrate", "tabulate", "export"};
+  return {};
+}
+
+const char* action_name(Action action) {
+  switch (action) {
+  case Action::run:
+    return "run";
+  case Action::keep:
+    return "keep";
+  case Action::refuse:
+    break;
+  }
+  return "refuse";
+}
+
+class Planner {
+public:
+  explicit Planner(const job::Job& job)
+      : job_(job), data_(load_job_data(job)),
+        key_(data::fingerprint(data_.training, data_.validation)), stages_(job, job.directory),
+        laws_(calibrate::names_of_laws(data_.calibration_input(job))) {}
+
+  Plan plan(const std::string& command) const {
+    Plan plan{job_.directory, {}};
+    if (command == "run") {
+      for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"})
+        plan.stages.push_back(stage_of_run(stage));
+    } else {
+      for (const std::string& stage : needed_by(command))
+        plan.stages.push_back(stage_before(stage, command));
+      plan.stages.push_back({command, Action::run, "", writes(command)});
+    }
+    if (job_.exports.targets.empty())
+      std::erase_if(plan.stages, [](const PlannedStage& one) { return one.name == "export"; });
+    return plan;
+  }
+
+private:
+  // A run makes everything anew, but for what a run that did not end has finished.
+  PlannedStage stage_of_run(const std::string& stage) const {
+    PlannedStage out{stage, Action::run, "", writes(stage)};
+    const KeptWork kept(job_);
+    const bool finished = stage == "calibrate" ? kept.has_calibration(key_)
+                                               : stage == "trace" && kept.has_calibration(key_) &&
+                                                     kept.has("trace", key_);
+    if (finished) {
+      out.action = Action::keep;
+      out.why = "of a run that did not end";
+    }
+    return out;
+  }
+
+  PlannedStage stage_before(const std::string& stage, const std::string& command) const {
+    if (!is_there(stage))
+      return {stage, Action::run, "there is none: it is made first", writes(stage)};
+    const std::string why = stages_.stale(stage, key_);
+    if (why.empty()) return {stage, Action::keep, "", {}};
+    const std::string mend =
+        fmt::format("{}; `frictab {} {}` makes it anew, `frictab run` all", why, stage, job_.file);
+    return {stage, Action::refuse, "stale, so `" + command + "` stops: " + mend, {}};
+  }
+
+  bool is_there(const std::string& stage) const {
+    const std::filesystem::path out = job_.directory;
+    std::error_code error;
+    if (stage == "calibrate") return std::filesystem::exists(out / "calibration.json", error);
+    return std::filesystem::exists(out / (stage == "tabulate" ? "tables" : "export"), error);
+  }
+
+  std::vector<std::string> writes(const std::string& stage) const {
+    std::vector<std::string> files;
+    if (stage == "calibrate") {
+      files = {"calibration.json", "benchmark.md", "errors_by_experiment.csv"};
+      for (const std::string& law : laws_)
+        files.push_back("models/" + law + ".json");
+    }
+    if (stage == "trace")
+      files = {"trace.json", "models/NAME_traced.json where an effect is added"};
+    if (stage == "tabulate") files = table_files();
+    if (stage == "export")
+      for (const codegen::Exporter* target : codegen::exporters_named(job_.exports.targets))
+        files.push_back("export/" + target->name + "/");
+    if (stage == "verify") files = {"verify.json", "verify.xml"};
+    if (stage == "report") files = {"report.html"};
+    return files;
+  }
+
+  std::vector<std::string> table_files() const {
+    std::vector<std::string> files;
+    const auto add = [&](const std::string& law) {
+      for (const double quantile : job_.table.quantile)
+        files.push_back(
+            fmt::format("tables/{}{}.h5", law,
+                        quantile == 0.5 ? "" : fmt::format(" at quantile {}", quantile)));
+    };
+    for (const std::string& name : job_.table.model) {
+      if (name == "best")
+        add("BEST_LAW");
+      else if (name != "all")
+        add(name);
+      else
+        for (const std::string& law : laws_)
+          add(law);
+    }
+    return files;
+  }
+
+  const job::Job& job_;
+  JobData data_;
+  std::string key_;
+  Stages stages_;
+  std::vector<std::string> laws_;
+};
+
+} // namespace
+
+bool Plan::refused() const {
+  return std::any_of(stages.begin(), stages.end(),
+                     [](const PlannedStage& one) { return one.action == Action::refuse; });
+}
+
+Plan plan_of(const job::Job& job, const std::string& command) {
+  return Planner(job).plan(command);
+}
+
+std::string plan_text(const Plan& plan) {
+  std::string text;
+  for (const PlannedStage& stage : plan.stages) {
+    text += fmt::format("{:<7} {}{}\n", action_name(stage.action), stage.name,
+                        stage.why.empty() ? "" : " (" + stage.why + ")");
+    for (const std::string& file : stage.writes)
+      text += fmt::format("          {}\n", file);
+  }
+  return text + (plan.refused() ? "stops before anything is written\n"
+                                : "into " + plan.directory +
+                                      ", with stages.json; nothing was "
+                                      "written now\n");
+}
+
+std::string plan_json(const Plan& plan) {
+  nlohmann::ordered_json json = {{"directory", plan.directory}, {"stages", {}}};
+  for (const PlannedStage& stage : plan.stages)
+    json["stages"].push_back({{"stage", stage.name},
+                              {"action", action_name(stage.action)},
+                              {"why", stage.why},
+                              {"writes", stage.writes}});
+  return io::json_text(json);
+}
+
+} // namespace frictab::run
