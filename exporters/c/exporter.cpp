@@ -16,6 +16,7 @@
 #include "codegen/template.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/json.h"
 #include "parts.h"
 #include "single.h"
@@ -32,7 +33,7 @@ namespace {
 std::string header(const ExportRequest& request, const std::vector<InputArgument>& inputs) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
-                 {"version", FRICTAB_VERSION},
+                 {"version", tool_version()},
                  {"parameters", lines(parameters(inputs, "double"))},
                  {"n_arguments", std::to_string(inputs.size())},
                  {"last_argument", std::to_string(inputs.size() - 1)},
@@ -138,7 +139,7 @@ std::string table_source(const ExportRequest& request, const std::vector<InputAr
   const std::string comment = value_comment(table);
   TemplateValues values;
   values.text = {{"model", comment_text(table.model)},
-                 {"version", FRICTAB_VERSION},
+                 {"version", tool_version()},
                  {"kernel", kernel(table)},
                  {"interpolate",
                   fmt::format("ft_{}_{}", is_cubic(table) ? "cubic" : "linear", table.axes.size())},

@@ -11,6 +11,7 @@
 #include "codegen/prefix.h"
 #include "codegen/table_text.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "table/outside.h"
 
 namespace frictab::c_target {
@@ -277,7 +278,7 @@ std::string direct_source(const ExportRequest& request, const std::vector<InputA
   const std::string formula = add_tau_R(values, request, inputs, variables);
   values.text["helpers"] = helpers(law + formula + gradient);
   values.text["model"] = comment_text(table.model);
-  values.text["version"] = FRICTAB_VERSION;
+  values.text["version"] = tool_version();
   values.text["piece"] = law;
   values.text["piece_call"] = piece_call(table, inputs, variables);
   values.text["outside"] = outside_functions(table, inputs);

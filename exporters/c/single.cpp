@@ -16,6 +16,7 @@
 #include "codegen/table_text.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "parts.h"
 #include "table/bound.h"
 #include "table/outside.h"
@@ -261,7 +262,7 @@ std::string single_source(const ExportRequest& request, const std::vector<InputA
   const Table& table = request.table;
   Variables variables = variables_of(table, table.combine, inputs);
   TemplateValues values;
-  values.text = {{"model", comment_text(table.model)}, {"version", FRICTAB_VERSION}};
+  values.text = {{"model", comment_text(table.model)}, {"version", tool_version()}};
   values.flags = {{"tabulated", !table.is_direct()},
                   {"has_axes", !table.is_direct() && !table.axes.empty()},
                   {"several_axes", table.axes.size() > 1},
@@ -293,7 +294,7 @@ std::string single_header(const ExportRequest& request, const std::vector<InputA
                           const RoundingBound& bound) {
   TemplateValues values;
   values.text = {{"tau_unit", solver_unit("MPa", request.units).name},
-                 {"version", FRICTAB_VERSION},
+                 {"version", tool_version()},
                  {"parameters", lines(parameters(inputs, "float"))},
                  {"arrays", lines(parameters(inputs, "const float*"))}};
   values.lists["about"] = items(about_entry(request));

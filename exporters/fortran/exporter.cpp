@@ -14,6 +14,7 @@
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/json.h"
 #include "table/outside.h"
 
@@ -104,7 +105,7 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
       {.unknown = true, .gradient = true, .units = fortran::Units::module, .quit = fortran::say()});
   TemplateValues values;
   values.text = {{"tau_unit", stress.name},
-                 {"version", FRICTAB_VERSION},
+                 {"version", tool_version()},
                  {"n_x", std::to_string(core.n_x)},
                  {"pure", file ? "" : "pure "},
                  {"elemental", file ? "impure elemental" : "elemental"},

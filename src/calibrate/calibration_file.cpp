@@ -11,6 +11,7 @@
 #include "calibrate/judgement_json.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/json.h"
 #include "models/assembled_law.h"
 
@@ -436,7 +437,7 @@ std::string calibration_json(const Calibration& calibration) {
   for (const ModelFit& fit : calibration.fits)
     models.push_back(fit_json(fit));
   return io::json_text({{"schema", calibration_schema},
-                        {"tool_version", FRICTAB_VERSION},
+                        {"tool_version", tool_version()},
                         {"data_hash", calibration.data_hash},
                         {"synthetic_data", calibration.synthetic},
                         {"loss", loss_name(calibration.loss)},
@@ -490,7 +491,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
 
 std::string model_json(const ModelFit& fit, const Calibration& calibration) {
   Json j = {{"schema", model_schema},
-            {"tool_version", FRICTAB_VERSION},
+            {"tool_version", tool_version()},
             {"data_hash", calibration.data_hash},
             {"synthetic_data", calibration.synthetic}};
   const Json body = fit_json(fit.delivered());

@@ -23,6 +23,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/atomic_file.h"
 
 namespace frictab::cli {
@@ -241,7 +242,7 @@ void commit(io::OutputFiles& files, const std::string& directory, const CommonOp
 
 int run_command_line(int argc, char** argv) {
   CLI::App app{"frictab - from tribometer data to a verified friction subroutine", "frictab"};
-  app.set_version_flag("-V,--version", "frictab " FRICTAB_VERSION);
+  app.set_version_flag("-V,--version", std::string("frictab ") + tool_version());
   app.require_subcommand(1);
   app.footer(std::string("`frictab help COMMAND` has the options of a command, with examples; "
                          "`frictab explain job` the keys of the job file.\n") +

@@ -1,6 +1,7 @@
 // Walks CLI11's options.
 #include "cli/command_tree.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -44,7 +45,8 @@ std::vector<std::string> words_of(const CLI::App& app, const CLI::Option& option
 
 // CLI11's own "TEXT" says less than the name of the option.
 std::string value_name(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+  std::string type = option.get_type_name();
+  type.resize(std::min(type.size(), type.find(':'))); // what a check says of itself
   const bool unsaid = type.starts_with("TEXT") || type.starts_with("FLOAT") ||
                       type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("{");
   if (option.get_positional()) return option.get_name(true);
@@ -85,6 +87,14 @@ void add(std::vector<const CommandText*>& all, const CommandText& command) {
 }
 
 } // namespace
+
+OptionText::Kind OptionText::kind() const {
+  if (!words.empty()) return Kind::words;
+  if (value == "DIR" || value == "OUT") return Kind::directory;
+  for (const char* file : {"FILE", "FILES", "JOB", "JOB|MODEL", "DATA", "A", "B"})
+    if (value == file) return Kind::file;
+  return Kind::other;
+}
 
 std::vector<std::string> pieces(const std::string& text, char separator) {
   std::vector<std::string> out;

@@ -17,7 +17,8 @@ struct OptionText {
   std::string description;
   std::vector<std::string> words; // what a value may be, where these are few or known by name
   bool many = false;              // values by place: any number of them
-  bool is_directory() const { return value == "DIR" || value == "OUT"; }
+  enum class Kind { words, directory, file, other };
+  Kind kind() const;
 };
 
 struct CommandText {

@@ -30,8 +30,17 @@ std::vector<std::string> names_below(const CommandText& command) {
 
 // What the value of an option, or one by place, is called in the scripts.
 std::string kind_of(const OptionText& option) {
-  if (!option.words.empty()) return "words " + join(option.words, " ");
-  return option.is_directory() ? "directory" : "file";
+  switch (option.kind()) {
+  case OptionText::Kind::words:
+    return "words " + join(option.words, " ");
+  case OptionText::Kind::directory:
+    return "directory";
+  case OptionText::Kind::file:
+    return "file";
+  case OptionText::Kind::other:
+    break;
+  }
+  return "other";
 }
 
 // ---- bash ----
@@ -118,10 +127,18 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_action(const OptionText& option) {
-  if (!option.words.empty())
+  switch (option.kind()) {
+  case OptionText::Kind::words:
     return option.value == "TARGETS" ? "_values -s , target " + join(option.words, " ")
                                      : "(" + join(option.words, " ") + ")";
-  return option.is_directory() ? "_files -/" : "_files";
+  case OptionText::Kind::directory:
+    return "_files -/";
+  case OptionText::Kind::file:
+    return "_files";
+  case OptionText::Kind::other:
+    break;
+  }
+  return " "; // nothing to offer
 }
 
 std::string zsh_option(const OptionText& option) {
@@ -179,8 +196,17 @@ std::string fish_option(const OptionText& option, const std::string& here) {
     out += name.size() == 2 ? " -s " + name.substr(1) : " -l " + name.substr(2);
   out += " -d " + fish_quoted(first_line(option.description));
   if (option.value.empty()) return out + "\n";
-  if (!option.words.empty()) return out + " -x -a " + fish_quoted(join(option.words, " ")) + "\n";
-  return out + (option.is_directory() ? " -x -a '(__fish_complete_directories)'" : " -r -F") + "\n";
+  switch (option.kind()) {
+  case OptionText::Kind::words:
+    return out + " -x -a " + fish_quoted(join(option.words, " ")) + "\n";
+  case OptionText::Kind::directory:
+    return out + " -x -a '(__fish_complete_directories)'\n";
+  case OptionText::Kind::file:
+    return out + " -r -F\n";
+  case OptionText::Kind::other:
+    break;
+  }
+  return out + " -x\n";
 }
 
 std::string fish_of(const CommandText& command) {

@@ -17,6 +17,7 @@
 #include "codegen/exporter.h"
 #include "core/program.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "models/law.h"
 
 namespace frictab::cli::doctor_command {
@@ -80,7 +81,7 @@ void add_libraries(std::vector<Finding>& out) {
   const auto add = [&](const char* name, const std::string& version) {
     out.push_back({"library", name, true, true, version, ""});
   };
-  add("frictab", FRICTAB_VERSION);
+  add("frictab", tool_version());
   add("HDF5", fmt::format("{}.{}.{}", major, minor, release));
   add("NLopt", fmt::format("{}.{}.{}", nlopt_major, nlopt_minor, nlopt_bugfix));
   add("Eigen",

@@ -125,6 +125,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
   app.add_option("DIR", options->directory, "directory of the new job");
   app.add_option("--from", options->from,
                  "data files, folders or names with *: the job is made from what they hold")
+      ->type_name("FILES")
       ->expected(1, -1);
   return [options, &common] {
     return options->from.empty() ? init_empty(*options, common) : init_from(*options, common);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/no_value.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "data/quantity.h"
 #include "io/number.h"
 #include "job/literature.h"
@@ -146,7 +147,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   const auto exporters = codegen::exporters_named(options.targets);
   const table::TableOptions usual;
   table::Table table = table::build_table(law, ranges_of(law, given), usual);
-  table.record.tool_version = FRICTAB_VERSION;
+  table.record.tool_version = tool_version();
   table.record.data_origin = "none: constants given by hand";
   verify::Verification verification{usual.tolerance_MPa, {}};
   verification.records =

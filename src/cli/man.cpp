@@ -9,16 +9,19 @@
 #include "cli/topics.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/atomic_file.h"
 
 namespace frictab::cli::man_command {
 
 namespace {
 
-// Text for roff: no request at the start of a line, hyphens that can be searched for and copied.
+// Text for roff: no request at the start of a line, hyphens that can be searched for and copied. A
+// long line of settings may break at their separators.
 std::string roff(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     const bool starts_line = out.empty() || out.back() == '\n';
     if (starts_line && (c == '.' || c == '\'')) out += "\\&";
     if (c == '\\')
@@ -27,7 +30,8 @@ std::string roff(const std::string& text) {
       out += "\\-";
     else
       out += c;
-    if (c == ';' || c == ',') out += "\\:"; // a long line of settings may break here
+    const bool within = i + 1 < text.size() && text[i + 1] != ' ' && text[i + 1] != '\n';
+    if ((c == ';' || c == ',') && within) out += "\\:";
   }
   return out;
 }
@@ -85,7 +89,7 @@ std::string exit_status() {
 std::string page_of(const CommandText& command) {
   std::string out = fmt::format(
       ".TH {} 1 \"\" \"frictab {}\" \"User Commands\"\n.ad l\n.nh\n.SH NAME\n{} \\- {}\n",
-      roff(page_name(command)), FRICTAB_VERSION, roff(page_name(command)), roff(command.title));
+      roff(page_name(command)), tool_version(), roff(page_name(command)), roff(command.title));
   out += ".SH SYNOPSIS\n" + synopsis(command);
   if (!command.below.empty()) {
     out += ".SH COMMANDS\n";

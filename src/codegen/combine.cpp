@@ -14,6 +14,7 @@
 #include "codegen/prefix.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/json.h"
 
 namespace frictab::codegen {
@@ -230,7 +231,7 @@ std::string combined_source(const Combination& c, const std::vector<ExportReques
                             const std::vector<std::string>& sources) {
   TemplateValues values;
   values.text = {{"title", c.exporter.title},
-                 {"version", FRICTAB_VERSION},
+                 {"version", tool_version()},
                  {"arguments", fortran::without_last_break(c.arguments)},
                  {"guard", fortran::without_last_break(c.by.guard)},
                  {"argument", c.by.argument},

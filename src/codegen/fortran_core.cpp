@@ -15,6 +15,7 @@
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "table/outside.h"
 
 namespace frictab::codegen::fortran {
@@ -143,7 +144,7 @@ std::string head_text(const ExportRequest& request, const std::vector<SolverInpu
   for (const std::string& line : values_file_lines(request, head.directory_routine))
     remarks.push_back(line);
   TemplateValues values;
-  values.text["version"] = FRICTAB_VERSION;
+  values.text["version"] = tool_version();
   values.flags["of_a_release"] = !head.release.empty();
   values.lists = {{"about", comments(about(request))},
                   {"release", comments(head.release)},

@@ -11,6 +11,7 @@
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
+#include "core/version.h"
 #include "io/json.h"
 #include "table/outside.h"
 
@@ -52,7 +53,7 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
   json out = {{"schema", schema},
               {"target", exporter.name},
               {"title", exporter.title},
-              {"tool_version", FRICTAB_VERSION},
+              {"tool_version", tool_version()},
               {"model", request.table.model},
               {"form", request.table.is_direct() ? "direct" : "table"},
               {"data_origin", origin_text(request.table)},

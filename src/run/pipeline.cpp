@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "report/report.h"
 #include "run/chosen.h"
 #include "table/build.h"
@@ -380,7 +381,7 @@ Table Pipeline::made_table(const models::AssembledLaw& law) {
     return table;
   }
   table = sample_table(law);
-  table.record.tool_version = FRICTAB_VERSION;
+  table.record.tool_version = tool_version();
   table.record.data_hash = calibration_->data_hash;
   table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";
   measure_drift(law, table);

@@ -16,6 +16,7 @@
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "data/derived.h"
 #include "data/load.h"
 #include "data/quantity.h"
@@ -272,7 +273,7 @@ std::string prediction_text(const Prediction& p) {
 
 std::string prediction_json(const Prediction& p) {
   nlohmann::ordered_json j = {
-      {"schema", "frictab/prediction/1"}, {"tool_version", FRICTAB_VERSION},
+      {"schema", "frictab/prediction/1"}, {"tool_version", tool_version()},
       {"model", p.model.law->name},       {"data", p.file},
       {"n_rows", p.data.rows()},          {"n_experiments", p.data.experiments.size()},
       {"band", p.band.has_value()},       {"rows_outside", p.rows_outside}};

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/atomic_file.h"
 #include "io/json.h"
 
@@ -115,7 +116,7 @@ StageInputs Stages::now(const std::string& stage, const std::string& data) const
   if (first) job += fmt::format("seed {}", job_.calibration.seed);
   const std::string laws = stage == tabulate ? join(job_.table.model, ", ") : "";
   const std::string last = before(stage);
-  return {first ? data : "", hash_text(job), laws, last.empty() ? "" : key(last), FRICTAB_VERSION};
+  return {first ? data : "", hash_text(job), laws, last.empty() ? "" : key(last), tool_version()};
 }
 
 void Stages::begin(const std::string& stage, const std::string& data) {
@@ -163,7 +164,7 @@ std::string Stages::stale(const std::string& stage, const std::string& data) con
 
 std::string Stages::json() const {
   nlohmann::ordered_json out = {{"schema", schema},
-                                {"tool_version", FRICTAB_VERSION},
+                                {"tool_version", tool_version()},
                                 {"stages", nlohmann::ordered_json::object()}};
   for (const std::string& name : stage_names())
     if (const auto found = made_.find(name); found != made_.end())

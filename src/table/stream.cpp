@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "table/chunk_list.h"
 #include "table/sampling.h"
 #include "table/table_file.h"
@@ -42,7 +43,7 @@ std::uint64_t hash_of(std::span<const double> values) {
 
 // Everything the bytes of the values depend on.
 std::string job_line(const models::AssembledLaw& law, const Table& table) {
-  std::string text = FRICTAB_VERSION + expr::to_text(law.piece);
+  std::string text = tool_version() + expr::to_text(law.piece);
   for (const double parameter : law.model.parameters)
     text += " " + shortest(parameter);
   for (const TableAxis& axis : table.axes) {

@@ -10,6 +10,7 @@
 #include "calibrate/judgement_json.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "io/json.h"
 
 namespace frictab::trace {
@@ -422,7 +423,7 @@ Trace parse_one(const Json& j) {
 } // namespace
 
 std::string trace_json(const std::vector<Trace>& traces, bool synthetic) {
-  Json j = {{"schema", schema}, {"tool_version", FRICTAB_VERSION}, {"synthetic_data", synthetic}};
+  Json j = {{"schema", schema}, {"tool_version", tool_version()}, {"synthetic_data", synthetic}};
   j.update(one_json(traces.front()));
   Json others = Json::array();
   for (std::size_t i = 1; i < traces.size(); ++i)

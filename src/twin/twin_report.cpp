@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
+#include "core/version.h"
 #include "data/derived.h"
 #include "io/json.h"
 #include "twin/twin_summary.h"
@@ -140,7 +141,7 @@ std::string twin_json(const Twin& twin, const TwinSummary& summary) {
   Json json{{"schema", "frictab/twin/1"},
             {"synthetic", true},
             {"origin", twin_origin(options)},
-            {"tool_version", FRICTAB_VERSION},
+            {"tool_version", tool_version()},
             {"seed", options.seed},
             {"set", set_json(twin.set)},
             {"design", design_json(*options.design)},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "core/version.h"
 #include "io/json.h"
 #include "verify/verify.h"
 
@@ -109,7 +110,7 @@ std::string verification_json(const Verification& verification) {
   for (const DriftRecord& record : verification.records)
     records.push_back(record_json(record));
   Json j = {{"schema", schema},
-            {"tool_version", FRICTAB_VERSION},
+            {"tool_version", tool_version()},
             {"max_drift_MPa", verification.max_drift_MPa},
             {"passed", passed_json(verification)},
             {"untested", verification.untested()}};
@@ -200,6 +201,25 @@ std::string why_failed(const DriftRecord& record, double max_drift_MPa) {
 
 } // namespace
 
+namespace {
+
+void add_property(pugi::xml_node properties, const std::string& name, const std::string& value) {
+  pugi::xml_node property = properties.append_child("property");
+  property.append_attribute("name") = name.c_str();
+  property.append_attribute("value") = value.c_str();
+}
+
+// The figures of verify.json, of cases that passed as well: a pipeline can plot them.
+void add_figures(pugi::xml_node test, const DriftRecord& record) {
+  const Json figures = record_json(record);
+  pugi::xml_node properties = test.append_child("properties");
+  for (const auto& [name, value] : figures.items())
+    if (value.is_number()) add_property(properties, name, value.dump());
+}
+
+} // namespace
+
+// No times: the same job gives the same bytes.
 std::string verification_junit(const Verification& verification) {
   pugi::xml_document document;
   pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
@@ -212,10 +232,14 @@ std::string verification_junit(const Verification& verification) {
   suite.append_attribute("tests") = static_cast<unsigned>(verification.records.size());
   suite.append_attribute("failures") = static_cast<unsigned>(failures);
   suite.append_attribute("skipped") = static_cast<unsigned>(skipped);
+  pugi::xml_node of_all = suite.append_child("properties");
+  add_property(of_all, "tool_version", tool_version());
+  add_property(of_all, "max_drift_MPa", Json(verification.max_drift_MPa).dump());
   for (const DriftRecord& record : verification.records) {
     pugi::xml_node test = suite.append_child("testcase");
     test.append_attribute("classname") = record.model.c_str();
     test.append_attribute("name") = record.subject.c_str();
+    if (record.ran) add_figures(test, record);
     if (verification.failed(record))
       test.append_child("failure").append_attribute("message") =
           why_failed(record, verification.max_drift_MPa).c_str();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "io/atomic_file.h"
 #include "support/small_campaign.h"
 
 namespace frictab::command_line_test {
@@ -57,6 +58,15 @@ TEST(CommandLine, ExplainKnowsTopicsAndLastPartsOfKeys) {
   EXPECT_EQ(out_of({"explain", "tolerance_MPa"}), out_of({"explain", "table.tolerance_MPa"}));
   EXPECT_THAT(out_of({"explain", "range"}),
               AllOf(HasSubstr("table.range\n"), HasSubstr("table.axes.*.range\n")));
+}
+
+TEST(CommandLine, ExitCodesAreThoseOfTheGuide) {
+  const std::string guide = io::read_file(FRICTAB_SOURCE_DIR "/docs/guide.md");
+  const auto topic = nlohmann::json::parse(out_of({"explain", "exit-codes", "--json"}));
+  EXPECT_GE(topic.at("codes").size(), 4U);
+  for (const auto& code : topic.at("codes"))
+    EXPECT_THAT(guide, HasSubstr("| " + code.at("name").get<std::string>() + " | " +
+                                 code.at("meaning").get<std::string>() + " |\n"));
 }
 
 TEST(CommandLine, HelpShowsOnlyOptionsThatDoSomethingAndAllAreTaken) {

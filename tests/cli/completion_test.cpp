@@ -96,24 +96,24 @@ TEST_F(Completion, OfFishOffersCommandsAndNames) {
   EXPECT_THAT(offered("frictab verify --max"), HasSubstr("--max-drift-MPa"));
 }
 
+// An interactive zsh on a terminal of its own: Tab, then Enter, and a function says what it got.
 TEST_F(Completion, OfZshOffersCommandsAndNames) {
   if (!has("zsh")) GTEST_SKIP() << "zsh is not installed";
   directory.write("functions/_frictab", run_frictab({"completion", "zsh"}).out);
-  const auto offered = [&](const std::string& line) {
-    return run_command(
-               {"zsh", "-f", "-c",
-                "zmodload zsh/zpty; zpty z zsh -f -i; zpty -w z $'PS1=READY; fpath=(" +
-                    directory.path("functions") +
-                    " $fpath); autoload -U compinit; compinit -D -u; setopt noautomenu\\n'; "
-                    "zpty -w -n z '" +
-                    line +
-                    "\t\t'; sleep 1; zpty -w z $'\\x03'; zpty -w z exit; "
-                    "while zpty -r z part; do print -rn -- $part; done"},
-               directory.path(), {"HOME=" + directory.path(), "TERM=dumb", "COLUMNS=200"})
-        .out;
-  };
-  EXPECT_THAT(offered("frictab tabu"), HasSubstr("frictab tabulate"));
-  EXPECT_THAT(offered("frictab list tar"), HasSubstr("frictab list targets"));
+  directory.write("drive.zsh",
+                  "zmodload zsh/zpty\n"
+                  "zpty z zsh -f -i\n"
+                  "zpty -w z $'fpath=(functions $fpath); autoload -U compinit; compinit -D -u'\n"
+                  "zpty -w z $'frictab() { print -r -- \"GOT $* END\" }'\n"
+                  "for line in 'tabu' 'list tar' 'table sl' 'export --targets c,mar'; do\n"
+                  "  zpty -w -n z \"frictab $line\"$'\\t'; sleep 0.5; zpty -w z ''\ndone\n"
+                  "zpty -w z exit\n"
+                  "while zpty -r z part; do print -rn -- $part; done\n");
+  const std::string shown =
+      run_command({"zsh", "-f", "drive.zsh"}, directory.path(), {"TERM=dumb"}).out;
+  for (const char* got : {"GOT tabulate END", "GOT list targets END", "GOT table slice END",
+                          "GOT export --targets c,marc_ufric"})
+    EXPECT_THAT(shown, HasSubstr(got));
 }
 
 TEST_F(Completion, OfAnotherShellIsRefused) {

@@ -12,6 +12,7 @@
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
 #include "core/error.h"
+#include "core/version.h"
 
 namespace frictab::deform::usrbcc {
 
@@ -190,7 +191,7 @@ std::string usrbcc_source(const ExportRequest& request, const std::vector<Solver
 
 std::string usrupd_source(const ExportRequest& request, const std::vector<SolverInput>& inputs) {
   TemplateValues values, all;
-  values.text = {{"version", FRICTAB_VERSION},
+  values.text = {{"version", tool_version()},
                  {"length", solver_unit("mm", request.units).name},
                  {"stress", solver_unit("MPa", request.units).name}};
   add_further(all, request, inputs);

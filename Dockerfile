@@ -1,0 +1,22 @@
+# docker build -t frictab . && docker run --rm -v "$PWD:/work" -u "$(id -u)" frictab run job.toml
+# Debian's libraries, of the release that the results were made with: the same bytes everywhere.
+FROM debian:12 AS build
+COPY apt-packages.txt /frictab/
+RUN apt-get update -q && sed '/^# tests/,$d; /^#/d' /frictab/apt-packages.txt | \
+    DEBIAN_FRONTEND=noninteractive xargs apt-get install -q -y --no-install-recommends git dpkg-dev file
+COPY . /frictab
+WORKDIR /frictab
+# The copy belongs to another user than root's git expects.
+RUN git config --global --add safe.directory /frictab && \
+    cmake --preset release -DFRICTAB_TESTS=OFF && cmake --build --preset release && \
+    cpack --config build/release/CPackConfig.cmake -B /packages
+
+FROM debian:12
+COPY --from=build /packages/frictab_*.deb /packages/
+# With the compilers that verify calls.
+RUN apt-get update -q && \
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
+      /packages/frictab_*.deb gcc gfortran libc6-dev xlsx2csv && \
+    rm -rf /packages /var/lib/apt/lists/*
+WORKDIR /work
+ENTRYPOINT ["frictab"]

@@ -1,0 +1,39 @@
+# cmake --install BUILD [--prefix DIR]: the program with manual pages, completion, documentation,
+# examples and the JSON Schema of the job file. cpack --config BUILD/CPackConfig.cmake: a .deb of
+# these. Templates are part of the program.
+include(GNUInstallDirs)
+install(TARGETS frictab RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# What the program writes of itself, when it is installed.
+set(FRICTAB_PAGES ${CMAKE_BINARY_DIR}/pages)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:frictab> \
+-DPAGES=${FRICTAB_PAGES} -P ${CMAKE_CURRENT_LIST_DIR}/pages.cmake COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${FRICTAB_PAGES}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${FRICTAB_PAGES}/frictab DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${FRICTAB_PAGES}/_frictab DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${FRICTAB_PAGES}/frictab.fish
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(FILES ${FRICTAB_PAGES}/job.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/frictab)
+
+install(FILES README.md CHANGELOG.md SECURITY.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        PATTERN data EXCLUDE PATTERN out EXCLUDE PATTERN __pycache__ EXCLUDE
+        REGEX "/examples/run$" EXCLUDE) # which builds
+
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # what is packed was built before
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME frictab)
+set(CPACK_PACKAGE_CONTACT "The frictab authors <frictab@invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "friction laws: tribometer data to FE subroutine")
+set(CPACK_PACKAGE_DESCRIPTION "Calibrates friction laws on tribometer data, tabulates them, writes \
+friction subroutines for finite-element codes and proves how far these are from the law.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# verify compiles what was generated; workbooks are read through xlsx2csv.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc, gfortran, libc6-dev, xlsx2csv")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "clang, luajit, lua5.4")
+include(CPack)

@@ -1,0 +1,87 @@
+// What `cmake --install` and cpack leave, used from where they leave it.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/run_command.h"
+
+namespace frictab::package_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using test::run_command;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+const fs::path build = fs::path(FRICTAB_BINARY).parent_path();
+
+bool has(const std::string& program) {
+  return run_command({"sh", "-c", "command -v " + program}).exit_code == 0;
+}
+
+// `root`/usr of a package, or a prefix.
+void expect_whole(const fs::path& usr) {
+  const test::TemporaryDirectory elsewhere;
+  const std::string program = (usr / "bin/frictab").string();
+  const CommandResult twin = run_command(
+      {program, "twin", "data", "--design", "p=1725,2005;psi=1,20;v=5,500;T=20;points=10"},
+      elsewhere.path());
+  ASSERT_EQ(twin.exit_code, 0) << twin.err;
+  const CommandResult run = run_command(
+      {program, "run", "data/job.toml", "--set", "models.use=coulomb", "--set", "export.targets=c"},
+      elsewhere.path());
+  EXPECT_EQ(run.exit_code, 0) << run.err; // templates are within it
+  for (const char* file :
+       {"share/man/man1/frictab.1", "share/man/man1/frictab-table-slice.1",
+        "share/bash-completion/completions/frictab", "share/zsh/vendor-completions/_frictab",
+        "share/fish/vendor_completions.d/frictab.fish", "share/frictab/job.schema.json",
+        "share/doc/frictab/copyright", "share/doc/frictab/docs/guide.md",
+        "share/doc/frictab/examples/04_ci_pipeline/verify.sh"})
+    EXPECT_TRUE(fs::exists(usr / file)) << file;
+  EXPECT_FALSE(fs::exists(usr / "share/doc/frictab/examples/01_synthetic_campaign/data"));
+}
+
+// One test: both write the manual pages into the build directory.
+TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
+  const test::TemporaryDirectory prefix;
+  const CommandResult installed = run_command(
+      {"cmake", "--install", build.string(), "--prefix", prefix.path("usr"), "--strip"});
+  ASSERT_EQ(installed.exit_code, 0) << installed.err;
+  expect_whole(prefix.path("usr"));
+  for (const char* program : {"cpack", "dpkg-deb", "dpkg-shlibdeps"})
+    if (!has(program)) GTEST_SKIP() << program << " is not installed";
+  const test::TemporaryDirectory directory;
+  const CommandResult packed =
+      run_command({"cpack", "--config", (build / "CPackConfig.cmake").string(), "-G", "DEB", "-B",
+                   directory.path("packages")});
+  ASSERT_EQ(packed.exit_code, 0) << packed.out << packed.err;
+  std::string package;
+  for (const auto& entry : fs::directory_iterator(directory.path("packages")))
+    if (entry.path().extension() == ".deb") package = entry.path().string();
+  ASSERT_NE(package, "");
+  ASSERT_EQ(run_command({"dpkg-deb", "-x", package, directory.path("root")}).exit_code, 0);
+  expect_whole(directory.path("root/usr"));
+  const std::string depends = run_command({"dpkg-deb", "-f", package, "Depends"}).out;
+  for (const char* library : {"libhdf5", "libfmt9", "libnlopt", "libudunits2", "libc6"})
+    EXPECT_THAT(depends, HasSubstr(library));
+  EXPECT_THAT(run_command({"dpkg-deb", "-f", package, "Package", "Version"}).out,
+              ContainsRegex("Package: frictab\nVersion: 0\\.1\\.0"));
+}
+
+// The Dockerfile is not run here: no test has a daemon. Its steps are those of .ci/build.
+TEST(Dockerfile, BuildsWithTheListedPackagesAndThePresetOfTheGuide) {
+  const test::TemporaryDirectory directory;
+  const CommandResult listed = run_command(
+      {"sh", "-c", "sed '/^# tests/,$d; /^#/d' " FRICTAB_SOURCE_DIR "/apt-packages.txt"});
+  EXPECT_THAT(listed.out, HasSubstr("libhdf5-dev\n"));
+  EXPECT_EQ(listed.out.find("libgtest-dev"), std::string::npos);
+  EXPECT_EQ(listed.out.find('#'), std::string::npos);
+  const CommandResult text = run_command({"cat", FRICTAB_SOURCE_DIR "/Dockerfile"});
+  EXPECT_THAT(text.out, HasSubstr("sed '/^# tests/,$d; /^#/d' /frictab/apt-packages.txt"));
+  EXPECT_THAT(text.out, HasSubstr("FROM debian:12\n"));
+}
+
+} // namespace
+} // namespace frictab::package_test
