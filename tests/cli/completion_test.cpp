@@ -104,13 +104,13 @@ TEST_F(Completion, OfZshOffersCommandsAndNames) {
                   "zmodload zsh/zpty\n"
                   "zpty z zsh -f -i\n"
                   "zpty -w z $'fpath=(functions $fpath); autoload -U compinit; compinit -D -u'\n"
-                  "zpty -w z $'frictab() { print -r -- \"GOT $* END\" }'\n"
+                  "zpty -w z $'frictab() { print -r -- \"GOT $* END\" }'\nsleep 1\n"
                   "for line in 'tabu' 'list tar' 'table sl' 'export --targets c,mar'; do\n"
-                  "  zpty -w -n z \"frictab $line\"$'\\t'; sleep 0.5; zpty -w z ''\ndone\n"
-                  "zpty -w z exit\n"
+                  "  zpty -w -n z \"frictab $line\"$'\\t'; sleep 0.5; zpty -w -n z $'\\r'\ndone\n"
+                  "sleep 0.5; zpty -w z exit\n"
                   "while zpty -r z part; do print -rn -- $part; done\n");
   const std::string shown =
-      run_command({"zsh", "-f", "drive.zsh"}, directory.path(), {"TERM=dumb"}).out;
+      run_command({"timeout", "20", "zsh", "-f", "drive.zsh"}, directory.path(), {"TERM=dumb"}).out;
   for (const char* got : {"GOT tabulate END", "GOT list targets END", "GOT table slice END",
                           "GOT export --targets c,marc_ufric"})
     EXPECT_THAT(shown, HasSubstr(got));

@@ -85,6 +85,15 @@ TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
   }
 }
 
+TEST_F(SlowProgress, IsErasedWhereTheRunIsInterrupted) {
+  const CommandResult stopped = test::run_on_terminal(
+      {"timeout", "--foreground", "-s", "INT", "2.5", FRICTAB_BINARY, "verify", "job.toml"}, 80,
+      directory.path(), environment("xterm"));
+  EXPECT_EQ(stopped.exit_code, 124) << "timeout says that it had to stop it";
+  EXPECT_GE(drawn(stopped.out).size(), 2U) << stopped.out;
+  EXPECT_TRUE(stopped.out.ends_with(erase)) << stopped.out;
+}
+
 TEST_F(SlowProgress, OnADumbTerminalIsLinesAndOnlyWhenAskedFor) {
   auto silent = on_terminal(80, "dumb"), asked = on_terminal(80, "dumb", {"--progress"});
   const CommandResult without = silent.get(), with = asked.get();
