@@ -1,5 +1,6 @@
 // Completion driven through the shells themselves; manual pages read by man.
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // --dry-run tells what the command then does, and writes nothing.
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
