@@ -61,7 +61,7 @@ std::string either(const std::vector<std::string>& words) {
     quoted.push_back(toml_quoted(word));
   const std::string last = quoted.back();
   quoted.pop_back();
-  return join(quoted, ", ") + " or " + last;
+  return quoted.empty() ? last : join(quoted, ", ") + " or " + last;
 }
 
 std::string with_bounds(const std::string& noun, const ValueBounds& bounds) {
