@@ -1,10 +1,14 @@
 // The commands that work on a job file alone: run, and most of its stages.
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/colour.h"
 #include "cli/job_commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -42,6 +46,19 @@ void tell_notes(const run::Pipeline& pipeline, const CommonOptions& common) {
     note(common, line);
 }
 
+namespace {
+
+void show_summary(const std::string& text) {
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const bool colours = colour_wanted(terminal, std::getenv("NO_COLOR"), std::getenv("TERM"));
+  if (colours)
+    fmt::print("{}", coloured(printable(text)));
+  else
+    show(text);
+}
+
+} // namespace
+
 int tell_plan(const job::Job& job, const std::string& command, const CommonOptions& common) {
   const run::Plan plan = run::plan_of(job, command);
   show(common.json ? run::plan_json(plan) : run::plan_text(plan));
@@ -69,7 +86,10 @@ int run_stages(const std::string& file, const CommonOptions& common, const std::
   if (common.verbose && pipeline.data())
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
-  show(common.json ? run::summary_json(pipeline) : run::summary_text(pipeline));
+  if (common.json)
+    show(run::summary_json(pipeline));
+  else
+    show_summary(run::summary_text(pipeline));
   for (const std::string& miss : pipeline.missed())
     fmt::print(stderr, "error: {}\n", printable(miss));
   const bool verified = !pipeline.verification() || pipeline.verification()->passed();

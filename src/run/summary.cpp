@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,7 @@
 #include "calibrate/noise_floor.h"
 #include "calibrate/refit.h"
 #include "codegen/table_text.h"
+#include "core/column_width.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "report/judged.h"
@@ -71,19 +74,19 @@ std::string range_of(const calibrate::Interval& interval, int decimals) {
   return fmt::format("{:.{}f} .. {:.{}f}", interval.low, decimals, interval.high, decimals);
 }
 
-// Of the column of names: the longest, with a blank behind it.
-std::size_t name_width(const std::vector<std::string>& names) {
-  std::size_t width = 14;
-  for (const std::string& name : names)
-    width = std::max(width, name.size() + 1);
-  return width;
+// Of the laws that have a table or were verified.
+std::size_t name_width(const verify::Verification& verification) {
+  std::vector<std::string> names;
+  for (const verify::DriftRecord& r : verification.records)
+    names.push_back(r.model);
+  return column_width(names);
 }
 
 std::size_t name_width(const calibrate::Calibration& calibration) {
   std::vector<std::string> names;
   for (const calibrate::ModelFit& fit : calibration.fits)
     names.push_back(fit.model.law->name);
-  return name_width(names);
+  return column_width(names);
 }
 
 void add_floor(std::string& out, const calibrate::Calibration& calibration, int decimals) {
@@ -114,13 +117,17 @@ void add_comparison(std::string& out, const calibrate::Comparisons& comparisons)
 // The three best; all are in benchmark.md.
 void add_conditional(std::string& out, const calibrate::Conditional& c, int decimals) {
   if (c.laws.empty()) return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i)
+    names.push_back(c.laws[i].law);
+  const std::size_t width = column_width(names);
   out +=
       fmt::format("\nConditional use, NOT ranked above: a gain per experiment from its own first "
-                  "{:g} mm\n(MAE of the rest, MPa):\n  {:<14}{:>8}{:>14}   {}\n",
-                  c.condition_on_mm, "law", "MAE", "without gain", "gained, 95 % interval");
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i) {
+                  "{:g} mm\n(MAE of the rest, MPa):\n  {:<{}}{:>8}{:>14}   {}\n",
+                  c.condition_on_mm, "law", width, "MAE", "without gain", "gained, 95 % interval");
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const calibrate::ConditionalFit& fit = c.laws[i];
-    out += fmt::format("  {:<14}{:>8.{}f}{:>14.{}f}   {:.{}f}, {}\n", fit.law,
+    out += fmt::format("  {:<{}}{:>8.{}f}{:>14.{}f}   {:.{}f}, {}\n", fit.law, width,
                        fit.conditional.mae_MPa, decimals, fit.unconditional.mae_MPa, decimals,
                        fit.gain.value_MPa, decimals, range_of(fit.gain.interval, decimals));
   }
@@ -159,26 +166,30 @@ constexpr std::size_t many_nodes = 50000;
 
 void add_tables(std::string& out, const Pipeline& p) {
   if (!p.tables().empty()) out += "\nTables:\n";
+  std::vector<std::string> names;
+  for (const table::Table& table : p.tables())
+    names.push_back(table.model);
+  const std::size_t width = column_width(names);
   for (const table::Table& table : p.tables()) {
     std::string grid;
     for (const table::TableAxis& axis : table.axes)
       grid += fmt::format("{}{} {}", grid.empty() ? "" : " x ", axis.nodes.size(), axis.name);
     if (grid.empty()) grid = "a constant";
-    out += fmt::format("  {:<14} {} node{}, {}: {}{}\n", table.model, thousands(table.nodes()),
-                       table.nodes() == 1 ? "" : "s",
+    out += fmt::format("  {:<{}} {}, {}: {}{}\n", table.model, width,
+                       report::count_of(table.nodes(), "node"),
                        human_bytes(static_cast<double>(table.bytes())), grid,
                        table.axes.empty() || table.interpolation == table::Interpolation::linear
                            ? ""
                            : ", " + std::string(table::interpolation_name(table.interpolation)));
     if (const std::string edge = codegen::edge_text(table); !edge.empty())
-      out += fmt::format("  {:<14} {}\n", "", edge);
+      out += fmt::format("  {:<{}} {}\n", "", width, edge);
     for (const table::TableAxis& axis : table.axes)
       if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
-        out += fmt::format("  {:<14} {}: {}\n", "", axis.name, beyond);
+        out += fmt::format("  {:<{}} {}: {}\n", "", width, axis.name, beyond);
     if (table.interpolation == table::Interpolation::linear && table.nodes() > many_nodes)
-      out += fmt::format("  {:<14} table.interpolation = \"cubic\" needs far fewer nodes where the "
+      out += fmt::format("  {:<{}} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",
-                         "");
+                         "", width);
   }
 }
 
@@ -232,10 +243,10 @@ std::string result_of(const DriftLine& line) {
   return line.passed ? "ok" : "NOT PROVEN";
 }
 
-std::string text_of(const DriftLine& line, const std::string& model) {
+std::string text_of(const DriftLine& line, const std::string& model, std::size_t width) {
   const std::string routines =
       line.count == 0 ? "-" : fmt::format("{:.3g} ({})", line.routines, line.count);
-  return fmt::format("  {:<14}{:>12.3g}{:>10}{:>16}{:>12.3g}{:>11.2f} %   {}\n{}", model,
+  return fmt::format("  {:<{}}{:>12.3g}{:>10}{:>16}{:>12.3g}{:>11.2f} %   {}\n{}", model, width,
                      line.table, line.proven, routines, line.on_rows, line.share, result_of(line),
                      line.notes);
 }
@@ -248,7 +259,8 @@ void add_outside(std::string& out, const verify::Verification& verification,
     for (const verify::DriftRecord& r : verification.records)
       if (r.model == model && r.ran) {
         for (const verify::BeyondEnd& end : r.beyond)
-          lines += fmt::format("  {:<14} {}\n", model, verify::beyond_text(end));
+          lines += fmt::format("  {:<{}} {}\n", model, name_width(verification),
+                               verify::beyond_text(end));
         break;
       }
   if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
@@ -268,9 +280,9 @@ void add_below(std::string& out, const verify::Verification& verification,
     if (!table) continue;
     const std::string of_routines =
         routines ? fmt::format(", routines {:.3g}", routines->max_abs_MPa) : "";
-    lines +=
-        fmt::format("  {:<14} {:.4g} to {:.4g} MPa ({}): table {:.3g}{}\n", model, table->low_MPa,
-                    table->high_MPa, table->outside, table->max_abs_MPa, of_routines);
+    lines += fmt::format("  {:<{}} {:.4g} to {:.4g} MPa ({}): table {:.3g}{}\n", model,
+                         name_width(verification), table->low_MPa, table->high_MPa, table->outside,
+                         table->max_abs_MPa, of_routines);
   }
   if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
 }
@@ -303,7 +315,8 @@ void add_single(std::string& out, const verify::Verification& verification,
       law = std::max(law, r->worst_case_MPa);
       subjects.push_back(fmt::format("{} {:.2g}", r->subject, r->max_vs_table_MPa));
     }
-    lines += fmt::format("  {:<14}{:>12.3g}   {}\n", model, law, list_of(subjects));
+    lines += fmt::format("  {:<{}}{:>12.3g}   {}\n", model, name_width(verification), law,
+                         list_of(subjects));
   }
   if (!lines.empty())
     out += "In single precision, largest found, MPa: off the law; off the same table in double "
@@ -318,8 +331,8 @@ struct HeldLine {
   double worst_MPa = 0;
 };
 
-std::string text_of(const HeldLine& line) {
-  return fmt::format("  {:<14}{:>12.3g}   {} {} {}\n", line.model, line.worst_MPa,
+std::string text_of(const HeldLine& line, std::size_t width) {
+  return fmt::format("  {:<{}}{:>12.3g}   {} {} {}\n", line.model, width, line.worst_MPa,
                      list_of(line.targets), line.targets.size() == 1 ? "holds" : "hold", line.text);
 }
 
@@ -340,15 +353,15 @@ void add_costs(std::string& out, const verify::Verification& verification) {
     out += "Where states are held, by a solver's own table or by a constant of the job: "
            "drift from the law there, and what holding costs:\n";
   for (const HeldLine& line : lines)
-    out += text_of(line);
+    out += text_of(line, name_width(verification));
 }
 
 void add_drift(std::string& out, const verify::Verification& verification) {
   out += fmt::format("\nLargest drift from the law found over the whole range, MPa (allowed {:g}); "
                      "proven: no state drifts the table further:\n"
-                     "  {:<14}{:>12}{:>10}{:>16}{:>12}{:>13}\n",
-                     verification.max_drift_MPa, "", "table", "proven", "routines", "on rows",
-                     "outside");
+                     "  {:<{}}{:>12}{:>10}{:>16}{:>12}{:>13}\n",
+                     verification.max_drift_MPa, "", name_width(verification), "table", "proven",
+                     "routines", "on rows", "outside");
   std::vector<std::string> models;
   for (const verify::DriftRecord& r : verification.records)
     if (models.empty() || models.back() != r.model) models.push_back(r.model);
@@ -356,7 +369,7 @@ void add_drift(std::string& out, const verify::Verification& verification) {
     DriftLine line;
     for (const verify::DriftRecord& r : verification.records)
       if (r.model == model) add_to(line, verification, r);
-    out += text_of(line, model);
+    out += text_of(line, model, name_width(verification));
   }
   add_outside(out, verification, models);
   add_below(out, verification, models);
@@ -380,6 +393,25 @@ std::string file_list(const std::vector<std::string>& files) {
   return text;
 }
 
+// What a user does after this: see what is off, look at the page, or the stage behind the last.
+std::string next_step(const Pipeline& p) {
+  const std::vector<std::string> files = p.files();
+  const auto wrote = [&](std::string_view start) {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const std::string& file) { return file.starts_with(start); });
+  };
+  const std::string page = (std::filesystem::path(p.job().directory) / "report.html").string();
+  if (wrote("report.html")) return "open " + page;
+  const std::string job = " " + p.job().file;
+  if (wrote("verify.json"))
+    return p.verification()->passed() && p.missed().empty()
+               ? "frictab report" + job
+               : "a smaller table.tolerance_MPa, then frictab tabulate" + job;
+  if (wrote("export/")) return "frictab verify" + job;
+  if (wrote("tables/")) return "frictab export" + job;
+  return "frictab tabulate" + job;
+}
+
 } // namespace
 
 std::string summary_text(const Pipeline& p) {
@@ -395,9 +427,9 @@ std::string summary_text(const Pipeline& p) {
   if (p.verification() && !p.verification()->records.empty()) add_drift(out, *p.verification());
   if (!p.forms().empty()) out += "\n" + verify::forms_text(p.forms());
   const auto files = p.files();
-  out += fmt::format("\nWrote {} files to {}: {}\n", files.size(), p.job().directory,
-                     file_list(files));
-  return out;
+  out += fmt::format("\nWrote {} to {}: {}\n", report::count_of(files.size(), "file"),
+                     p.job().directory, file_list(files));
+  return out + "next: " + next_step(p) + "\n";
 }
 
 std::string drift_text(const verify::Verification& verification) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "data/quantity.h"
@@ -173,11 +174,15 @@ TableDifference difference(const Table& a, const Table& b, const HeldStates& hel
 
 std::string difference_text(const TableDifference& d, const std::array<std::string, 2>& names) {
   std::string state, range;
+  std::vector<std::string> names_of_states;
+  for (const auto& one : d.ranges)
+    names_of_states.push_back(one.name);
+  const std::size_t width = column_width(names_of_states);
   for (std::size_t i = 0; i < d.ranges.size(); ++i) {
     state += fmt::format("{}{}={}", i ? " " : "", d.ranges[i].name, shortest(d.worst[i]));
     range += d.ranges[i].why == "held"
-                 ? fmt::format("  {:<14}{:g}, held\n", d.ranges[i].name, d.ranges[i].low)
-                 : fmt::format("  {:<14}{:g} .. {:g}\n", d.ranges[i].name, d.ranges[i].low,
+                 ? fmt::format("  {:<{}}{:g}, held\n", d.ranges[i].name, width, d.ranges[i].low)
+                 : fmt::format("  {:<{}}{:g} .. {:g}\n", d.ranges[i].name, width, d.ranges[i].low,
                                d.ranges[i].high);
   }
   std::string text = fmt::format("Difference of tau_R at {} states of the common range, MPa:\n",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/column_width.h"
 #include "core/text.h"
 #include "data/quantity.h"
 #include "io/json.h"
@@ -48,12 +49,13 @@ std::string worst_state(const Table& table) {
 
 void add_axes(std::string& out, const Table& table) {
   out += table.axes.empty() ? "Axes: none, the value is a constant\n" : "Axes:\n";
+  const std::size_t width = column_width(table.inputs());
   for (const TableAxis& axis : table.axes) {
     const data::Quantity* known = data::find_quantity(axis.name);
-    out +=
-        fmt::format("  {:<14}{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.name, axis.nodes.front(),
-                    axis.nodes.back(), axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(),
-                    spacing_of(axis), axis.log ? "ln " : "", known ? known->symbol : axis.name);
+    out += fmt::format("  {:<{}}{:g} .. {:g}{}, {} nodes, {} in {}{}", axis.name, width,
+                       axis.nodes.front(), axis.nodes.back(),
+                       axis.unit == "1" ? "" : " " + axis.unit, axis.nodes.size(), spacing_of(axis),
+                       axis.log ? "ln " : "", known ? known->symbol : axis.name);
     for (std::size_t i = 0; i < axis.kinks.size(); ++i)
       out += fmt::format("{} {:g}", i ? "," : "; kinks at", axis.kinks[i]);
     if (axis.below != Outside::clamp || axis.above != Outside::clamp)
@@ -68,7 +70,7 @@ void add_axes(std::string& out, const Table& table) {
       const InputRecord& input = table.record.input(name);
       const std::string unit = input.unit.value_or(""), levels = input.levels.value_or("");
       out += fmt::format(
-          "  {:<14}no axis{}{}{}\n", name,
+          "  {:<{}}no axis{}{}{}\n", name, width,
           range ? fmt::format(", verified from {:g} to {:g}", range->first, range->second) : "",
           unit.empty() || unit == "1" ? "" : " " + unit, levels.empty() ? "" : "; " + levels);
     }

@@ -250,7 +250,7 @@ std::string detectable_text(const Trace& t) {
       100 * wanted);
   for (const Detectable& d : t.detectable)
     out += d.identifiable
-               ? fmt::format("  {:<20}{:8.2f} MPa{:8.2f} %{:8.0f}\n", d.column, d.size_MPa,
+               ? fmt::format("  {:<20}{:#8.3g} MPa{:#8.3g} %{:8.0f}\n", d.column, d.size_MPa,
                              100 * d.share, std::ceil(experiments * std::pow(d.share / wanted, 2)))
                : fmt::format("  {:<20}  cannot be seen: the law's own parameters imitate it\n",
                              d.column);

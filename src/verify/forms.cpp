@@ -11,6 +11,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/exporter.h"
+#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "table/direct.h"
@@ -149,13 +150,17 @@ std::string figures(const FormFigures& f, bool measured) {
 } // namespace
 
 std::string forms_text(const std::vector<FormComparison>& comparisons) {
+  std::vector<std::string> names;
+  for (const FormComparison& c : comparisons)
+    names.push_back(c.model);
+  const std::size_t width = column_width(names);
   std::string out = fmt::format(
       "Table or the law itself, as generated C on this machine (no file holds these times):\n"
-      "  {:<14}{:>10}{:>10}{:>9}{:>13}{:>10}{:>9}\n",
-      "", "table", "MPa off", "ns", "law itself", "MPa off", "ns");
+      "  {:<{}}{:>10}{:>10}{:>9}{:>13}{:>10}{:>9}\n",
+      "", width, "table", "MPa off", "ns", "law itself", "MPa off", "ns");
   for (const FormComparison& c : comparisons) {
     const bool measured = c.why_not.empty();
-    out += fmt::format("  {:<14}{}   {}   {}\n", c.model, figures(c.table, measured),
+    out += fmt::format("  {:<{}}{}   {}   {}\n", c.model, width, figures(c.table, measured),
                        figures(c.direct, measured), form_verdict(c));
   }
   return out;
