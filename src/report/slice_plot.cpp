@@ -43,15 +43,16 @@ std::string slice_svg(const table::Slice& slice) {
   const bool two = slice.along.size() == 2;
   const std::size_t inner = two ? slice.values[1].size() : 1;
   const std::vector<std::size_t> lines = lines_of(slice);
+  std::vector<svg::EndLabel> ends;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     std::vector<double> y;
     for (std::size_t i = 0; i < x.size(); ++i)
       y.push_back(slice.tau_MPa[i * inner + lines[k]]);
     const std::string colour = two ? svg::class_colour(k + 1, lines.size() + 1) : "#1d4ed8";
     plot.line(x, y, {colour, 2, "", false});
-    if (two)
-      plot.label(x.back(), y.back(), fmt::format("{:.4g}", slice.values[1][lines[k]]), colour);
+    if (two) ends.push_back({y.back(), fmt::format("{:.4g}", slice.values[1][lines[k]]), colour});
   }
+  plot.labels_apart(x.back(), ends);
   const std::string what =
       slice.model + (two ? ", lines at " + with_unit(slice.along[1], slice.units[1]) : "");
   return plot.file(what, what + " " + held_text(slice));

@@ -27,13 +27,13 @@ std::string begin_svg(double width, double height, std::string_view css, std::st
   return text;
 }
 
-// Escaped, with "_R" as a subscript.
+// Escaped, with the R of "_R", or the N of "_N", as a subscript.
 std::string axis_label(std::string_view text) {
   std::string label = escape(text);
-  const std::size_t mark = label.find("_R");
+  const std::size_t mark = std::min(label.find("_R"), label.find("_N"));
   if (mark == std::string::npos) return label;
-  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">R</tspan><tspan dy=\"-3\">" +
-         label.substr(mark + 2) + "</tspan>";
+  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">" + label[mark + 1] +
+         "</tspan><tspan dy=\"-3\">" + label.substr(mark + 2) + "</tspan>";
 }
 
 std::string label_at(double x, double y, std::string_view anchor, std::string_view text) {
@@ -186,7 +186,9 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
     // Far beyond the edge is as good as beyond it, and keeps the numbers short.
     const double px = std::clamp(pixel_x(x[i]), -10 * width_, 10 * width_);
     const double py = std::clamp(pixel_y(y[i]), -10 * height_, 10 * height_);
-    path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', pixel(px), pixel(py));
+    // A tenth of a pixel is not seen; a second decimal would be a tenth of the page.
+    const auto tenth = [](double value) { return pixel(std::round(10 * value) / 10); };
+    path += fmt::format("{}{} {}", pen_down ? 'L' : 'M', tenth(px), tenth(py));
     pen_down = true;
   }
   if (path.empty()) return;
@@ -201,8 +203,10 @@ void Plot::line(std::span<const double> x, std::span<const double> y, const Stro
 }
 
 void Plot::dots(std::span<const double> x, std::span<const double> y,
-                std::span<const std::string> text, double size, std::string_view colour) {
-  body_ += fmt::format("\n<g fill=\"{}\">", colour);
+                std::span<const std::string> text, double size, std::string_view colour,
+                bool rings) {
+  body_ += rings ? fmt::format("\n<g fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\">", colour)
+                 : fmt::format("\n<g fill=\"{}\">", colour);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (std::isfinite(x[i]) && std::isfinite(y[i]))
       body_ +=
@@ -217,6 +221,24 @@ void Plot::label(double x, double y, std::string_view text, std::string_view col
   body_ += fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" style=\"fill:{}\">{}</text>",
                        pixel(pixel_x(x) + (fits ? -3 : 3)), pixel(pixel_y(y) - 3),
                        fits ? "end" : "start", colour, escape(text));
+}
+
+void Plot::labels_apart(double x, std::vector<EndLabel> labels) {
+  constexpr double line = 13;
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const EndLabel& a, const EndLabel& b) { return a.y > b.y; });
+  // Down from the top, then up again from the bottom.
+  std::vector<double> at;
+  for (const EndLabel& label : labels)
+    at.push_back(std::max(pixel_y(label.y) - 3, at.empty() ? line : at.back() + line));
+  double below = height_ - 3 + line;
+  for (std::size_t i = at.size(); i-- > 0;)
+    below = at[i] = std::min(at[i], below - line);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    body_ +=
+        fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"end\" style=\"fill:{};stroke:#fff;"
+                    "stroke-width:3px;paint-order:stroke\">{}</text>",
+                    pixel(pixel_x(x) - 3), pixel(at[i]), labels[i].colour, escape(labels[i].text));
 }
 
 std::string Plot::axes() const {

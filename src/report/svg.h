@@ -60,6 +60,13 @@ struct Stroke {
   bool halo = false; // white edge, to be seen on dark cells
 };
 
+// The name of a line, at its end.
+struct EndLabel {
+  double y = 0;
+  std::string text;
+  std::string colour;
+};
+
 // One plot of given size of its drawing area in pixels; margins come on top.
 class Plot {
 public:
@@ -71,14 +78,18 @@ public:
   // finite interrupt the line.
   void line(std::span<const double> x, std::span<const double> y, const Stroke& stroke);
 
-  // Discs of radius `size`; each shows its text under the pointer. x, y and text have the same
-  // length.
+  // Discs or rings of radius `size`; each shows its text under the pointer. x, y and text have the
+  // same length.
   void dots(std::span<const double> x, std::span<const double> y, std::span<const std::string> text,
-            double size, std::string_view colour);
+            double size, std::string_view colour, bool rings = false);
 
   // A short text that ends at a point of the drawing area, above it;
   // one that would not fit there starts at the point.
   void label(double x, double y, std::string_view text, std::string_view colour);
+
+  // Labels at one abscissa, moved up and down until none covers another: a line of text each, in
+  // the order of their y, inside the drawing area as far as it has room for them. White edge.
+  void labels_apart(double x, std::vector<EndLabel> labels);
 
   // A figure with <title> and <desc> for those who cannot see it.
   std::string text(std::string_view title, std::string_view description) const;

@@ -79,6 +79,22 @@ TEST(Svg, PlotIsWellFormedAndDescribesItself) {
   EXPECT_THAT(text, HasSubstr("x &amp; y"));
 }
 
+TEST(Svg, LabelsOfLinesThatEndTogetherStandApart) {
+  svg::Plot plot(200, 100, svg::nice_axis(0, 1, 2, ""), svg::nice_axis(0, 10, 2, ""));
+  plot.labels_apart(1,
+                    {{5, "a", "#111"}, {5.01, "b", "#111"}, {4.9, "c", "#111"}, {0, "d", "#111"}});
+  const std::string text = plot.text("t", "");
+  std::vector<double> heights;
+  for (const char* name : {"b", "a", "c", "d"}) { // from the top
+    const std::size_t end = text.find(">" + std::string(name) + "</text>");
+    ASSERT_NE(end, text.npos);
+    heights.push_back(std::stod(text.substr(text.rfind(" y=\"", end) + 4)));
+  }
+  for (std::size_t i = 1; i < heights.size(); ++i)
+    EXPECT_GE(heights[i] - heights[i - 1], 12.9);
+  EXPECT_LE(heights.back(), 100);
+}
+
 TEST(Svg, NeighbouringCellsOfAClassAreOneRectangle) {
   svg::Density d{3, 1, {1, 1, 5}, 0};
   svg::Plot plot(30, 10, svg::nice_axis(0, 3, 3, ""), svg::nice_axis(0, 1, 1, ""));
