@@ -19,7 +19,7 @@ using calibrate::ExperimentError;
 
 constexpr std::size_t shown_laws = 3, named_tests = 3;
 constexpr double figure_width = 760, figure_height = 130;
-const std::string held_out_colour = "#c2410c", trained_colour = "#86b0d6";
+const std::string held_out_colour = "#c2410c", trained_colour = "#3f78ab";
 
 // The best laws; constants of the literature would squeeze all others.
 std::vector<std::size_t> laws_to_show(const ReportInput& input) {
@@ -57,7 +57,8 @@ void add_dots(svg::Plot& plot, const std::vector<ExperimentError>& tests, bool h
     y.push_back(tests[e].mae_MPa);
     text.push_back(said(tests[e], decimals));
   }
-  plot.dots(x, y, text, tests.size() > 40 ? 2.5 : 4, held_out ? held_out_colour : trained_colour);
+  plot.dots(x, y, text, tests.size() > 40 ? 2.5 : 4, held_out ? held_out_colour : trained_colour,
+            !held_out);
 }
 
 svg::Axis axis_of_errors(const ReportInput& input, const std::vector<std::size_t>& shown) {
@@ -119,8 +120,8 @@ void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& inp
       !alike.empty()
           ? alike
           : fmt::format(
-                "<span style=\"color:{}\">&#9679;</span> held out, <span style=\"color:{}\">"
-                "&#9679;</span> trained on.",
+                "<span style=\"color:{}\">&#9679;</span> held out (disc), <span style=\"color:{}\">"
+                "&#9675;</span> trained on (ring).",
                 held_out_colour, trained_colour);
   page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
   const svg::Axis errors = axis_of_errors(input, shown);

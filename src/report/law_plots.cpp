@@ -15,9 +15,9 @@ namespace frictab::report {
 
 namespace {
 
-// Cells of 4 x 4 pixels: fine enough for the shape, coarse enough for 15 laws on one page.
-constexpr std::size_t square = 70, wide = 105;
-constexpr double cell_pixels = 4;
+// Cells of 5 x 5 pixels: fine enough for the shape, coarse enough for 17 laws on one page.
+constexpr std::size_t square = 56, wide = 84;
+constexpr double cell_pixels = 5;
 constexpr std::size_t colour_classes = 7;
 const std::string line_colour = "#c2410c";
 
@@ -58,7 +58,7 @@ svg::Density predicted_cells(const ReportInput& input, std::size_t law, const Pl
 
 svg::Density residual_cells(const ReportInput& input, std::size_t law, const PlotFrame& frame) {
   const auto measured = measured_of(input);
-  return svg::bin(measured, residuals(measured, input.predicted[law]), frame.measured,
+  return svg::bin(input.predicted[law], residuals(measured, input.predicted[law]), frame.predicted,
                   frame.residual, wide, square);
 }
 
@@ -134,10 +134,14 @@ PlotFrame plot_frame(const ReportInput& input) {
   Extent tau, residual;
   tau.hold(measured, 0);
   const Extent own = tau;
+  const bool only_literature =
+      std::all_of(input.calibration.fits.begin(), input.calibration.fits.end(),
+                  [](const auto& fit) { return kind_of(*fit.model.law) == LawKind::literature; });
   for (std::size_t law = 0; law < input.predicted.size(); ++law) {
     const bool literature = kind_of(*input.calibration.fits[law].model.law) == LawKind::literature;
     tau.hold(input.predicted[law], 0.001);
-    residual.hold(residuals(measured, input.predicted[law]), literature ? 0.25 : 0.001);
+    if (!literature || only_literature)
+      residual.hold(residuals(measured, input.predicted[law]), 0.005);
   }
   const double most = 1.5 * std::max(std::abs(own.low), std::abs(own.high));
   if (most > 0) {
@@ -171,11 +175,11 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
   left.density(left_cells, frame.classes);
   left.line(ends, ends, {"#111", 1.3, "", true});
 
-  svg::Plot right(cell_pixels * static_cast<double>(wide), side, frame.measured, frame.residual);
+  svg::Plot right(cell_pixels * static_cast<double>(wide), side, frame.predicted, frame.residual);
   const svg::Density right_cells = residual_cells(input, law, frame);
   right.density(right_cells, frame.classes);
   right.line(ends, zeros, {"#111", 1.3, "", true});
-  const RunningBand band = running_band(measured, residual);
+  const RunningBand band = running_band(input.predicted[law], residual);
   right.line(band.x, band.low, {line_colour, 1.6, "5 3", true});
   right.line(band.x, band.high, {line_colour, 1.6, "5 3", true});
   right.line(band.x, band.median, {line_colour, 2.2, "", true});
@@ -187,7 +191,7 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
   LawPlots plots;
   plots.predicted = left.text(name + ": measured against predicted friction shear stress",
                               figures_text + " The line is measured = predicted.");
-  plots.residual = right.text(name + ": residual against measured friction shear stress",
+  plots.residual = right.text(name + ": residual against predicted friction shear stress",
                               figures_text + " Lines: zero, running median, 10 % and 90 %.");
   plots.note = beyond(left_cells.outside, measured.size(), "left");
   const std::string more = beyond(right_cells.outside, measured.size(), "right");

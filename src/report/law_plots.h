@@ -1,4 +1,4 @@
-// The two plots of a law: measured against predicted, and residual against measured tau_R.
+// The two plots of a law: measured against predicted, and residual against predicted tau_R.
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ struct LawPlots {
   std::string note;      // rows that no plot shows; empty where all are shown
 };
 
-// tau_R axes hold every measured row. The residual axis holds 99.8 % of the rows of every law that
-// was calibrated, and the quartiles of the laws with constants of the literature, which would
-// otherwise squeeze all others.
+// tau_R axes hold every measured row. The residual axis holds 99 % of the rows of every law that
+// was calibrated; laws with constants of the literature, which would squeeze all others, are drawn
+// as far as it goes.
 PlotFrame plot_frame(const ReportInput& input);
 
 // Of input.calibration.fits[law].

@@ -14,6 +14,7 @@
 #include "report/numbers.h"
 #include "report/published.h"
 #include "report/sections.h"
+#include "report/state_plots.h"
 
 namespace frictab::report {
 
@@ -192,6 +193,9 @@ void add_plots(TemplateValues& page, const ReportInput& input, std::vector<Templ
     laws[i].text["plot_residual"] = plots.residual;
     laws[i].text["note"] = plots.note;
     laws[i].flags["has_note"] = !plots.note.empty();
+    laws[i].text["open"] = i == 0 ? " open=\"open\"" : "";
+    laws[i].text["state_plots"] = has_plots ? residuals_over_states(input, i, frame) : "";
+    laws[i].flags["has_state_plots"] = !laws[i].text["state_plots"].empty();
   }
 }
 

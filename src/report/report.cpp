@@ -1,7 +1,11 @@
 // report.html: fills templates/report/report.html section by section.
 #include "report/report.h"
 
+#include <cctype>
 #include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "codegen/template.h"
 #include "report/sections.h"
@@ -19,6 +23,22 @@ std::string shown_unit(const std::string& unit) {
   return unit.empty() || unit == "1" ? "\u2013" : svg::escape(unit);
 }
 
+namespace {
+
+// Of a file beside the page: what RFC 3986 reserves is written as %XX.
+std::string link_to(const std::string& file) {
+  std::string link = "./";
+  for (const char c : shown_path(file))
+    if (std::isalnum(static_cast<unsigned char>(c)) ||
+        std::string_view("-._~/").find(c) != std::string_view::npos)
+      link += c;
+    else
+      link += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return link;
+}
+
+} // namespace
+
 std::string report_html(const ReportInput& input) {
   codegen::TemplateValues page;
   page.text["title"] = svg::escape(shown_path(input.title));
@@ -31,6 +51,9 @@ std::string report_html(const ReportInput& input) {
   add_errors(page, input);
   add_experiment_errors(page, input);
   add_polynomial(page, input);
+  add_law_with_data(page, input);
+  add_predicted_strokes(page, input);
+  add_wiring(page, input);
   add_conditional(page, input);
   add_trace(page, input);
   add_published_figures(page, input);
@@ -39,7 +62,7 @@ std::string report_html(const ReportInput& input) {
   add_drift(page, input);
   std::vector<codegen::TemplateValues>& files = page.lists["files"];
   for (const std::string& file : input.files)
-    files.push_back({{{"path", svg::escape(shown_path(file))}}, {}, {}});
+    files.push_back({{{"path", svg::escape(shown_path(file))}, {"link", link_to(file)}}, {}, {}});
   page.flags["has_files"] = !files.empty();
   return codegen::render_template("report/report.html", page);
 }

@@ -13,8 +13,14 @@
 
 namespace frictab::report {
 
+// The text of a recipe.json and where it stands, relative to the output directory.
+struct Recipe {
+  std::string path;
+  std::string text;
+};
+
 struct ReportInput {
-  std::string title; // the job file's name
+  std::string title; // the campaign's name
   const calibrate::Calibration& calibration;
   const data::Dataset& training;
   const data::Dataset& validation;
@@ -26,11 +32,16 @@ struct ReportInput {
       {};                                // per table, sizes only: times differ from run to run
   std::vector<trace::Trace> traces = {}; // empty: nothing was traced
   std::vector<calibrate::ErrorsOfLaw> by_experiment = {}; // per calibration.fits entry
+  std::vector<Recipe> recipes = {};                       // of the generated sources
 };
 
 // One self-contained page that opens offline: ranking, measured against predicted and residual
-// against measured tau_R with density per law (inline SVG), parameters, tables, drift.
+// against predicted tau_R with density per law (inline SVG), parameters, tables, drift.
 std::string report_html(const ReportInput& input);
+
+// The same in short as Markdown, to be pasted into a ticket: ranking, drift, traced effects,
+// wiring, remarks.
+std::string report_md(const ReportInput& input);
 
 // The ranking as a Markdown table, the paper's published figures beside it, marked as such.
 std::string benchmark_md(const calibrate::Calibration& calibration);

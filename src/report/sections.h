@@ -17,12 +17,18 @@ void add_comparisons(codegen::TemplateValues& page, const ReportInput& input);
 void add_errors(codegen::TemplateValues& page, const ReportInput& input); // with the noise floors
 void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& input);
 void add_polynomial(codegen::TemplateValues& page, const ReportInput& input);
+void add_law_with_data(codegen::TemplateValues& page, const ReportInput& input);
+void add_predicted_strokes(codegen::TemplateValues& page, const ReportInput& input);
+void add_wiring(codegen::TemplateValues& page, const ReportInput& input);
 void add_conditional(codegen::TemplateValues& page, const ReportInput& input);
 void add_trace(codegen::TemplateValues& page, const ReportInput& input);
 void add_published_figures(codegen::TemplateValues& page, const ReportInput& input);
 void add_data(codegen::TemplateValues& page, const ReportInput& input);
 void add_tables(codegen::TemplateValues& page, const ReportInput& input);
 void add_drift(codegen::TemplateValues& page, const ReportInput& input);
+
+// Where the data lie along an axis of a table (SVG); empty where the data do not have it.
+std::string reach_bar(const ReportInput& input, const table::TableAxis& axis);
 
 // An absolute path of a user's machine becomes the file's name.
 std::string shown_path(const std::string& path);

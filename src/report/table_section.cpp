@@ -54,7 +54,8 @@ std::string forms_of(const ReportInput& input, const table::Table& table) {
   return "";
 }
 
-TemplateValues axis_row(const table::Table& table, const table::TableAxis& axis) {
+TemplateValues axis_row(const ReportInput& input, const table::Table& table,
+                        const table::TableAxis& axis) {
   std::string why = table.record.input(axis.name).range_from.value_or("");
   if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
     why += (why.empty() ? "" : "; ") + beyond;
@@ -65,6 +66,7 @@ TemplateValues axis_row(const table::Table& table, const table::TableAxis& axis)
            {"high", short_figures(any ? axis.nodes.back() : no_value)},
            {"nodes", thousands(axis.nodes.size())},
            {"spacing", axis.log ? "logarithm" : "the quantity itself"},
+           {"reach", reach_bar(input, axis)},
            {"why", why.empty() ? "\u2013" : svg::escape(why)}},
           {},
           {}};
@@ -167,7 +169,7 @@ void add_tables(TemplateValues& page, const ReportInput& input) {
                   {"has_refinement", !refinement.empty() && !table.axes.empty()}};
     item.lists["axes"] = {};
     for (const table::TableAxis& axis : table.axes)
-      item.lists["axes"].push_back(axis_row(table, axis));
+      item.lists["axes"].push_back(axis_row(input, table, axis));
     tables.push_back(std::move(item));
   }
   page.flags["has_tables"] = !tables.empty();

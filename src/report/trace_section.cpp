@@ -253,8 +253,8 @@ TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace,
   auto& detectable = values.lists["detectable"];
   for (const trace::Detectable& d : trace.detectable)
     detectable.push_back({{{"column", svg::escape(d.column)},
-                           {"size", d.identifiable ? fixed(d.size_MPa, 2) : "&#8211;"},
-                           {"share", d.identifiable ? fixed(100 * d.share, 1)
+                           {"size", d.identifiable ? figures(d.size_MPa) : "&#8211;"},
+                           {"share", d.identifiable ? figures(100 * d.share, 2)
                                                     : "imitated by the law's own parameters"}},
                           {},
                           {}});

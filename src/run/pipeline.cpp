@@ -173,7 +173,8 @@ void Pipeline::record_files() {
   for (const std::string& path : output_.old())
     stages_.forget_file(path);
   for (const std::string& path : output_.paths())
-    if (path != "stages.json" && path != "report.html") // which lists what its command wrote
+    if (path != "stages.json" && path != "report.html" &&
+        path != "report.md") // of what their command found
       stages_.record_file(path, output_.staged(path));
 }
 
@@ -594,6 +595,32 @@ void Pipeline::compare_forms() {
 
 // ---- report ----
 
+namespace {
+
+// A job called job.toml says nothing: its folder is the campaign's name then.
+std::string campaign_name(const std::string& job_file) {
+  const fs::path file(job_file);
+  const std::string folder = fs::absolute(file).parent_path().filename().string();
+  return file.filename() == "job.toml" && !folder.empty() ? folder : file.filename().string();
+}
+
+} // namespace
+
+// Of the sources that this run made, else of those that lie in the directory.
+std::vector<report::Recipe> Pipeline::recipes() const {
+  const std::vector<std::string> staged = output_.paths();
+  std::vector<report::Recipe> found;
+  for (const codegen::Exporter* exporter : codegen::exporters_named(job_.exports.targets))
+    for (const Table& table : tables_) {
+      const std::string path = export_directory(exporter->name, table) + "/recipe.json";
+      const fs::path file = std::find(staged.begin(), staged.end(), path) != staged.end()
+                                ? output_.staged(path)
+                                : fs::path(job_.directory) / path;
+      if (fs::exists(file)) found.push_back({path, io::read_file(file)});
+    }
+  return found;
+}
+
 void Pipeline::report() {
   load_data();
   load_calibration();
@@ -619,9 +646,9 @@ void Pipeline::report() {
   for (const Table& table : tables_)
     sizes.push_back(verify::form_sizes(law_of(table), table));
   std::vector<std::string> written = output_.paths();
-  written.push_back("report.html");
+  written.insert(written.end(), {"report.html", "report.md"});
   const report::ReportInput input{
-      fs::path(job_.file).filename().string(),
+      campaign_name(job_.file),
       *calibration_,
       data_->training,
       data_->judged(),
@@ -631,8 +658,10 @@ void Pipeline::report() {
       std::move(written),
       std::move(sizes),
       traces_,
-      calibrate::errors_by_experiment(*calibration_, data_->training, data_->judged())};
+      calibrate::errors_by_experiment(*calibration_, data_->training, data_->judged()),
+      recipes()};
   output_.write("report.html", report::report_html(input));
+  output_.write("report.md", report::report_md(input));
 }
 
 void Pipeline::commit() {

@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "models/assembled_law.h"
+#include "report/report.h"
 #include "run/job_data.h"
 #include "run/kept_work.h"
 #include "run/result_directory.h"
@@ -102,6 +103,7 @@ private:
                     const std::string& directory);
   // "export/c" where there is one table, "export/c/<model>" where there are several.
   std::string export_directory(const std::string& target, const table::Table& table) const;
+  std::vector<report::Recipe> recipes() const;
 
   job::Job job_;
   io::OutputFiles output_; // first: it finishes what a process that died had begun

@@ -71,10 +71,13 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   for (const char* part : {"SYNTHETIC data", "Laws by mean absolute error",
                            "Tables:", "Largest drift from the law", "Wrote "})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  EXPECT_TRUE(result.out.ends_with("\nnext: open " + directory.path("out") + "/report.html\n"));
+  EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "colours in a pipe";
   for (const char* file :
        {"calibration.json", "benchmark.md", "errors_by_experiment.csv", "models/coulomb.json",
         "models/wzl.json", "tables/levanov.h5", "export/c/levanov/recipe.json",
-        "export/abaqus_vfric/levanov/recipe.json", "verify.json", "verify.xml", "report.html"})
+        "export/abaqus_vfric/levanov/recipe.json", "verify.json", "verify.xml", "report.html",
+        "report.md"})
     EXPECT_TRUE(fs::exists(directory.path("out") + "/" + file)) << file;
 }
 

@@ -60,6 +60,7 @@ TEST(Report, RefersToNothingOutsideItself) {
   EXPECT_THAT(page, Not(HasSubstr("<link")));
   std::size_t links = 0;
   for (const std::string& target : links_of(page)) {
+    if (target.starts_with("./")) continue; // a file beside the page
     ASSERT_EQ(target.front(), '#');
     EXPECT_THAT(page, HasSubstr("id=\"" + target.substr(1) + "\"")) << "dead link " << target;
     ++links;
@@ -78,7 +79,7 @@ TEST(Report, IsTheSameBytesAgainWhateverTheWallTime) {
 TEST(Report, OfFullCampaignStaysSmall) {
   const std::string page = report_html(report_sample(15, 30, 550).input());
   EXPECT_EQ(xml_fault(page), "");
-  EXPECT_LT(page.size(), 2u << 20);
+  EXPECT_LT(page.size(), 1'000'000u);
 }
 
 TEST(Report, EscapesWhateverComesFromTheUser) {
@@ -160,6 +161,56 @@ TEST(Report, LinksToNoPlotThatIsNotThere) {
   EXPECT_EQ(xml_fault(page), "");
   EXPECT_THAT(page, HasSubstr("There are no predictions to show."));
   EXPECT_THAT(page, Not(HasSubstr("href=\"#law-")));
+}
+
+TEST(Report, ShowsResidualsOverThePredictionAndOverEachState) {
+  const std::string page = report_html(report_sample(2, 4, 100).input());
+  EXPECT_THAT(page, HasSubstr(": residual against predicted friction shear stress"));
+  EXPECT_THAT(page, HasSubstr(": residual against contact normal stress"));
+  EXPECT_THAT(page, Not(HasSubstr("residual against measured")));
+}
+
+TEST(Report, ShowsEveryStrokeMeasuredAndPredicted) {
+  const std::string page = report_html(report_sample(1, 3, 50).input());
+  EXPECT_THAT(page, HasSubstr("Judged by: 3 tests"));
+  for (const char* test : {"E0", "E1", "E2"})
+    EXPECT_THAT(page, HasSubstr("aria-label=\"test " + std::string(test) + "\""));
+}
+
+TEST(Report, LinksToItsFilesWithWhatAUrlReservesWrittenOut) {
+  ReportSample sample = report_sample(1, 2, 30);
+  sample.files = {"models/a b#1.json"};
+  EXPECT_THAT(report_html(sample.input()),
+              HasSubstr("<a href=\"./models/a%20b%231.json\">models/a b#1.json</a>"));
+}
+
+TEST(Report, TellsHowARoutineIsWiredAsItsRecipeSays) {
+  const ReportSample sample = report_sample(1, 2, 30);
+  report::ReportInput input = sample.input();
+  input.recipes = {{"export/c/recipe.json",
+                    R"({"title": "C <99>", "model": "coulomb", "entry": "frictab_tau_R",
+                        "units": {"system": "mm-t-s"}, "files": ["a.c"], "compile": ["gcc -c a.c"],
+                        "input_deck": "*Friction, user\n 1., 2.",
+                        "arguments": [{"quantity": "sigma_n_MPa", "unit": "MPa",
+                                       "source": "fNormal/areaSec"}]})"}};
+  const std::string page = report_html(input);
+  EXPECT_EQ(xml_fault(page), "");
+  for (const char* part : {"C &lt;99&gt;: coulomb", "gcc -c a.c", "*Friction, user\n 1., 2.",
+                           "fNormal/areaSec", "units mm-t-s"})
+    EXPECT_THAT(page, HasSubstr(part));
+  const std::string text = report::report_md(input);
+  EXPECT_THAT(text, HasSubstr("`frictab_tau_R`, units mm-t-s; all in `export/c/recipe.json`"));
+  EXPECT_THAT(text, HasSubstr("  gcc -c a.c\n"));
+}
+
+TEST(Report, AsMarkdownHasRankingAndDriftAndNamesSyntheticData) {
+  ReportSample sample = report_sample(2, 3, 50);
+  sample.calibration.synthetic = true;
+  sample.verification.records[0].passed = false;
+  const std::string text = report::report_md(sample.input());
+  EXPECT_THAT(text, testing::StartsWith("# Friction report: job.toml\n\n**Synthetic data"));
+  EXPECT_THAT(text, HasSubstr("| 1 | " + sample.calibration.fits[0].model.law->name + " | "));
+  EXPECT_THAT(text, HasSubstr("| **over** |"));
 }
 
 // Cases that a page must survive; each must still be well-formed.

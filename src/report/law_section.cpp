@@ -1,0 +1,149 @@
+// The best law as lines over the contact normal stress, with the rows it was judged by.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "calibrate/input_columns.h"
+#include "data/quantity.h"
+#include "expr/program.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "report/state_plots.h"
+#include "report/svg.h"
+
+namespace frictab::report {
+
+namespace {
+
+constexpr const char* abscissa_name = "sigma_n_MPa";
+constexpr std::size_t line_points = 60;
+
+// Inputs of a law in the data, and the level of each that is not drawn.
+struct DrawnLaw {
+  models::AssembledLaw law;
+  expr::Program program;
+  std::vector<std::vector<double>> sorted; // finite values per input
+  std::size_t sigma = 0;                   // which input is the normal stress
+};
+
+std::optional<DrawnLaw> drawn_law(const ReportInput& input) {
+  const calibrate::ModelFit& fit = input.calibration.fits.front();
+  models::AssembledLaw law(fit.model);
+  const auto at = std::find(law.inputs.begin(), law.inputs.end(), abscissa_name);
+  if (at == law.inputs.end()) return std::nullopt;
+  if (!calibrate::missing_inputs(law.inputs, input.validation).empty()) return std::nullopt;
+  const auto sigma = static_cast<std::size_t>(at - law.inputs.begin());
+  const calibrate::InputColumns columns =
+      calibrate::input_columns(law, law.inputs, input.validation);
+  std::vector<std::vector<double>> sorted = columns.values();
+  for (std::vector<double>& values : sorted) {
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });
+    if (values.empty()) return std::nullopt;
+    std::sort(values.begin(), values.end());
+  }
+  expr::Program program(law.in_numbers(law.tau_R), law.inputs, {});
+  return DrawnLaw{std::move(law), std::move(program), std::move(sorted), sigma};
+}
+
+// tau_R over `x`, input `other` at its quantile `share`, all others at their medians.
+std::vector<double> tau_over(const DrawnLaw& drawn, const std::vector<double>& x, std::size_t other,
+                             double share) {
+  std::vector<double> row, tau;
+  for (std::size_t i = 0; i < drawn.sorted.size(); ++i)
+    row.push_back(quantile(drawn.sorted[i], i == other ? share : 0.5));
+  for (const double sigma : x) {
+    row[drawn.sigma] = sigma;
+    tau.push_back(drawn.program(row, {}));
+  }
+  return tau;
+}
+
+void draw_rows(svg::Plot& plot, const ReportInput& input, const svg::Axis& x, const svg::Axis& y) {
+  const svg::Density cells = svg::bin(input.validation.values(abscissa_name),
+                                      input.validation.values("tau_R_MPa"), x, y, 68, 40);
+  const std::uint32_t most = *std::max_element(cells.counts.begin(), cells.counts.end());
+  plot.density(cells, svg::count_classes(std::max<std::uint32_t>(most, 1), 4));
+}
+
+// The 5 % and 95 % factors of experiments, around the median line.
+void draw_band(svg::Plot& plot, const calibrate::BandCheck& band, const std::vector<double>& x,
+               const std::vector<double>& tau) {
+  for (const std::optional<double>& factor : {band.low, band.high}) {
+    if (!factor) continue;
+    std::vector<double> y = tau;
+    for (double& value : y)
+      value *= *factor;
+    plot.line(x, y, {"#111", 1.2, "2 3", true});
+  }
+}
+
+std::string level_text(const DrawnLaw& drawn, std::size_t other, double share) {
+  return short_figures(quantile(drawn.sorted[other], share), 3);
+}
+
+codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
+                              const svg::Axis& x_axis, const svg::Axis& y_axis) {
+  const auto& sigma = drawn.sorted[drawn.sigma];
+  std::vector<double> x;
+  for (std::size_t i = 0; i < line_points; ++i)
+    x.push_back(sigma.front() + (sigma.back() - sigma.front()) * static_cast<double>(i) /
+                                    static_cast<double>(line_points - 1));
+  svg::Plot plot(340, 200, x_axis, y_axis);
+  draw_rows(plot, input, x_axis, y_axis);
+  draw_band(plot, input.calibration.fits.front().band, x, tau_over(drawn, x, other, 0.5));
+  const bool alone = drawn.sorted.size() == 1;
+  const struct {
+    double share;
+    const char* colour;
+    const char* dash;
+  } levels[] = {{0.1, "#0f766e", "7 3"}, {0.5, "#c2410c", ""}, {0.9, "#7e22ce", "1 3"}};
+  std::vector<svg::EndLabel> names;
+  for (const auto& level : levels) {
+    if (alone && level.share != 0.5) continue;
+    const std::vector<double> tau = tau_over(drawn, x, other, level.share);
+    plot.line(x, tau, {level.colour, 2.2, level.dash, true});
+    names.push_back(
+        {tau.back(), alone ? "law" : level_text(drawn, other, level.share), level.colour});
+  }
+  plot.labels_apart(x.back(), names);
+  const std::string what = alone ? "sigma_N alone" : drawn.law.inputs[other];
+  const std::string levels_said =
+      alone ? ""
+            : fmt::format(" at {}, {} and {} (10, 50 and 90 % of the rows lie below)",
+                          level_text(drawn, other, 0.1), level_text(drawn, other, 0.5),
+                          level_text(drawn, other, 0.9));
+  return {{{"what", svg::escape(what + levels_said)},
+           {"plot", plot.text(drawn.law.model.law->name + " over contact normal stress, by " + what,
+                              "Lines" + levels_said + "; dotted: the band of experiments")}},
+          {},
+          {}};
+}
+
+} // namespace
+
+void add_law_with_data(codegen::TemplateValues& page, const ReportInput& input) {
+  std::vector<codegen::TemplateValues>& panels = page.lists["law_panels"];
+  page.flags["has_law_panels"] = false;
+  page.text["drawn_law"] = page.text["law_link"] = "";
+  const data::Dataset& data = input.validation;
+  if (input.calibration.fits.empty() || !data.has(abscissa_name) || !data.has("tau_R_MPa") ||
+      data.rows() == 0)
+    return;
+  const auto drawn = drawn_law(input);
+  const auto tau = span_of(data.values("tau_R_MPa"));
+  const auto sigma = span_of(data.values(abscissa_name));
+  if (!drawn || !tau || !sigma) return;
+  page.flags["has_law_panels"] = true;
+  page.text["drawn_law"] = svg::escape(drawn->law.model.law->name);
+  page.text["law_link"] = "<a href=\"#law\">The law</a> ";
+  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 5, "\u03C3_N / MPa");
+  const svg::Axis y = svg::nice_axis(std::min(0.0, tau->first), tau->second, 5, "\u03C4_R / MPa");
+  for (std::size_t i = 0; i < drawn->sorted.size(); ++i)
+    if (i != drawn->sigma && drawn->sorted[i].front() < drawn->sorted[i].back())
+      panels.push_back(panel(input, *drawn, i, x, y));
+  if (panels.empty()) panels.push_back(panel(input, *drawn, drawn->sigma, x, y));
+}
+
+} // namespace frictab::report

@@ -1,0 +1,67 @@
+// Small plots: a residual that follows a state is what the law lacks there.
+#include "report/state_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "data/quantity.h"
+#include "report/svg.h"
+
+namespace frictab::report {
+
+namespace {
+
+constexpr double state_width = 210, state_height = 130;
+constexpr std::size_t state_cells = 28, state_rows = 17;
+
+std::string residual_over(const std::string& law, const data::Quantity& quantity,
+                          std::span<const double> x, std::span<const double> residual,
+                          const PlotFrame& frame) {
+  const auto span = span_of(x);
+  if (!span) return "";
+  const std::string label =
+      quantity.unit == "1" ? quantity.name : quantity.symbol + " / " + quantity.unit;
+  const svg::Axis axis = svg::nice_axis(span->first, span->second, 3, label);
+  svg::Axis up = frame.residual;
+  up.label = "residual / MPa"; // a longer one has no room
+  svg::Plot plot(state_width, state_height, axis, up);
+  plot.density(svg::bin(x, residual, axis, frame.residual, state_cells, state_rows), frame.classes);
+  const double ends[] = {axis.low, axis.high}, zeros[] = {0, 0};
+  plot.line(ends, zeros, {"#111", 1.3, "", true});
+  const RunningBand band = running_band(x, residual);
+  plot.line(band.x, band.low, {"#c2410c", 1.2, "5 3", false});
+  plot.line(band.x, band.high, {"#c2410c", 1.2, "5 3", false});
+  plot.line(band.x, band.median, {"#c2410c", 2, "", true});
+  return plot.text(law + ": residual against " + quantity.meaning, "");
+}
+
+} // namespace
+
+std::optional<std::pair<double, double>> span_of(std::span<const double> values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values)
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  if (!(low < high)) return std::nullopt;
+  return std::pair(low, high);
+}
+
+std::string residuals_over_states(const ReportInput& input, std::size_t law,
+                                  const PlotFrame& frame) {
+  const data::Dataset& data = input.validation;
+  const std::vector<double> residual = residuals(data.values("tau_R_MPa"), input.predicted[law]);
+  const std::string& name = input.calibration.fits[law].model.law->name;
+  std::string text;
+  for (const char* state :
+       {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm", "sigma_f_MPa"})
+    if (data.has(state))
+      text += residual_over(name, *data::find_quantity(state), data.values(state), residual, frame);
+  return text;
+}
+
+} // namespace frictab::report

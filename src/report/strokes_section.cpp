@@ -1,0 +1,112 @@
+// Each test as it ran, measured and predicted by the best law.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/input_columns.h"
+#include "report/judged.h"
+#include "report/numbers.h"
+#include "report/sections.h"
+#include "report/state_plots.h"
+#include "report/svg.h"
+
+namespace frictab::report {
+
+namespace {
+
+constexpr std::size_t stroke_points = 25; // enough for the shape of a stroke
+
+// Means of blocks of neighbouring rows.
+std::vector<double> condensed(std::span<const double> values) {
+  const std::size_t width = (values.size() + stroke_points - 1) / stroke_points;
+  std::vector<double> means;
+  for (std::size_t first = 0; first < values.size(); first += width) {
+    const std::size_t count = std::min(width, values.size() - first);
+    double sum = 0;
+    for (const double value : values.subspan(first, count))
+      sum += value;
+    means.push_back(sum / static_cast<double>(count));
+  }
+  return means;
+}
+
+// What strokes run over: the first of these that the data have and that varies, else the row.
+std::string stroke_abscissa(const data::Dataset& data) {
+  for (const char* name : {"s_mm", "time_s"})
+    if (data.has(name) && span_of(data.values(name))) return name;
+  return "";
+}
+
+struct StrokeAxes {
+  std::string over;
+  svg::Axis x, y;
+};
+
+StrokeAxes stroke_axes(const data::Dataset& data) {
+  StrokeAxes axes;
+  axes.over = stroke_abscissa(data);
+  double most_rows = 1;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    most_rows = std::max(most_rows, static_cast<double>(data.first_row[e + 1] - data.first_row[e]));
+  const auto x = axes.over.empty() ? std::pair(0.0, most_rows) : *span_of(data.values(axes.over));
+  const auto tau = span_of(data.values("tau_R_MPa")).value_or(std::pair(0.0, 1.0));
+  axes.x = svg::nice_axis(x.first, x.second, 2, axes.over.empty() ? "row" : axes.over);
+  axes.y = svg::nice_axis(std::min(0.0, tau.first), tau.second, 2, "");
+  return axes;
+}
+
+codegen::TemplateValues stroke_of(const data::Dataset& data, std::span<const double> predicted,
+                                  std::size_t e, const StrokeAxes& axes) {
+  const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
+  std::vector<double> x(rows);
+  for (std::size_t i = 0; i < rows; ++i)
+    x[i] = static_cast<double>(i);
+  if (!axes.over.empty()) {
+    const auto values = data.values(axes.over).subspan(first, rows);
+    x.assign(values.begin(), values.end());
+  }
+  const auto measured = data.values("tau_R_MPa").subspan(first, rows);
+  const std::vector<double> at = condensed(x);
+  svg::Plot plot(150, 84, axes.x, axes.y);
+  plot.line(at, condensed(measured), {"#1d5491", 1.4, "", false});
+  plot.line(at, condensed(predicted.subspan(first, rows)), {"#c2410c", 1.4, "4 2", false});
+  const std::string& name = data.experiments[e];
+  return {{{"name", svg::escape(name)},
+           {"plot", plot.text("test " + name, "measured (solid) and predicted (dashed)")}},
+          {},
+          {}};
+}
+
+void add_part(std::vector<codegen::TemplateValues>& out, const data::Dataset& data,
+              std::span<const double> predicted) {
+  const StrokeAxes axes = stroke_axes(data);
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    out.push_back(stroke_of(data, predicted, e, axes));
+}
+
+} // namespace
+
+void add_predicted_strokes(codegen::TemplateValues& page, const ReportInput& input) {
+  std::vector<codegen::TemplateValues>&judged = page.lists["judged_strokes"],
+  &trained = page.lists["trained_strokes"];
+  const data::Dataset &data = input.validation, &training = input.training;
+  const bool any = !input.predicted.empty() && data.has("tau_R_MPa") && data.rows() > 0;
+  page.flags["has_strokes"] = any;
+  page.flags["has_trained_strokes"] = false;
+  page.text["strokes_link"] = any ? "<a href=\"#strokes\">Strokes</a> " : "";
+  page.text["stroke_law"] = page.text["judged_count"] = page.text["trained_count"] = "";
+  if (!any) return;
+  const calibrate::ModelFit& best = input.calibration.fits.front();
+  page.text["stroke_law"] = svg::escape(best.model.law->name);
+  page.text["judged_count"] = count_of(data.experiments.size(), "test");
+  add_part(judged, data, input.predicted.front());
+  if (!on_other_experiments(input.calibration.judged_by) || !training.has("tau_R_MPa") ||
+      !calibrate::missing_inputs(models::AssembledLaw(best.model).inputs, training).empty())
+    return;
+  page.flags["has_trained_strokes"] = true;
+  page.text["trained_count"] = count_of(training.experiments.size(), "test");
+  add_part(trained, training, calibrate::predict(best.model, training));
+}
+
+} // namespace frictab::report
