@@ -194,7 +194,10 @@ void add_plots(TemplateValues& page, const ReportInput& input, std::vector<Templ
     laws[i].text["note"] = plots.note;
     laws[i].flags["has_note"] = !plots.note.empty();
     laws[i].text["open"] = i == 0 ? " open=\"open\"" : "";
-    laws[i].text["state_plots"] = has_plots ? residuals_over_states(input, i, frame) : "";
+    // What constants of the literature are off by is no matter of one state.
+    const bool literature = kind_of(*input.calibration.fits[i].model.law) == LawKind::literature;
+    laws[i].text["state_plots"] =
+        has_plots && !literature ? residuals_over_states(input, i, frame) : "";
     laws[i].flags["has_state_plots"] = !laws[i].text["state_plots"].empty();
   }
 }
