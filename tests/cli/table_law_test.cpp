@@ -110,7 +110,8 @@ TEST_F(SlowTableLaw, IsReadAgainWhenItsFileHasChanged) {
   write_table(1.5);
   const CommandResult stale = frictab({"tabulate", "job.toml"});
   EXPECT_EQ(stale.exit_code, 2);
-  EXPECT_THAT(stale.err, HasSubstr("is stale: [models] of the job has changed since"));
+  EXPECT_THAT(stale.err,
+              HasSubstr("is stale: [models] or [calibration] of the job has changed since"));
   ASSERT_EQ(frictab({"calibrate", "job.toml"}).exit_code, 0);
   ASSERT_EQ(frictab({"tabulate", "job.toml"}).exit_code, 0);
   EXPECT_NE(fit().at("validation").at("mae_MPa").get<double>(), error);
