@@ -152,7 +152,7 @@ const Registered<Command> tabulate{[] {
        {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
 }};
 const Registered<Command> report{[] {
-  return stage<report_stage>(8, "report", "Write report.html from the results so far",
+  return stage<report_stage>(8, "report", "Write report.html and report.md from the results so far",
                              {{"frictab report job.toml", "out/report.html"}});
 }};
 

@@ -111,7 +111,7 @@ private:
       for (const codegen::Exporter* target : codegen::exporters_named(job_.exports.targets))
         files.push_back("export/" + target->name + "/");
     if (stage == "verify") files = {"verify.json", "verify.xml"};
-    if (stage == "report") files = {"report.html"};
+    if (stage == "report") files = {"report.html", "report.md"};
     return files;
   }
 

@@ -1,4 +1,5 @@
 // The progress line as a terminal gets it. Compilers that take their time make the work last.
+#include <csignal>
 #include <filesystem>
 #include <future>
 
@@ -86,11 +87,10 @@ TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
 }
 
 TEST_F(SlowProgress, IsErasedWhereTheRunIsInterrupted) {
-  const CommandResult stopped = test::run_on_terminal(
-      {"timeout", "--foreground", "-s", "INT", "2.5", FRICTAB_BINARY, "verify", "job.toml"}, 80,
-      directory.path(), environment("xterm"));
-  EXPECT_EQ(stopped.exit_code, 124) << "timeout says that it had to stop it";
-  EXPECT_GE(drawn(stopped.out).size(), 2U) << stopped.out;
+  const CommandResult stopped =
+      test::run_on_terminal({FRICTAB_BINARY, "verify", "job.toml"}, 80, directory.path(),
+                            environment("xterm"), "routines of coulomb");
+  EXPECT_EQ(stopped.exit_code, 128 + SIGINT) << stopped.out;
   EXPECT_TRUE(stopped.out.ends_with(erase)) << stopped.out;
 }
 

@@ -27,14 +27,18 @@ namespace {
   ::_exit(127);
 }
 
-std::string read_all(int terminal) {
+std::string read_all(int terminal, const std::string& interrupt_at) {
   std::string text;
+  bool interrupted = interrupt_at.empty();
   std::array<char, 4096> buffer;
   while (true) {
     const ssize_t count = ::read(terminal, buffer.data(), buffer.size());
-    if (count > 0)
+    if (count > 0) {
       text.append(buffer.data(), static_cast<std::size_t>(count));
-    else if (count == 0 || errno != EINTR) // EIO: the program has ended
+      if (!interrupted && text.find(interrupt_at) != text.npos)
+        interrupted = ::write(terminal, "\x03", 1) == 1;
+    }
+    if (count == 0 || (count < 0 && errno != EINTR)) // EIO: the program has ended
       return text;
   }
 }
@@ -43,14 +47,15 @@ std::string read_all(int terminal) {
 
 CommandResult run_on_terminal(const std::vector<std::string>& argv, unsigned columns,
                               const std::string& directory,
-                              const std::vector<std::string>& environment) {
+                              const std::vector<std::string>& environment,
+                              const std::string& interrupt_at) {
   const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
   int terminal = -1;
   const pid_t child = ::forkpty(&terminal, nullptr, nullptr, &size);
   if (child < 0) throw std::runtime_error(std::string("forkpty: ") + std::strerror(errno));
   if (child == 0) become(argv, directory, environment);
   CommandResult result;
-  result.out = read_all(terminal);
+  result.out = read_all(terminal, interrupt_at);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

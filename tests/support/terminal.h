@@ -9,9 +9,10 @@
 namespace frictab::test {
 
 // As run_command, with stdin, stdout and stderr on a terminal of `columns` columns; `out` is what
-// reached it, `err` stays empty.
+// reached it, `err` stays empty. Where `interrupt_at` has reached it, Ctrl-C is typed once.
 CommandResult run_on_terminal(const std::vector<std::string>& argv, unsigned columns,
                               const std::string& directory,
-                              const std::vector<std::string>& environment = {});
+                              const std::vector<std::string>& environment = {},
+                              const std::string& interrupt_at = "");
 
 } // namespace frictab::test
