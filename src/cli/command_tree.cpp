@@ -21,12 +21,17 @@ std::vector<std::string> target_names() {
   return names;
 }
 
+const CLI::App& root_of(const CLI::App& app) {
+  const CLI::App* root = &app;
+  while (root->get_parent())
+    root = root->get_parent();
+  return *root;
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* root = &app; root; root = root->get_parent())
-    if (!root->get_parent())
-      for (const CLI::App* sub : root->get_subcommands({}))
-        names.push_back(sub->get_name());
+  for (const CLI::App* sub : root_of(app).get_subcommands({}))
+    names.push_back(sub->get_name());
   return names;
 }
 
@@ -105,10 +110,7 @@ std::vector<std::string> pieces(const std::string& text, char separator) {
 }
 
 CommandText command_tree(const CLI::App& app) {
-  const CLI::App* root = &app;
-  while (root->get_parent())
-    root = root->get_parent();
-  return text_of(*root, "");
+  return text_of(root_of(app), "");
 }
 
 std::vector<const CommandText*> all_commands(const CommandText& root) {

@@ -1,6 +1,5 @@
 // frictab export: the sources of a job's tables, of one table file alone, or of several laws in one
 // user file.
-#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +83,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
     const std::string how =
         "give a JOB file, --table FILE -o DIR [--targets c,abaqus_vfric], --law NAME --param P=V "
         "... -o DIR, or --combine NAME=FILE ... -o DIR --targets abaqus_vfric";
-    if (options->table.empty() && options->job.empty() && !std::filesystem::exists("job.toml"))
+    if (options->table.empty() && !has_job(options->job))
       throw InputError({}, "nothing to export", how);
     if (!options->table.empty() && !options->job.empty())
       throw InputError({}, "JOB and --table exclude each other", how);

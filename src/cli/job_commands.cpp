@@ -22,11 +22,19 @@ void add_job(CLI::App& app, std::string& file, const std::string& description) {
   app.add_option("JOB", file, description + "; without it job.toml of this folder");
 }
 
-std::string job_file(const std::string& given) {
-  constexpr const char* usual = "job.toml";
-  if (!given.empty()) return given;
+namespace {
+
+constexpr const char* usual_job = "job.toml";
+
+} // namespace
+
+bool has_job(const std::string& given) {
   std::error_code error;
-  if (std::filesystem::exists(usual, error)) return usual;
+  return !given.empty() || std::filesystem::exists(usual_job, error);
+}
+
+std::string job_file(const std::string& given) {
+  if (has_job(given)) return given.empty() ? usual_job : given;
   throw InputError({}, "no JOB is given, and this folder has no job.toml",
                    "name a job file; frictab init --from FILES makes one from data files, "
                    "frictab twin DIR a synthetic campaign with one");

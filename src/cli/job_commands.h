@@ -13,6 +13,9 @@ using Stages = std::function<void(run::Pipeline&)>;
 // JOB, which may be left out where the current folder has a job.toml.
 void add_job(CLI::App& app, std::string& file, const std::string& description = "Job file (TOML)");
 
+// Whether there is one to work on: `given`, or job.toml of the current folder.
+bool has_job(const std::string& given);
+
 // `given`, else job.toml of the current folder. Throws InputError where there is none.
 std::string job_file(const std::string& given);
 

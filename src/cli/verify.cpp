@@ -126,7 +126,7 @@ const Registered<Command> registered{[] {
       if (alone && (options->table.empty() || options->model.empty()))
         throw InputError({}, "--table and --model belong together",
                          "give both: --table tables/NAME.h5 --model models/NAME.json");
-      if (!alone && options->job.empty() && !std::filesystem::exists("job.toml"))
+      if (!alone && !has_job(options->job))
         throw InputError({}, "nothing to verify",
                          "give a JOB file, --table FILE --model FILE [--data FILE], or --combined "
                          "DIR");

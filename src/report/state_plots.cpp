@@ -57,10 +57,9 @@ std::string residuals_over_states(const ReportInput& input, std::size_t law,
   const std::vector<double> residual = residuals(data.values("tau_R_MPa"), input.predicted[law]);
   const std::string& name = input.calibration.fits[law].model.law->name;
   std::string text;
-  for (const char* state :
-       {"sigma_n_MPa", "psi", "v_rel_mm_s", "T_contact_C", "s_mm", "sigma_f_MPa"})
-    if (data.has(state))
-      text += residual_over(name, *data::find_quantity(state), data.values(state), residual, frame);
+  for (const data::Quantity& state : data::quantities())
+    if (state.state && data.has(state.name))
+      text += residual_over(name, state, data.values(state.name), residual, frame);
   return text;
 }
 

@@ -173,8 +173,8 @@ void Pipeline::record_files() {
   for (const std::string& path : output_.old())
     stages_.forget_file(path);
   for (const std::string& path : output_.paths())
-    if (path != "stages.json" && path != "report.html" &&
-        path != "report.md") // of what their command found
+    if (path != "stages.json" &&
+        !path.starts_with("report.")) // which list what their command wrote
       stages_.record_file(path, output_.staged(path));
 }
 

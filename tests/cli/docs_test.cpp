@@ -43,11 +43,30 @@ std::vector<std::smatch> matches(const std::string& text, const std::regex& patt
   return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
 }
 
-// Code blocks of a page that are marked with a language.
+struct Block {
+  std::string language, text; // no language: what the commands before it print
+};
+
+std::vector<Block> all_blocks(const std::string& text) {
+  std::vector<Block> all;
+  std::istringstream lines(text);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) all.push_back({line.substr(3), ""});
+    } else if (inside) {
+      all.back().text += line + "\n";
+    }
+  }
+  return all;
+}
+
+// Those that are marked with a language.
 std::vector<std::string> blocks(const std::string& text, const std::string& language) {
   std::vector<std::string> all;
-  for (const auto& m : matches(text, std::regex("```" + language + "\n([^`]*)```")))
-    all.push_back(m[1]);
+  for (const Block& block : all_blocks(text))
+    if (block.language == language) all.push_back(block.text);
   return all;
 }
 
@@ -127,25 +146,6 @@ void write_tests(const test::TemporaryDirectory& directory) {
     files.try_emplace(row.substr(0, row.find(',')), header + "\n").first->second += row + "\n";
   for (const auto& [test, text] : files)
     directory.write("tests/" + test + ".csv", text);
-}
-
-struct Block {
-  std::string language, text; // no language: what the commands before it print
-};
-
-std::vector<Block> all_blocks(const std::string& text) {
-  std::vector<Block> all;
-  std::istringstream lines(text);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (inside) all.push_back({line.substr(3), ""});
-    } else if (inside) {
-      all.back().text += line + "\n";
-    }
-  }
-  return all;
 }
 
 // Every line of `shown` stands in `printed`, in this order.
