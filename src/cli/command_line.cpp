@@ -88,7 +88,9 @@ void add_common(CLI::App& app, CommonOptions& common, unsigned uses) {
         uses_threads);
   shown(app.add_flag("-q,--quiet", common.quiet, "Nothing on stderr unless something fails"),
         uses_quiet);
-  shown(app.add_flag("-v,--verbose", common.verbose, "Say more on stderr"), uses_verbose);
+  shown(
+      app.add_flag("-v,--verbose", common.verbose, "Say more: the whole summary, notes on stderr"),
+      uses_verbose);
   shown(app.add_flag("--json", common.json, "Print the result as JSON"), uses_json);
   shown(app.add_option_function<std::string>(
                "--seed",

@@ -94,10 +94,13 @@ int run_stages(const std::string& file, const CommonOptions& common, const std::
   if (common.verbose && pipeline.data())
     for (const std::string& line : pipeline.data()->training.notes)
       note(common, line);
+  // One stage has little to say; all of them together have a page.
+  const bool brief = command == "run" && !common.verbose;
+  const run::Detail detail = brief ? run::Detail::brief : run::Detail::full;
   if (common.json)
     show(run::summary_json(pipeline));
   else
-    show_summary(run::summary_text(pipeline));
+    show_summary(run::summary_text(pipeline, detail));
   for (const std::string& miss : pipeline.missed())
     fmt::print(stderr, "error: {}\n", printable(miss));
   const bool verified = !pipeline.verification() || pipeline.verification()->passed();

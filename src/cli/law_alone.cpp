@@ -16,7 +16,7 @@
 #include "data/quantity.h"
 #include "io/number.h"
 #include "job/literature.h"
-#include "run/summary.h"
+#include "run/drift_text.h"
 #include "table/build.h"
 #include "table/table_file.h"
 #include "verify/verify.h"
@@ -158,7 +158,7 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   output.write(options.law + ".json", model_file(law.model));
   write_sources(output, exporters, table, options.units);
   commit_and_list(output, common);
-  show(run::drift_text(verification));
+  show(run::drift_text(verification, run::Detail::full));
   return verification.passed() ? 0 : 1;
 }
 

@@ -65,7 +65,7 @@ int verify_alone(const Options& options, const CommonOptions& common) {
   if (common.json)
     show(verify::verification_json(verification));
   else
-    show(run::drift_text(verification));
+    show(run::drift_text(verification, run::Detail::full));
   return verification.passed() ? 0 : 1;
 }
 
@@ -88,7 +88,8 @@ int verify_job(const Options& options, const CommonOptions& common) {
   pipeline.commit();
   tell_notes(pipeline, common);
   write_junit(options, *pipeline.verification());
-  show(common.json ? run::summary_json(pipeline) : run::drift_text(*pipeline.verification()));
+  show(common.json ? run::summary_json(pipeline)
+                   : run::drift_text(*pipeline.verification(), run::Detail::full));
   return pipeline.verification()->passed() ? 0 : 1;
 }
 

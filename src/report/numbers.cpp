@@ -99,4 +99,13 @@ std::string count_of(std::size_t count, const std::string& noun) {
   return thousands(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+std::string list_of(const std::vector<std::string>& names) {
+  const std::size_t count = names.size();
+  std::string text = names.front();
+  for (std::size_t i = 1; i < std::min<std::size_t>(count, 3); ++i)
+    text += (i + 1 == count ? " and " : ", ") + names[i];
+  if (count > 3) text += fmt::format(" and {} other{}", count - 3, count == 4 ? "" : "s");
+  return text;
+}
+
 } // namespace frictab::report

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibrate/calibration.h"
 
@@ -48,5 +49,7 @@ ValueText with_error(double value, double std_error);
 
 // "1 row", "16,500 rows".
 std::string count_of(std::size_t count, const std::string& noun);
+// "a, b, c and 2 others"; there is at least one.
+std::string list_of(const std::vector<std::string>& names);
 
 } // namespace frictab::report

@@ -3,12 +3,13 @@
 
 #include <string>
 
+#include "run/drift_text.h"
 #include "run/pipeline.h"
 
 namespace frictab::run {
 
-std::string summary_text(const Pipeline& pipeline);
-std::string drift_text(const verify::Verification& verification); // the drift section alone
+// brief ends with the findings in a few lines; full says all that the report says.
+std::string summary_text(const Pipeline& pipeline, Detail detail);
 std::string summary_json(const Pipeline& pipeline);
 
 } // namespace frictab::run

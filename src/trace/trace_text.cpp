@@ -206,37 +206,67 @@ std::string lead_name(const Lead& lead) {
   return lead.derived.empty() ? lead.name : lead.name + " (from " + join(lead.columns, ", ") + ")";
 }
 
-std::string trace_text(const Trace& t) {
-  std::string out = fmt::format("\nWhat {} lacks, by its residual: {}\n", t.model, headline(t));
+namespace {
+
+// Verdict, effects, errors before and after.
+std::string found_text(const Trace& t) {
+  std::string out = fmt::format("What {} lacks, by its residual: {}\n", t.model, headline(t));
   for (const TracedEffect& effect : t.effects)
     add_effect(out, effect);
-  if (!t.extended_model.empty()) {
-    if (t.effects.empty())
-      out +=
-          "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
-    out += error_table(t);
-    out += fmt::format("  gained on unseen tests: {} MPa (95 %: {} to {}, paired by test)\n",
-                       digits(t.improvement.value_MPa), digits(t.improvement.interval.low),
-                       digits(t.improvement.interval.high));
-    out += unseen_line(t);
-  }
+  if (t.extended_model.empty()) return out;
+  if (t.effects.empty())
+    out += "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
+  out += error_table(t);
+  out += fmt::format("  gained on unseen tests: {} MPa (95 %: {} to {}, paired by test)\n",
+                     digits(t.improvement.value_MPa), digits(t.improvement.interval.low),
+                     digits(t.improvement.interval.high));
+  return out + unseen_line(t);
+}
+
+std::string lead_text(const Lead& lead) {
+  const std::string size = lead.share != 0
+                               ? fmt::format("{}, {:.2g} %", lead.form, 100 * std::abs(lead.share))
+                               : lead.form;
+  return fmt::format("  lead: {} ({}): {}\n", lead_name(lead), size, lead.why) +
+         design_lines(lead.design, "      ");
+}
+
+} // namespace
+
+std::string trace_text(const Trace& t) {
+  std::string out = found_text(t);
   out += fmt::format("  noise floor by the noise model: {} MPa, if nothing else is missing\n",
                      digits(t.noise_floor.mae_MPa));
   out += "  left: " + t.remaining.note + "\n";
-  for (const Lead& lead : t.leads) {
-    out += fmt::format("  lead: {}{}: {}\n", lead_name(lead),
-                       lead.share != 0
-                           ? fmt::format(" ({}, {:.2g} %)", lead.form, 100 * std::abs(lead.share))
-                           : fmt::format(" ({})", lead.form),
-                       lead.why);
-    out += design_lines(lead.design, "      ");
-  }
+  for (const Lead& lead : t.leads)
+    out += lead_text(lead);
   for (const std::string& rejected : t.rejected)
     out += "  not added: " + rejected + "\n";
   out += fmt::format("  tried: {} quantities in {} directions; a false alarm has a probability of "
                      "{:g}, over all of them\n",
                      t.n_columns, thousands(t.n_candidates), t.alpha);
   return out + not_searched_text(t.notes);
+}
+
+std::string trace_brief(const Trace& t) {
+  std::string out = found_text(t);
+  std::vector<std::string> names;
+  for (const Lead& lead : t.leads)
+    names.push_back(lead_name(lead));
+  if (!names.empty()) out += "  leads, which prove nothing: " + join(names, ", ") + "\n";
+  return out + not_searched_text(t.notes);
+}
+
+std::string trace_in_short(const Trace& t) {
+  std::vector<std::string> causes;
+  for (const TracedEffect& effect : t.effects)
+    causes.push_back(cause_text(effect));
+  if (causes.empty())
+    return fmt::format("{} in the residual of {}; noise floor {} MPa", headline(t), t.model,
+                       digits(t.noise_floor.mae_MPa));
+  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor {}", join(causes, ", "),
+                     t.model, digits(t.before.validation.mae_MPa),
+                     digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa));
 }
 
 std::string detectable_text(const Trace& t) {

@@ -8,8 +8,12 @@
 
 namespace frictab::trace {
 
-// Verdict, effects, errors before and after, and leads, in a few lines.
+// Verdict, effects, errors before and after, what is left, leads and what was tried.
 std::string trace_text(const Trace& trace);
+// The same without what is left and tried, and of the leads their names.
+std::string trace_brief(const Trace& trace);
+// What is missing and what adding it gained: one line without its end.
+std::string trace_in_short(const Trace& trace);
 // `frictab trace --power`: what this campaign could have shown, and what would help.
 std::string detectable_text(const Trace& trace);
 

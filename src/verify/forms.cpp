@@ -139,6 +139,16 @@ std::string form_verdict(const FormComparison& c) {
   return fmt::format("the law itself is {:.1f} times faster: export.form = \"direct\"", 1 / faster);
 }
 
+std::string forms_in_short(const std::vector<FormComparison>& comparisons) {
+  std::vector<std::string> names;
+  for (const FormComparison& c : comparisons)
+    if (c.why_not.empty() && c.direct.ns_per_query <= c.table.ns_per_query)
+      names.push_back(c.model);
+  if (names.empty()) return "";
+  return join(names, ", ") + ": the law itself is faster than its table, and without drift: "
+                             "export.form = \"direct\"";
+}
+
 namespace {
 
 std::string figures(const FormFigures& f, bool measured) {

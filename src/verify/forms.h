@@ -34,6 +34,8 @@ FormComparison compare_forms(const models::AssembledLaw& law, const table::Table
 // table is at least twice as fast.
 std::string form_verdict(const FormComparison& comparison);
 
+// Which laws are better exported themselves than as tables; empty where none is.
+std::string forms_in_short(const std::vector<FormComparison>& comparisons);
 std::string forms_text(const std::vector<FormComparison>& comparisons);
 
 } // namespace frictab::verify

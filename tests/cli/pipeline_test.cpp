@@ -68,8 +68,9 @@ TEST_F(MainJob, RunWritesEveryFileOfTheContractAndSaysNothingOnStderr) {
   const auto result = run_frictab({"run", job, "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.err, "");
-  for (const char* part : {"SYNTHETIC data", "Laws by mean absolute error",
-                           "Tables:", "Largest drift from the law", "Wrote "})
+  for (const char* part :
+       {"SYNTHETIC data", "Laws by mean absolute error", "Tables:", "Largest drift from the law",
+        "Wrote ", "\nIn short:\n  best law  ", "\n  tables    ", "\n  missing   "})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   EXPECT_TRUE(result.out.ends_with("\nnext: open " + directory.path("out") + "/report.html\n"));
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << "colours in a pipe";
@@ -209,7 +210,7 @@ TEST_F(SlowMainJob, DirectFormIsTheLawInEverySourceAndItsFilesKnowIt) {
 }
 
 TEST_F(SlowMainJob, SummarySaysWhichFormIsFasterAndSmallerAndNoFileHoldsTimes) {
-  const auto result = run_frictab({"run", job});
+  const auto result = run_frictab({"run", job, "-v"});
   for (const char* part : {"Table or the law itself, as generated C", "law itself", "levanov"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   const bool verdict = result.out.find("export.form = \"direct\"") != std::string::npos ||
@@ -324,7 +325,7 @@ TEST_F(SlowMainJob, StagesTakeTheTablesThatTableModelNames) {
 
 TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
   const auto result =
-      run_frictab({"run", job, "--set", "table.model=levanov", "--set",
+      run_frictab({"run", job, "-v", "--set", "table.model=levanov", "--set",
                    "export.targets=[\"abaqus_vfric\", \"abaqus_fric\", \"marc_ufric\"]", "--set",
                    "export.inputs.sigma_f_MPa=constant:480"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -341,7 +342,7 @@ TEST_F(SlowMainJob, RoutinesAreComparedAtTheConstantsOfTheJobAndTheCostIsTold) {
 TEST_F(SlowMainJob, TheKernelInSinglePrecisionIsVerifiedAndItsRoundingTold) {
   const std::vector<std::string> set = {"--set", "table.model=levanov", "--set",
                                         "export.targets=[\"c\"]"};
-  std::vector<std::string> run = {"run", job}, verify = {"verify", job};
+  std::vector<std::string> run = {"run", job, "-v"}, verify = {"verify", job};
   run.insert(run.end(), set.begin(), set.end());
   verify.insert(verify.end(), set.begin(), set.end());
   ASSERT_EQ(run_frictab(run).exit_code, 0);

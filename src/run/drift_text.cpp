@@ -1,0 +1,250 @@
+// One line per table and its routines; then what was found elsewhere.
+#include "run/drift_text.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/column_width.h"
+#include "core/text.h"
+#include "report/numbers.h"
+#include "table/bound.h"
+#include "verify/beyond.h"
+
+namespace frictab::run {
+
+namespace {
+
+// Of the laws that have a table or were verified.
+std::size_t name_width(const verify::Verification& verification) {
+  std::vector<std::string> names;
+  for (const verify::DriftRecord& r : verification.records)
+    names.push_back(r.model);
+  return column_width(names);
+}
+// What is said of one table and the routines made from it.
+struct DriftLine {
+  double table = 0, on_rows = 0, share = 0;
+  std::optional<double> proven_MPa;
+  double routines = 0; // the furthest of them
+  std::size_t count = 0, untested = 0;
+  bool passed = true, found_passed = true, over_by_proof = false;
+  std::string notes; // what did not run, or is over the tolerance
+};
+
+void add_to(DriftLine& line, const verify::Verification& verification,
+            const verify::DriftRecord& r) {
+  if (!r.ran) {
+    line.notes += fmt::format("  {} {} not run: {}\n", r.model, r.subject, r.why_not);
+    ++line.untested;
+    return;
+  }
+  line.passed = line.passed && !verification.failed(r);
+  line.found_passed = line.found_passed && r.passed;
+  line.over_by_proof = line.over_by_proof || r.over_by_proof;
+  if (!r.passed)
+    line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
+                              verify::largest_drift_MPa(r));
+  if (const std::string left = verify::not_posed_text(r); !left.empty())
+    line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
+  if (r.held) return; // has a line of its own
+  line.on_rows = std::max(line.on_rows, r.rows.max_abs);
+  if (r.n_rows > 0)
+    line.share = 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
+  if (r.subject != "table") {
+    ++line.count;
+    line.routines = std::max(line.routines, r.worst_case_MPa);
+    return;
+  }
+  line.table = r.worst_case_MPa;
+  line.proven_MPa = r.proven_MPa;
+  if (!r.not_proven.empty())
+    line.notes += fmt::format("  {} not proven: {}\n", r.model, r.not_proven);
+}
+
+std::string result_of(const DriftLine& line) {
+  if (line.untested > 0 && line.passed) return fmt::format("ok, {} UNTESTED", line.untested);
+  if (!line.found_passed) return "OVER TOLERANCE";
+  if (line.over_by_proof)
+    return line.passed ? "ok as found, over tolerance by proof" : "OVER TOLERANCE BY PROOF";
+  return line.passed ? "ok" : "NOT PROVEN";
+}
+
+std::string proven_text(const DriftLine& line) {
+  if (!line.proven_MPa) return "-";
+  return *line.proven_MPa < 1e-9 ? "<1e-9"
+                                 : fmt::format("{:.3g}", table::rounded_up(*line.proven_MPa));
+}
+
+std::string text_of(const DriftLine& line, const std::string& model, std::size_t width) {
+  const std::string routines =
+      line.count == 0 ? "-" : fmt::format("{:.3g} ({})", line.routines, line.count);
+  return fmt::format("  {:<{}}{:>12.3g}{:>10}{:>16}{:>12.3g}{:>11.2f} %   {}\n{}", model, width,
+                     line.table, proven_text(line), routines, line.on_rows, line.share,
+                     result_of(line), line.notes);
+}
+
+// One line per axis and side that rows of the data lie beyond; they are the same for every subject.
+void add_outside(std::string& out, const verify::Verification& verification,
+                 const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models)
+    for (const verify::DriftRecord& r : verification.records)
+      if (r.model == model && r.ran) {
+        for (const verify::BeyondEnd& end : r.beyond)
+          lines += fmt::format("  {:<{}} {}\n", model, name_width(verification),
+                               verify::beyond_text(end));
+        break;
+      }
+  if (!lines.empty()) out += "Rows outside the range of the tables:\n" + lines;
+}
+
+// One line per model: how far table and routines are from the law below the range.
+void add_below(std::string& out, const verify::Verification& verification,
+               const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models) {
+    std::optional<verify::BelowRange> table, routines;
+    for (const verify::DriftRecord& r : verification.records) {
+      if (r.model != model || !r.ran || !r.below || r.held) continue;
+      std::optional<verify::BelowRange>& one = r.subject == "table" ? table : routines;
+      if (!one || r.below->max_abs_MPa > one->max_abs_MPa) one = r.below;
+    }
+    if (!table) continue;
+    const std::string of_routines =
+        routines ? fmt::format(", routines {:.3g}", routines->max_abs_MPa) : "";
+    lines += fmt::format("  {:<{}} {:.4g} to {:.4g} MPa ({}): table {:.3g}{}\n", model,
+                         name_width(verification), table->low_MPa, table->high_MPa, table->outside,
+                         table->max_abs_MPa, of_routines);
+  }
+  if (!lines.empty()) out += "Off the law below the tested contact normal stresses, MPa:\n" + lines;
+}
+
+// One line per model: the routines in single precision, the one that rounds most first.
+void add_single(std::string& out, const verify::Verification& verification,
+                const std::vector<std::string>& models) {
+  std::string lines;
+  for (const std::string& model : models) {
+    std::vector<const verify::DriftRecord*> single;
+    for (const verify::DriftRecord& r : verification.records)
+      if (r.model == model && verify::in_single_precision(r)) single.push_back(&r);
+    if (single.empty()) continue;
+    std::stable_sort(single.begin(), single.end(), [](const auto* a, const auto* b) {
+      return a->max_vs_table_MPa > b->max_vs_table_MPa;
+    });
+    double law = 0;
+    std::vector<std::string> subjects;
+    for (const verify::DriftRecord* r : single) {
+      law = std::max(law, r->worst_case_MPa);
+      subjects.push_back(fmt::format("{} {:.2g}", r->subject, r->max_vs_table_MPa));
+    }
+    lines += fmt::format("  {:<{}}{:>12.3g}   {}\n", model, name_width(verification), law,
+                         report::list_of(subjects));
+  }
+  if (!lines.empty())
+    out += "In single precision, largest found, MPa: off the law; off the same table in double "
+           "precision:\n" +
+           lines;
+}
+
+// What holds the same states at the same cost.
+struct HeldLine {
+  std::string model, text;
+  std::vector<std::string> targets;
+  double worst_MPa = 0;
+};
+
+std::string text_of(const HeldLine& line, std::size_t width) {
+  return fmt::format("  {:<{}}{:>12.3g}   {} {} {}\n", line.model, width, line.worst_MPa,
+                     report::list_of(line.targets), line.targets.size() == 1 ? "holds" : "hold",
+                     line.text);
+}
+
+// Routines and tables that hold states: how far they are from the law there, and what that costs.
+void add_costs(std::string& out, const verify::Verification& verification) {
+  std::vector<HeldLine> lines;
+  for (const verify::DriftRecord& r : verification.records) {
+    if (!r.ran || !r.held) continue;
+    const std::string text = verify::held_text(r), target = verify::target_of(r);
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const HeldLine& one) {
+      return one.model == r.model && one.text == text;
+    });
+    if (line == lines.end()) line = lines.insert(lines.end(), {r.model, text, {}, 0});
+    if (line->targets.empty() || line->targets.back() != target) line->targets.push_back(target);
+    line->worst_MPa = std::max(line->worst_MPa, r.worst_case_MPa);
+  }
+  if (!lines.empty())
+    out += "Where states are held, by a solver's own table or by a constant of the job: "
+           "drift from the law there, and what holding costs:\n";
+  for (const HeldLine& line : lines)
+    out += text_of(line, name_width(verification));
+}
+
+std::vector<std::string> models_of(const verify::Verification& verification) {
+  std::vector<std::string> models;
+  for (const verify::DriftRecord& r : verification.records)
+    if (models.empty() || models.back() != r.model) models.push_back(r.model);
+  return models;
+}
+
+DriftLine line_of(const verify::Verification& verification, const std::string& model) {
+  DriftLine line;
+  for (const verify::DriftRecord& r : verification.records)
+    if (r.model == model) add_to(line, verification, r);
+  return line;
+}
+
+void add_drift(std::string& out, const verify::Verification& verification, Detail detail) {
+  out += fmt::format("Largest drift from the law found over the whole range, MPa (allowed {:g}); "
+                     "proven: no state drifts the table further:\n"
+                     "  {:<{}}{:>12}{:>10}{:>16}{:>12}{:>13}\n",
+                     verification.max_drift_MPa, "", name_width(verification), "table", "proven",
+                     "routines", "on rows", "outside");
+  const std::vector<std::string> models = models_of(verification);
+  for (const std::string& model : models)
+    out += text_of(line_of(verification, model), model, name_width(verification));
+  add_outside(out, verification, models);
+  if (detail == Detail::full) {
+    add_below(out, verification, models);
+    add_single(out, verification, models);
+  }
+  add_costs(out, verification);
+}
+} // namespace
+
+std::string drift_text(const verify::Verification& verification, Detail detail) {
+  std::string out;
+  add_drift(out, verification, detail);
+  return out;
+}
+
+std::string drift_in_short(const verify::Verification& verification) {
+  if (verification.records.empty()) return "";
+  DriftLine all;
+  std::vector<std::string> not_ok;
+  bool proven = true;
+  double bound = 0;
+  for (const std::string& model : models_of(verification)) {
+    const DriftLine line = line_of(verification, model);
+    all.table = std::max(all.table, line.table);
+    all.routines = std::max(all.routines, line.routines);
+    all.count += line.count;
+    proven = proven && line.proven_MPa;
+    bound = std::max(bound, line.proven_MPa.value_or(0));
+    if (const std::string result = result_of(line); result != "ok")
+      not_ok.push_back(model + " " + result);
+  }
+  std::string text = fmt::format("{:.3g} MPa off the law{}, {:g} allowed",
+                                 proven ? table::rounded_up(std::max(bound, all.table)) : all.table,
+                                 proven ? " at most (proven)" : " as found (not proven)",
+                                 verification.max_drift_MPa);
+  if (all.count > 0)
+    text += fmt::format("; {} compiled and run: {:.3g} MPa", report::count_of(all.count, "routine"),
+                        all.routines);
+  return text + (not_ok.empty() ? "" : "; " + join(not_ok, ", "));
+}
+
+} // namespace frictab::run

@@ -1,0 +1,64 @@
+// The summary as one JSON object.
+#include <nlohmann/json.hpp>
+
+#include "calibrate/calibration_file.h"
+#include "calibrate/noise_floor.h"
+#include "io/json.h"
+#include "run/summary.h"
+#include "table/beyond_data.h"
+#include "trace/trace_file.h"
+#include "verify/verify.h"
+
+namespace frictab::run {
+
+namespace {
+
+nlohmann::ordered_json form_json(const verify::FormComparison& c) {
+  const auto figures = [&](const verify::FormFigures& f) {
+    nlohmann::ordered_json j = {{"bytes", f.bytes}, {"drift_MPa", f.drift_MPa}};
+    if (c.why_not.empty()) j["ns_per_query"] = f.ns_per_query;
+    return j;
+  };
+  return {{"model", c.model},
+          {"table", figures(c.table)},
+          {"direct", figures(c.direct)},
+          {"verdict", verify::form_verdict(c)}};
+}
+
+nlohmann::ordered_json table_json(const table::Table& table) {
+  nlohmann::ordered_json j = {
+      {"model", table.model}, {"nodes", table.nodes()}, {"bytes", table.bytes()}};
+  for (const table::TableAxis& axis : table.axes)
+    if (axis.data)
+      j["axes"].push_back({{"name", axis.name},
+                           {"range", {axis.nodes.front(), axis.nodes.back()}},
+                           {"data", {axis.data->first, axis.data->second}},
+                           {"share_beyond_data", table::share_beyond_data(axis)}});
+  return j;
+}
+
+} // namespace
+
+std::string summary_json(const Pipeline& p) {
+  nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
+  if (p.data()) j["synthetic_data"] = calibrate::is_synthetic(p.data()->training);
+  if (p.calibration())
+    j["calibration"] =
+        io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");
+  nlohmann::ordered_json tables = nlohmann::ordered_json::array();
+  for (const table::Table& table : p.tables())
+    tables.push_back(table_json(table));
+  if (!tables.empty()) j["tables"] = tables;
+  if (p.verification())
+    j["verification"] = io::parse_json(verify::verification_json(*p.verification()), "verify.json");
+  if (!p.traces().empty())
+    j["trace"] = io::parse_json(trace::trace_json(p.traces(), j.value("synthetic_data", false)),
+                                "trace.json");
+  for (const verify::FormComparison& form : p.forms())
+    j["forms"].push_back(form_json(form));
+  j["directory"] = p.job().directory;
+  j["files"] = p.files();
+  return io::json_text(j);
+}
+
+} // namespace frictab::run
