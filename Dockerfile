@@ -8,7 +8,7 @@ COPY . /frictab
 WORKDIR /frictab
 # The copy belongs to another user than root's git expects.
 RUN git config --global --add safe.directory /frictab && \
-    cmake --preset release -DFRICTAB_TESTS=OFF && cmake --build --preset release && \
+    cmake --preset release && cmake --build --preset release && \
     cpack --config build/release/CPackConfig.cmake -B /packages
 
 FROM debian:12

@@ -1,6 +1,6 @@
 """Batch queries: a generated C library against scipy's RegularGridInterpolator, in one run.
 
-usage: /usr/bin/python3 tests/bench/kernels_against_scipy.py build/release/tests/frictab_bench
+usage: /usr/bin/python3 tests/bench/kernels_against_scipy.py build/dev/tests/frictab_bench
 
 The bench program writes the table (17x9x9x9x17 nodes on arbitrary axes, random values: synthetic)
 and its generated source, which is compiled here by the command of its recipe. Both evaluate the
