@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "expr/expr.h"
+#include "expr/hyperbolic_tangent.h"
 
 namespace frictab::expr {
 
@@ -42,7 +43,7 @@ inline double apply(Op op, double a, double b, double c, double d) {
   case Op::sin:
     return std::sin(a);
   case Op::tanh:
-    return std::tanh(a);
+    return hyperbolic_tangent(a);
   case Op::acos:
     return std::acos(a);
   case Op::minimum:

@@ -170,26 +170,29 @@ double Program::gradient(std::span<const double> row, std::span<const double> sc
 
 namespace {
 
+// Rows per operation where nothing is summed over them: enough that the choice of a loop costs
+// little, few enough that the slots stay in the cache.
+constexpr std::size_t at_once = 512;
+
 // Registers of one block; scalars are filled by the caller.
 struct Workspace {
   std::vector<Register> registers;
   std::vector<double> storage;
-  Workspace(std::size_t size, std::size_t slots)
-      : registers(size), storage(slots * Program::block) {}
-  double* slot(std::size_t i) { return storage.data() + i * Program::block; }
+  Workspace(std::size_t size, std::size_t slots) : registers(size), storage(slots * at_once) {}
+  double* slot(std::size_t i) { return storage.data() + i * at_once; }
 };
 
 } // namespace
 
 void Program::evaluate(std::size_t rows, std::span<const double* const> columns,
                        std::span<const double> scalars, double* out) const {
-  const std::size_t blocks = (rows + block - 1) / block;
-  constexpr std::size_t per_task = 32;
+  const std::size_t blocks = (rows + at_once - 1) / at_once;
+  constexpr std::size_t per_task = 8;
   parallel_for((blocks + per_task - 1) / per_task, [&](std::size_t task) {
     Workspace work(code_.size(), slots_);
     for (std::size_t b = task * per_task; b < std::min(blocks, (task + 1) * per_task); ++b) {
-      const std::size_t first = b * block;
-      const std::size_t n = std::min(block, rows - first);
+      const std::size_t first = b * at_once;
+      const std::size_t n = std::min(at_once, rows - first);
       for (std::size_t i = 0; i < code_.size(); ++i) {
         const Instruction& in = code_[i];
         Register& target = work.registers[i];

@@ -52,8 +52,12 @@ double partial(Op op, std::size_t which, const double* v, double result) {
 namespace {
 
 template <class F> FRICTAB_INLINE void unary(std::size_t n, Register a, double* out, F f) {
-  for (std::size_t i = 0; i < n; ++i)
-    out[i] = f(a[i]);
+  if (a.stride == 1)
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = f(a.data[i]);
+  else
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = f(*a.data);
 }
 
 template <class F>
@@ -123,6 +127,8 @@ FRICTAB_WIDE void run_operation(Op op, std::size_t n, const Operands& operands, 
     return unary(n, r[0], out, [](double a) { return std::exp(a); });
   case Op::log:
     return unary(n, r[0], out, [](double a) { return std::log(a); });
+  case Op::tanh:
+    return unary(n, r[0], out, [](double a) { return hyperbolic_tangent(a); });
   default:
     break;
   }

@@ -1,4 +1,6 @@
 // Speed of calibration and of table queries, each beside a reference in the same run.
+#include <cmath>
+
 #include <benchmark/benchmark.h>
 
 #include "calibrate/calibration.h"
@@ -87,6 +89,39 @@ BENCHMARK_CAPTURE(query_table, log_coulomb, "log_coulomb");
 BENCHMARK_CAPTURE(query_law, log_coulomb, "log_coulomb");
 BENCHMARK_CAPTURE(query_table, wanheim_bay, "wanheim_bay");
 BENCHMARK_CAPTURE(query_law, wanheim_bay, "wanheim_bay");
+
+// A network on rows, beside as many tanh of the library: 20 nets of 8 units, as trained.
+constexpr std::size_t nets = 20, units = 8, network_rows = 65536;
+
+void evaluate_network(benchmark::State& state) {
+  const models::AssembledLaw law(test::network_model(nets, units));
+  const std::vector<std::string>& inputs = law.inputs;
+  const auto states = test::random_states(inputs, network_rows, 5);
+  std::vector<const double*> columns;
+  for (const auto& column : states)
+    columns.push_back(column.data());
+  const table::LawFunction function(law, inputs);
+  std::vector<double> tau(network_rows);
+  for (auto _ : state) {
+    function.evaluate(network_rows, columns, tau.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * network_rows));
+}
+BENCHMARK(evaluate_network)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+
+void tanh_of_the_library(benchmark::State& state) {
+  const auto x = test::random_states({"v_rel_mm_s"}, network_rows, 5).front();
+  for (auto _ : state) {
+    double sum = 0;
+    for (std::size_t unit = 0; unit < nets * units; ++unit)
+      for (const double value : x)
+        sum += std::tanh(value / 500 - 0.01 * static_cast<double>(unit));
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * network_rows));
+}
+BENCHMARK(tanh_of_the_library)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace frictab
