@@ -374,6 +374,11 @@ std::vector<KeyRule> proof_keys() {
           "verify.samples", [](Job & job) -> auto& { return job.verify.samples; },
           "points over the whole range at which table and law are compared") |
           at_least(1, 1e9),
+      key<std::size_t>(
+          "verify.proof_boxes", [](Job & job) -> auto& { return job.verify.proof_boxes; },
+          "parts of a table's range that its proof may look at, which bounds its time; a table of "
+          "more cells has no proof") |
+          at_least(1, 1e12),
       key<bool>(
           "verify.require_proof", [](Job & job) -> auto& { return job.verify.require_proof; },
           "a table passes only where a bound within the tolerance is proven, not by what the "

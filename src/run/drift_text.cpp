@@ -63,6 +63,10 @@ void add_to(DriftLine& line, const verify::Verification& verification,
   line.proven_MPa = r.proven_MPa;
   if (!r.not_proven.empty())
     line.notes += fmt::format("  {} not proven: {}\n", r.model, r.not_proven);
+  if (r.out_of_boxes)
+    line.notes += fmt::format("  {}: the proof stopped after {} boxes; a larger verify.proof_boxes "
+                              "may bring it within the tolerance\n",
+                              r.model, thousands(r.proof_boxes));
 }
 
 std::string result_of(const DriftLine& line) {

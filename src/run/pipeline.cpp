@@ -354,8 +354,14 @@ Table Pipeline::sample_table(const models::AssembledLaw& law) {
 
 // The drift a user can rely on, measured before the file is written.
 void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
-  const verify::VerifyInput input{
-      law, table, "the new table", &data_->judged(), drift_allowed(), job_.verify.samples};
+  const verify::VerifyInput input{law,
+                                  table,
+                                  "the new table",
+                                  &data_->judged(),
+                                  drift_allowed(),
+                                  job_.verify.samples,
+                                  nullptr,
+                                  job_.verify.proof_boxes};
   const verify::DriftRecord& drift = compared_[table.model] = verify::verify(input, {}).front();
   const bool to_tolerance = !job_.table.nodes && !job_.table.max_bytes;
   if (!drift.passed && to_tolerance)
@@ -572,7 +578,8 @@ void Pipeline::verify() {
                                     &data_->judged(),
                                     allowed,
                                     job_.verify.samples,
-                                    known == compared_.end() ? nullptr : &known->second};
+                                    known == compared_.end() ? nullptr : &known->second,
+                                    job_.verify.proof_boxes};
     const auto records = verify::verify(input, sources_of(table, direct));
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     output_.write("verify.json", verify::verification_json(*verification_));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -90,6 +91,7 @@ public:
     double drift = 0;
     std::vector<double> state;
     std::size_t boxes = 0;
+    bool out_of_boxes = false;
   };
 
   // One thread's memory.
@@ -130,8 +132,9 @@ public:
     while (true) {
       const Open& first = open.front();
       const double enough = std::max(goal, 1.005 * result.drift);
-      if (first.look.bound <= enough || result.boxes >= most || !can_split(first.box, first.look))
-        break;
+      if (first.look.bound <= enough || !can_split(first.box, first.look)) break;
+      result.out_of_boxes = result.boxes + 2 > most;
+      if (result.out_of_boxes) break;
       std::pop_heap(open.begin(), open.end(), smaller);
       const Open one = std::move(open.back());
       open.pop_back();
@@ -346,9 +349,45 @@ std::string obstacle(const models::AssembledLaw& law, const Table& table,
     return "the table's values are not in memory";
   for (const TableAxis& axis : table.axes)
     cells *= static_cast<double>(axis.nodes.size() - 1);
-  if (cells > static_cast<double>(options.most_cells))
-    return fmt::format("the table has more than {} cells", thousands(options.most_cells));
+  if (cells > static_cast<double>(options.most_boxes))
+    return fmt::format("the table has more cells than verify.proof_boxes = {}",
+                       thousands(options.most_boxes));
   return "";
+}
+
+void run_cells(const Cells& cells, const std::vector<std::size_t>& chosen, double goal,
+               std::size_t most, const Progress& progress, std::vector<Cells::Result>& results) {
+  constexpr std::size_t per_task = 16;
+  parallel_for((chosen.size() + per_task - 1) / per_task, [&](std::size_t task) {
+    Cells::Work work(cells);
+    for (std::size_t c = task * per_task; c < std::min(chosen.size(), (task + 1) * per_task); ++c) {
+      results[chosen[c]] = cells.run(chosen[c], goal, most, work);
+      progress.tick();
+    }
+  });
+}
+
+// Of every cell. Most cells need few boxes; what they leave goes to the others, which begin again.
+std::vector<Cells::Result> bounds_of(const Cells& cells, const BoundOptions& options,
+                                     const std::string& model) {
+  const std::size_t most_per_cell = std::max<std::size_t>(20, options.most_boxes / 500);
+  std::vector<Cells::Result> results(cells.count());
+  std::vector<std::size_t> chosen(results.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  const std::size_t share =
+      std::clamp<std::size_t>(options.most_boxes / 2 / results.size(), 1, most_per_cell);
+  const Progress progress("proving the table of " + model, results.size());
+  run_cells(cells, chosen, options.goal_MPa, share, progress, results);
+  std::size_t used = 0;
+  for (const Cells::Result& one : results)
+    used += one.boxes;
+  std::erase_if(chosen, [&](std::size_t c) { return !results[c].out_of_boxes; });
+  if (chosen.empty() || used >= options.most_boxes) return results;
+  const std::size_t larger = std::min((options.most_boxes - used) / chosen.size(), most_per_cell);
+  if (larger > share)
+    run_cells(cells, chosen, options.goal_MPa, larger,
+              Progress("proving what is left of " + model, chosen.size()), results);
+  return results;
 }
 
 } // namespace
@@ -359,22 +398,11 @@ DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
   out.why_not = obstacle(law, table, options);
   if (!out.why_not.empty()) return out;
   const Cells cells(law, table, ranges);
-  constexpr std::size_t per_task = 16;
-  std::vector<Cells::Result> results(cells.count());
-  const std::size_t most = std::clamp<std::size_t>(options.most_boxes / results.size(), 20, 4000);
-  const Progress progress("proving the table of " + table.model, results.size());
-  parallel_for((results.size() + per_task - 1) / per_task, [&](std::size_t task) {
-    Cells::Work work(cells);
-    for (std::size_t c = task * per_task; c < std::min(results.size(), (task + 1) * per_task);
-         ++c) {
-      results[c] = cells.run(c, options.goal_MPa, most, work);
-      progress.tick();
-    }
-  });
   double bound = 0;
-  for (const Cells::Result& one : results) {
+  for (const Cells::Result& one : bounds_of(cells, options, table.model)) {
     bound = std::max(bound, one.bound);
     out.boxes += one.boxes;
+    out.out_of_boxes = out.out_of_boxes || one.out_of_boxes;
     if (one.drift > out.found_MPa) {
       out.found_MPa = one.drift;
       out.state = one.state;
@@ -411,12 +439,12 @@ double rounding_of(const models::AssembledLaw& law, const std::vector<StateRange
 } // namespace
 
 ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
-                        const std::vector<StateRange>& ranges, WorstCase found,
-                        double allowed_MPa) {
+                        const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa,
+                        std::size_t most_boxes) {
   // As close as 2 % where that settles whether the table is allowed, else to 10 %.
   const double goal = std::max(
       1e-3 * allowed_MPa, std::clamp(allowed_MPa, 1.02 * found.drift_MPa, 1.1 * found.drift_MPa));
-  ProvenDrift out{std::move(found), bound_drift(law, table, ranges, {goal})};
+  ProvenDrift out{std::move(found), bound_drift(law, table, ranges, {goal, most_boxes})};
   if (out.bound.found_MPa > out.worst.drift_MPa) {
     const TableFunction function(table);
     States start;

@@ -57,6 +57,8 @@ struct DriftRecord {
   bool passed = false;
   std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
   std::string not_proven = {};           // why there is no such bound
+  std::size_t proof_boxes = 0;           // that the proof looked at
+  bool out_of_boxes = false;             // over_by_proof, and more boxes might have mended that
   bool over_by_proof = false;            // the bound is over the tolerance, whatever was found
   // What holds some states (canonical values), a solver's own table or a routine with constants of
   // the job: all figures above compare it with the law at the held states. What holding costs,

@@ -90,9 +90,10 @@ Subjects prepare(const VerifyInput& input) {
     for (const std::string& name : s.names)
       worst.push_back({input.known->worst_state.at(name)});
   } else {
-    s.proven = table::prove_drift(
-        input.law, input.table, s.ranges,
-        table::worst_case(reference.law, reference.table, s.ranges, s.range), input.max_drift_MPa);
+    s.proven =
+        table::prove_drift(input.law, input.table, s.ranges,
+                           table::worst_case(reference.law, reference.table, s.ranges, s.range),
+                           input.max_drift_MPa, input.proof_boxes);
     for (const double x : s.proven.worst.state)
       worst.push_back({x});
   }
@@ -230,8 +231,10 @@ DriftRecord compare_table(const VerifyInput& input, const Subjects& s) {
   record.n_points = s.proven.worst.points;
   record.proven_MPa = s.proven.bound.MPa;
   record.not_proven = s.proven.bound.why_not;
+  record.proof_boxes = s.proven.bound.boxes;
   record.over_by_proof =
       record.proven_MPa && *record.proven_MPa > input.max_drift_MPa * (1 + proof_rounding);
+  record.out_of_boxes = record.over_by_proof && s.proven.bound.out_of_boxes;
   return record;
 }
 

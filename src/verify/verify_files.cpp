@@ -79,7 +79,9 @@ Json record_json(const DriftRecord& record) {
   if (record.subject != "table") j["max_vs_table_MPa"] = record.max_vs_table_MPa;
   if (record.proven_MPa) j["proven_MPa"] = *record.proven_MPa;
   if (!record.not_proven.empty()) j["not_proven"] = record.not_proven;
+  if (record.proof_boxes > 0) j["proof_boxes"] = record.proof_boxes;
   if (record.over_by_proof) j["over_by_proof"] = true;
+  if (record.out_of_boxes) j["out_of_boxes"] = true;
   if (record.below)
     j["below"] = {{"axis", "sigma_n_MPa"},
                   {"low", record.below->low_MPa},
@@ -170,7 +172,9 @@ Verification parse_verification(std::string_view text, const std::string& file) 
         r.max_vs_table_MPa = one.value("max_vs_table_MPa", 0.0);
         if (one.contains("proven_MPa")) r.proven_MPa = one.at("proven_MPa");
         r.not_proven = one.value("not_proven", "");
+        r.proof_boxes = count_or_0(one, "proof_boxes");
         r.over_by_proof = one.value("over_by_proof", false);
+        r.out_of_boxes = one.value("out_of_boxes", false);
         if (one.contains("below")) {
           const Json& below = one.at("below");
           r.below = {below.at("low"), below.at("high"), below.at("outside"),

@@ -97,7 +97,7 @@ TEST(Bound, ClosesOnTheLargestDriftAndShowsThatTheSearchFound99Percent) {
       const Case one = of_law(law, interpolation);
       table::BoundOptions options;
       options.goal_MPa = 1.004 * one.worst.drift_MPa;
-      options.most_boxes = 4'000'000;
+      options.most_boxes = 8'000'000;
       const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
       ASSERT_TRUE(bound.MPa);
       EXPECT_GE(one.worst.drift_MPa, 0.99 * *bound.MPa)
@@ -163,10 +163,25 @@ TEST(Bound, IsNotClaimedWhereTheTableIsCombinedDifferently) {
 TEST(Bound, IsNotClaimedForMoreCellsThanItMayLookAt) {
   const Case one = of_law("levanov", Interpolation::linear);
   table::BoundOptions options{.goal_MPa = 0.5};
-  options.most_cells = 10;
+  options.most_boxes = 10;
   const DriftBound bound = bound_drift(AssembledLaw(one.model), one.table, one.ranges, options);
   EXPECT_FALSE(bound.MPa);
-  EXPECT_EQ(bound.why_not, "the table has more than 10 cells");
+  EXPECT_EQ(bound.why_not, "the table has more cells than verify.proof_boxes = 10");
+}
+
+TEST(Bound, OfFewBoxesIsLooserAndSaysThatItRanOutOfThem) {
+  const Case one = of_law("wanheim_bay", Interpolation::linear);
+  const double goal = 1.02 * one.worst.drift_MPa;
+  const auto with = [&](std::size_t boxes) {
+    return bound_drift(AssembledLaw(one.model), one.table, one.ranges, {goal, boxes});
+  };
+  const DriftBound some = with(2'000), many = with(2'000'000);
+  ASSERT_TRUE(some.MPa && many.MPa) << some.why_not << many.why_not;
+  EXPECT_TRUE(some.out_of_boxes);
+  EXPECT_LE(some.boxes, 2'000u);
+  EXPECT_GT(*some.MPa, *many.MPa);
+  EXPECT_FALSE(many.out_of_boxes);
+  EXPECT_LE(*many.MPa, 1.005 * goal);
 }
 
 } // namespace
