@@ -96,7 +96,7 @@ void add(std::vector<const CommandText*>& all, const CommandText& command) {
 OptionText::Kind OptionText::kind() const {
   if (!words.empty()) return Kind::words;
   if (value == "DIR" || value == "OUT") return Kind::directory;
-  for (const char* file : {"FILE", "FILES", "JOB", "JOB|MODEL", "DATA", "A", "B"})
+  for (const char* file : {"FILE", "FILES", "JOB", "JOB|MODEL", "STUDY", "DATA", "A", "B"})
     if (value == file) return Kind::file;
   return Kind::other;
 }

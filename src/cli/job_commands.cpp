@@ -113,11 +113,7 @@ void all_stages(run::Pipeline& p) {
   p.go_on();
   p.calibrate();
   p.trace();
-  p.check_sizes();
-  p.tabulate();
-  p.generate();
-  p.verify();
-  p.report();
+  p.deliver();
   p.compare_forms();
 }
 

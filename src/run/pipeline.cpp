@@ -671,6 +671,14 @@ void Pipeline::report() {
   output_.write("report.md", report::report_md(input));
 }
 
+void Pipeline::deliver() {
+  check_sizes();
+  tabulate();
+  generate();
+  verify();
+  report();
+}
+
 void Pipeline::commit() {
   record_files();
   output_.write("stages.json", stages_.json());

@@ -47,6 +47,7 @@ public:
   void verify();
   void compare_forms(); // table or the law itself: measured, told by the summary, never written
   void report();
+  void deliver(); // check_sizes, tabulate, generate, verify and report, in a row
   // Moves all files into place.
   void commit();
 

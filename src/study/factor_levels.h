@@ -1,0 +1,22 @@
+// Campaigns by the levels of a factor.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/study.h"
+
+namespace frictab::study {
+
+inline constexpr std::size_t most_levels = 12; // that a page shows
+
+struct FactorLevels {
+  std::string name;
+  std::vector<std::string> levels;   // sorted
+  std::vector<std::size_t> level_of; // per campaign; levels.size(): not said
+};
+
+// Factors of two to most_levels levels. Of others, what to say of them goes to `notes`.
+std::vector<FactorLevels> factors_of(const Study& study, std::vector<std::string>& notes);
+
+} // namespace frictab::study

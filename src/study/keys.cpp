@@ -1,0 +1,90 @@
+// Keys of campaigns.
+#include "study/keys.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/hash.h"
+#include "core/version.h"
+#include "data/file_list.h"
+
+namespace frictab::study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t piece_bytes = std::size_t{16} << 20;
+
+// Piece by piece, so that a large file needs no memory.
+std::string hash_of_file(const std::string& base, const std::string& file) {
+  std::ifstream in(fs::path(base) / file, std::ios::binary);
+  if (!in)
+    throw InputError({file, 0, 0}, "cannot be read",
+                     "files of a campaign are named relative to the study");
+  std::string hashes, piece(piece_bytes, '\0');
+  do {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const auto bytes = static_cast<std::size_t>(in.gcount());
+    hashes += fmt::format("{:016x}", hash_of(std::string_view(piece).substr(0, bytes)));
+  } while (in);
+  return hashes;
+}
+
+// Rules may look at a file's folders: then these count.
+bool looks_at_folders(const data::DataOptions& options) {
+  return std::any_of(options.files.begin(), options.files.end(), [](const data::FileRule& rule) {
+    return (rule.match + rule.from_name).find('/') != std::string::npos;
+  });
+}
+
+std::string files_text(const std::vector<std::string>& named, const data::DataOptions& options) {
+  std::string text;
+  const bool folders = looks_at_folders(options);
+  const auto files = data::find_files(named, options.base, options.place);
+  for (const data::FilePlan& plan : data::plan_files(files, options).files)
+    text += fmt::format("\n{} {} {}", plan.label,
+                        folders ? plan.file : fs::path(plan.file).filename().string(),
+                        hash_of_file(options.base, plan.file));
+  return text;
+}
+
+std::string data_text(const Study& study, const Campaign& campaign) {
+  if (campaign.twin)
+    return fmt::format("twin {} {}", study.twins[campaign.twin->block].text, campaign.twin->seed);
+  const data::DataOptions& options = study.jobs[campaign.job].job.data;
+  return "training" + files_text(campaign.training, options) + "\nvalidation" +
+         files_text(campaign.validation, options);
+}
+
+} // namespace
+
+std::uint64_t key_of(const Study& study, const Campaign& campaign) {
+  return hash_of(fmt::format("{}\n{}\n{}\n{}", tool_version(), stage_name(study.stage),
+                             study.jobs[campaign.job].fingerprint, data_text(study, campaign)));
+}
+
+std::string key_text(std::uint64_t key) {
+  return fmt::format("{:016x}", key);
+}
+
+std::optional<std::uint64_t> read_key(std::string_view text) {
+  std::uint64_t key = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), key, 16);
+  if (text.size() != 16 || error != std::errc() || end != text.data() + text.size())
+    return std::nullopt;
+  return key;
+}
+
+job::Job job_of(const Study& study, const Campaign& campaign) {
+  job::Job job = study.jobs[campaign.job].job;
+  job.data.training = campaign.training;
+  job.data.validation = campaign.validation;
+  return job;
+}
+
+} // namespace frictab::study

@@ -1,0 +1,26 @@
+// What a campaign's result depends on, as a number: results are found and shared out by it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "study/study.h"
+
+namespace frictab::study {
+
+// XXH64 of the version of frictab, the last stage, the resolved job, and the bytes of the
+// campaign's files with their names (an experiment may be called after its file) but not their
+// folders; of a twin its block and seed. Throws InputError where files cannot be read or do not fit
+// the job's rules.
+std::uint64_t key_of(const Study& study, const Campaign& campaign);
+
+// 16 hex digits, as the result's folder is called, and back.
+std::string key_text(std::uint64_t key);
+std::optional<std::uint64_t> read_key(std::string_view text);
+
+// The campaign's job with its files; of a twin without any.
+job::Job job_of(const Study& study, const Campaign& campaign);
+
+} // namespace frictab::study

@@ -1,0 +1,231 @@
+// Keys of all campaigns, and which of them have results.
+#include "study/plan.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "io/json.h"
+#include "study/keys.h"
+#include "study/result_store.h"
+
+namespace frictab::study {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Where it stands in the study, then where in the campaign's files.
+void add_faults(const Campaign& campaign, const InputError& error, FaultList& faults) {
+  for (const Fault& fault : error.faults()) {
+    const std::string from = format_place(fault.place);
+    faults.add(campaign.place,
+               fmt::format("campaign '{}': {}{}", campaign.name, from.empty() ? "" : from + ": ",
+                           fault.what),
+               fault.hint);
+  }
+}
+
+// In the order of the campaigns.
+std::vector<std::string> same_campaigns(const Plan& plan) {
+  std::vector<std::size_t> order(plan.keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return plan.keys[a] < plan.keys[b]; });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (plan.keys[order[i]] == plan.keys[order[i - 1]]) pairs.emplace_back(order[i], order[i - 1]);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::string> notes;
+  for (const auto& [later, earlier] : pairs)
+    notes.push_back(fmt::format("campaigns '{}' and '{}' have the same job and the same data: one "
+                                "result is for both",
+                                plan.study.campaigns[earlier].name,
+                                plan.study.campaigns[later].name));
+  return notes;
+}
+
+} // namespace
+
+Plan plan_of(Study study) {
+  Plan plan{std::move(study), {}, {}};
+  const std::vector<Campaign>& campaigns = plan.study.campaigns;
+  plan.keys.resize(campaigns.size());
+  std::vector<std::optional<InputError>> errors(campaigns.size());
+  const Progress progress("hashing data", campaigns.size());
+  parallel_for(campaigns.size(), [&](std::size_t i) {
+    try {
+      plan.keys[i] = key_of(plan.study, campaigns[i]);
+    } catch (const InputError& error) {
+      errors[i] = error;
+    }
+    progress.tick();
+  });
+  FaultList faults;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (errors[i]) add_faults(campaigns[i], *errors[i], faults);
+  faults.throw_if_any();
+  plan.notes = same_campaigns(plan);
+  return plan;
+}
+
+Shard read_shard(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto read = [](std::string_view part, std::uint64_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size() && value > 0;
+  };
+  const std::string_view all(text);
+  if (slash < text.size() && read(all.substr(0, slash), shard.number) &&
+      read(all.substr(slash + 1), shard.of) && shard.number <= shard.of)
+    return shard;
+  throw InputError({"--shard", 0, 0}, fmt::format("'{}' is no shard", text),
+                   "write i/n with i from 1 to n: --shard 3/8");
+}
+
+const char* state_name(State state) {
+  if (state == State::done) return "done";
+  return state == State::failed ? "failed" : "missing";
+}
+
+Found::Found(const std::string& directory) {
+  std::error_code none; // no directory: nothing is there
+  for (const auto& entry : fs::directory_iterator(fs::path(directory) / results_folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (const auto key = read_key(name))
+      done.insert(*key);
+    else if (name.starts_with("."))
+      ++unfinished;
+  }
+  for (const auto& entry : fs::directory_iterator(fs::path(directory) / failures_folder, none))
+    if (const auto key = read_key(entry.path().stem().string())) failed.insert(*key);
+}
+
+State Found::state(std::uint64_t key) const {
+  if (done.count(key) > 0) return State::done;
+  return failed.count(key) > 0 ? State::failed : State::missing;
+}
+
+Counts counts_of(const Plan& plan, const Found& found) {
+  Counts counts;
+  for (const std::uint64_t key : plan.keys) {
+    const State state = found.state(key);
+    counts.done += state == State::done;
+    counts.failed += state == State::failed;
+    counts.missing += state == State::missing;
+  }
+  return counts;
+}
+
+namespace {
+
+std::string counts_text(const Counts& counts) {
+  return fmt::format("{} done, {} failed, {} missing", thousands(counts.done),
+                     thousands(counts.failed), thousands(counts.missing));
+}
+
+std::string head_text(const Plan& plan, const Found& found) {
+  const Study& study = plan.study;
+  return fmt::format("{}: {} campaigns, each {} stage {}{}\n{}\n", study.file,
+                     thousands(study.campaigns.size()),
+                     study.stage == LastStage::run ? "through every" : "up to the",
+                     study.stage == LastStage::run ? "of a run" : stage_name(study.stage),
+                     study.is_synthetic() ? " - SYNTHETIC data among them" : "",
+                     counts_text(counts_of(plan, found)));
+}
+
+std::string next_text(const Plan& plan, const Found& found) {
+  const bool open = counts_of(plan, found).missing > 0;
+  return fmt::format("next: frictab study {} {}\n", open ? "run" : "report", plan.study.file);
+}
+
+Json head_json(const Plan& plan, const Found& found) {
+  const Counts counts = counts_of(plan, found);
+  return {{"study", plan.study.file},
+          {"directory", plan.study.directory},
+          {"stage", stage_name(plan.study.stage)},
+          {"tool_version", tool_version()},
+          {"synthetic_data", plan.study.is_synthetic()},
+          {"campaigns", plan.keys.size()},
+          {"done", counts.done},
+          {"failed", counts.failed},
+          {"missing", counts.missing}};
+}
+
+constexpr std::size_t most_listed = 10;
+
+} // namespace
+
+std::string plan_text(const Plan& plan, const Found& found) {
+  std::string text = head_text(plan, found);
+  const std::vector<Campaign>& campaigns = plan.study.campaigns;
+  for (std::size_t i = 0; i < campaigns.size() && i < most_listed; ++i)
+    text += fmt::format("  {}  {:<7}  {}\n", key_text(plan.keys[i]),
+                        state_name(found.state(plan.keys[i])), campaigns[i].name);
+  if (campaigns.size() > most_listed)
+    text +=
+        fmt::format("  and {} more; --json has all\n", thousands(campaigns.size() - most_listed));
+  return text + next_text(plan, found);
+}
+
+std::string plan_json(const Plan& plan, const Found& found) {
+  Json json = head_json(plan, found);
+  json["schema"] = "frictab/study-plan/1";
+  json["notes"] = plan.notes;
+  Json& list = json["keys"] = Json::array();
+  for (std::size_t i = 0; i < plan.keys.size(); ++i)
+    list.push_back({{"campaign", plan.study.campaigns[i].name},
+                    {"key", key_text(plan.keys[i])},
+                    {"state", state_name(found.state(plan.keys[i]))}});
+  return io::json_text(json);
+}
+
+namespace {
+
+// Of the first that failed.
+std::vector<Failure> failures_of(const Plan& plan, const Found& found) {
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < plan.keys.size() && failures.size() < most_listed; ++i)
+    if (found.state(plan.keys[i]) == State::failed) {
+      failures.push_back(read_failure(plan.study.directory, plan.keys[i]));
+      failures.back().campaign = plan.study.campaigns[i].name;
+    }
+  return failures;
+}
+
+} // namespace
+
+std::string status_text(const Plan& plan, const Found& found) {
+  std::string text = head_text(plan, found);
+  if (found.unfinished > 0)
+    text += fmt::format("{} working directories: runs that go on, or were killed\n",
+                        thousands(found.unfinished));
+  for (const Failure& failure : failures_of(plan, found))
+    text += fmt::format("failed: {}: {}\n", failure.campaign, failure.message);
+  return text + next_text(plan, found);
+}
+
+std::string status_json(const Plan& plan, const Found& found) {
+  Json json = head_json(plan, found);
+  json["schema"] = "frictab/study-status/1";
+  json["working_directories"] = found.unfinished;
+  json["first_failures"] = Json::array();
+  for (const Failure& failure : failures_of(plan, found))
+    json["first_failures"].push_back({{"campaign", failure.campaign},
+                                      {"by_input", failure.by_input},
+                                      {"message", failure.message}});
+  return io::json_text(json);
+}
+
+} // namespace frictab::study

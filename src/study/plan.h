@@ -1,0 +1,54 @@
+// What a study consists of, campaign by campaign, and what is there of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "study/study.h"
+
+namespace frictab::study {
+
+struct Plan {
+  Study study;
+  std::vector<std::uint64_t> keys; // per campaign
+  std::vector<std::string> notes;  // campaigns that are the same
+};
+
+// Reads the data's bytes. Throws InputError with the faults of all campaigns.
+Plan plan_of(Study study);
+
+// i/n: every n-th key, from 1. Each key is in one shard, whatever else the study holds.
+struct Shard {
+  std::uint64_t number = 1, of = 1;
+  bool has(std::uint64_t key) const { return key % of == number - 1; }
+};
+// "3/8". Throws InputError.
+Shard read_shard(const std::string& text);
+
+enum class State { missing, done, failed };
+const char* state_name(State state);
+
+// Keys that the study's directory holds; read once.
+struct Found {
+  explicit Found(const std::string& directory);
+  State state(std::uint64_t key) const;
+
+  std::unordered_set<std::uint64_t> done, failed;
+  std::size_t unfinished = 0; // working directories, of processes that run or were killed
+};
+
+// Campaigns by their state.
+struct Counts {
+  std::size_t done = 0, failed = 0, missing = 0;
+};
+Counts counts_of(const Plan& plan, const Found& found);
+
+std::string plan_text(const Plan& plan, const Found& found);
+std::string plan_json(const Plan& plan, const Found& found);
+// With the messages of the first campaigns that failed.
+std::string status_text(const Plan& plan, const Found& found);
+std::string status_json(const Plan& plan, const Found& found);
+
+} // namespace frictab::study

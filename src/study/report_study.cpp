@@ -1,0 +1,125 @@
+// From results to a table and a page.
+#include "study/report_study.h"
+
+#include <algorithm>
+#include <fstream>
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/progress.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "io/atomic_file.h"
+#include "io/json.h"
+#include "study/campaigns_csv.h"
+#include "study/law_order.h"
+#include "study/result_store.h"
+
+namespace frictab::study {
+
+namespace {
+
+class Reading {
+public:
+  Reading(const Plan& plan, std::ostream& table)
+      : plan_(plan), directory_(plan.study.directory), found_(directory_), table_(table) {
+    tally_.counts = counts_of(plan, found_);
+    write_header(table, plan.study);
+  }
+
+  void take(std::size_t i) {
+    const Campaign& campaign = plan_.study.campaigns[i];
+    const std::uint64_t key = plan_.keys[i];
+    const State state = found_.state(key);
+    if (state == State::done) {
+      take_result(i);
+      return;
+    }
+    const std::string message =
+        state == State::failed ? read_failure(directory_, key).message : std::string();
+    write_row_without(table_, campaign, key, state, message);
+    if (state == State::failed) tally_.failed.push_back({i, message});
+  }
+
+  Tally take_tally() { return std::move(tally_); }
+
+private:
+  // Of campaigns that are the same one counts.
+  void take_result(std::size_t i) {
+    const std::uint64_t key = plan_.keys[i];
+    const auto file = result_directory(directory_, key) / result_file;
+    CampaignResult result = parse_result(io::read_file(file), file.string());
+    write_rows(table_, plan_.study.campaigns[i], key, result);
+    if (seen_.insert(key).second) tally_.add(i, std::move(result));
+  }
+
+  const Plan& plan_;
+  const std::string& directory_;
+  Found found_;
+  std::ostream& table_;
+  std::unordered_set<std::uint64_t> seen_;
+  Tally tally_;
+};
+
+Tally read_results(const Plan& plan, const std::filesystem::path& table) {
+  std::ofstream out(table, std::ios::binary);
+  Reading reading(plan, out);
+  const Progress progress("reading results", plan.keys.size());
+  for (std::size_t i = 0; i < plan.keys.size(); ++i) {
+    reading.take(i);
+    progress.tick();
+  }
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + table.string());
+  return reading.take_tally();
+}
+
+} // namespace
+
+Tally report_study(const Plan& plan) {
+  io::OutputFiles files(plan.study.directory);
+  Tally tally = read_results(plan, files.stage("campaigns.csv"));
+  files.write("report.html", study_html(plan, tally));
+  files.commit();
+  return tally;
+}
+
+std::string report_text(const Plan& plan, const Tally& tally) {
+  const Counts& counts = tally.counts;
+  std::string text =
+      fmt::format("{} campaigns: {} done, {} failed, {} missing{}\n", thousands(plan.keys.size()),
+                  thousands(counts.done), thousands(counts.failed), thousands(counts.missing),
+                  tally.synthetic > 0 ? " - SYNTHETIC data among them" : "");
+  for (const auto& [name, law] : laws_by_success(tally))
+    text +=
+        fmt::format("  {:<20} best in {:>7} of {:>7}, best or not told from it in {:>7}\n", name,
+                    thousands(law->best), thousands(law->campaigns), thousands(law->may_be_best));
+  return text + fmt::format("{0}/campaigns.csv, {0}/report.html\n", plan.study.directory);
+}
+
+std::string report_json(const Plan& plan, const Tally& tally) {
+  nlohmann::ordered_json json = {{"schema", "frictab/study-report/1"},
+                                 {"tool_version", tool_version()},
+                                 {"directory", plan.study.directory},
+                                 {"campaigns", plan.keys.size()},
+                                 {"done", tally.counts.done},
+                                 {"failed", tally.counts.failed},
+                                 {"missing", tally.counts.missing},
+                                 {"synthetic", tally.synthetic},
+                                 {"laws", nlohmann::ordered_json::array()},
+                                 {"effects", nlohmann::ordered_json::array()}};
+  for (const auto& [name, law] : laws_by_success(tally))
+    json["laws"].push_back({{"law", name},
+                            {"campaigns", law->campaigns},
+                            {"best", law->best},
+                            {"may_be_best", law->may_be_best}});
+  for (const auto& [column, effect] : tally.effects)
+    json["effects"].push_back({{"column", column},
+                               {"found_in", effect.campaigns.size()},
+                               {"of", tally.traced_campaigns.size()}});
+  return io::json_text(json);
+}
+
+} // namespace frictab::study

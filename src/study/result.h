@@ -1,0 +1,59 @@
+// One campaign's result as the report needs it: results/KEY/study.json. What its stages wrote lies
+// beside it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibrate/judgement.h"
+#include "run/job_data.h"
+#include "trace/trace.h"
+
+namespace frictab::study {
+
+struct FittedParameter {
+  std::string name, unit;
+  double value = 0;
+  double std_error = 0; // by experiment; NaN: the data do not determine it
+};
+
+struct LawResult {
+  std::string law;
+  bool fitted = false; // has parameters of its own that were fitted, none of the literature
+  double mae_MPa = 0, rmse_MPa = 0, bias_MPa = 0; // on tests not trained on
+  calibrate::Interval mae_interval;               // 95 %, whole tests resampled
+  double best_p_value = 0; // of "no law has a smaller MAE"; NaN: laws were not compared
+  std::optional<double> band_low, band_high; // factors that 5 % and 95 % of new tests lie below
+  std::vector<FittedParameter> parameters;
+};
+
+struct EffectResult {
+  std::string law;
+  std::string column; // "dwell_s", "dwell_s x friction_work"
+  std::string form, acts_on;
+  double p_value = 0;  // family-wise
+  double gain_MPa = 0; // of the MAE on unseen tests
+};
+
+struct CampaignResult {
+  std::string data_hash, judged_by;
+  bool synthetic = false;
+  std::size_t experiments = 0, rows = 0; // training and validation
+  std::vector<LawResult> laws;           // by rank, as calibrated: without traced effects
+  bool traced = false;
+  std::vector<EffectResult> effects;
+  std::vector<std::string> missed; // targets, in words
+};
+
+// Of a calibration that was not traced yet.
+CampaignResult result_of(const calibrate::Calibration& calibration, const run::JobData& data);
+void add_effects(CampaignResult& result, const std::vector<trace::Trace>& traces);
+
+// `key` 16 hex digits.
+std::string result_json(const CampaignResult& result, const std::string& key);
+// Throws InputError where the text is none of result_json.
+CampaignResult parse_result(std::string_view text, const std::string& file);
+
+} // namespace frictab::study

@@ -1,0 +1,96 @@
+// Directories that appear by rename.
+#include "study/result_store.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/version.h"
+#include "io/atomic_file.h"
+#include "io/directory_lock.h"
+#include "io/json.h"
+#include "study/keys.h"
+
+namespace frictab::study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* failure_schema = "frictab/study-failure/1";
+
+} // namespace
+
+fs::path result_directory(const std::string& directory, std::uint64_t key) {
+  return fs::path(directory) / results_folder / key_text(key);
+}
+
+fs::path failure_path(const std::string& directory, std::uint64_t key) {
+  return fs::path(directory) / failures_folder / (key_text(key) + ".json");
+}
+
+void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure) {
+  const fs::path file = failure_path(directory, key);
+  io::OutputFiles output(file.parent_path(), io::OutputFiles::Claim::one_file);
+  output.write(file.filename().string(), io::json_text({{"schema", failure_schema},
+                                                        {"tool_version", tool_version()},
+                                                        {"key", key_text(key)},
+                                                        {"campaign", failure.campaign},
+                                                        {"by_input", failure.by_input},
+                                                        {"message", failure.message}}));
+  output.commit();
+}
+
+Failure parse_failure(std::string_view text, const std::string& file) {
+  const std::string mends = "remove it: `frictab study run` tries the campaign again";
+  const nlohmann::ordered_json json = io::parse_json(text, file);
+  io::check_schema(json, failure_schema, file, mends);
+  Failure failure;
+  io::read_json(file, mends, [&] {
+    failure = {json.at("campaign"), json.at("message"), json.at("by_input")};
+  });
+  return failure;
+}
+
+Failure read_failure(const std::string& directory, std::uint64_t key) {
+  const fs::path file = failure_path(directory, key);
+  return parse_failure(io::read_file(file), file.string());
+}
+
+WorkDirectory::WorkDirectory(const std::string& directory, std::uint64_t key)
+    : final_(result_directory(directory, key)) {
+  std::error_code error;
+  fs::create_directories(final_.parent_path(), error);
+  std::string pattern = (final_.parent_path() / fmt::format(".{}.XXXXXX", key_text(key))).string();
+  if (!::mkdtemp(pattern.data())) io::cannot_write_here(final_.parent_path(), std::strerror(errno));
+  path_ = pattern;
+  fs::permissions(path_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                             fs::perms::others_read | fs::perms::others_exec);
+  when_interrupted_.emplace([path = path_] {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  });
+}
+
+WorkDirectory::~WorkDirectory() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+}
+
+bool WorkDirectory::publish() {
+  const Uninterrupted whole;
+  if (std::rename(path_.c_str(), final_.c_str()) == 0) {
+    path_.clear();
+    return true;
+  }
+  if (errno == EEXIST || errno == ENOTEMPTY) return false;
+  throw std::runtime_error(fmt::format("cannot move {} to {}: {}", path_.string(), final_.string(),
+                                       std::strerror(errno)));
+}
+
+} // namespace frictab::study

@@ -1,0 +1,48 @@
+// Results of campaigns in the study's directory: results/KEY/ and failed/KEY.json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/interrupt.h"
+
+namespace frictab::study {
+
+inline constexpr const char* result_file = "study.json"; // in results/KEY
+inline constexpr const char* results_folder = "results";
+inline constexpr const char* failures_folder = "failed";
+
+std::filesystem::path result_directory(const std::string& directory, std::uint64_t key);
+std::filesystem::path failure_path(const std::string& directory, std::uint64_t key);
+
+// A failed campaign.
+struct Failure {
+  std::string campaign, message;
+  bool by_input = false; // a fault of its job or data, which is there again next time
+};
+void write_failure(const std::string& directory, std::uint64_t key, const Failure& failure);
+Failure read_failure(const std::string& directory, std::uint64_t key);
+Failure parse_failure(std::string_view text, const std::string& file);
+
+// A directory of this process, results/.KEY.XXXXXX, until it is published or goes with its
+// contents.
+class WorkDirectory {
+public:
+  WorkDirectory(const std::string& directory, std::uint64_t key);
+  ~WorkDirectory();
+  WorkDirectory(const WorkDirectory&) = delete;
+  WorkDirectory& operator=(const WorkDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // Becomes results/KEY by rename(2). False where another process was first: its result stays.
+  bool publish();
+
+private:
+  std::filesystem::path final_, path_;
+  std::optional<WhenInterrupted> when_interrupted_;
+};
+
+} // namespace frictab::study

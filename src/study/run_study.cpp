@@ -1,0 +1,174 @@
+// Campaigns through the stages of a job, each in a directory of its own.
+#include "study/run_study.h"
+
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "core/progress.h"
+#include "data/write_dataset.h"
+#include "io/atomic_file.h"
+#include "run/pipeline.h"
+#include "study/keys.h"
+#include "study/result.h"
+#include "study/result_store.h"
+
+namespace frictab::study {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of a twin's data, which its seed gives again: they are not kept.
+constexpr const char* twin_folder = "twin";
+
+std::vector<std::string> write_part(const twin::TwinPart& part, const std::string& name,
+                                    io::OutputFiles& files, const fs::path& folder) {
+  if (part.data.rows() == 0) return {};
+  files.write(name, data::csv_text(part.data));
+  return {fs::absolute(folder / name).string()};
+}
+
+void write_twin(const Study& study, const TwinSeed& which, const fs::path& folder, job::Job& job) {
+  twin::TwinOptions options = study.twins[which.block].options;
+  options.seed = which.seed;
+  const twin::Twin twin = twin::make_twin(options);
+  io::OutputFiles files(folder);
+  job.data.training = write_part(twin.training, "training.csv", files, folder);
+  job.data.validation = write_part(twin.validation, "validation.csv", files, folder);
+  files.commit();
+}
+
+// Laws are compared before laws with effects join them.
+CampaignResult run_stages(run::Pipeline& pipeline, LastStage stage) {
+  pipeline.calibrate();
+  CampaignResult result = result_of(*pipeline.calibration(), *pipeline.data());
+  if (stage != LastStage::calibrate) {
+    pipeline.trace();
+    add_effects(result, pipeline.traces());
+  }
+  if (stage == LastStage::run) pipeline.deliver();
+  result.missed = pipeline.missed();
+  pipeline.commit();
+  return result;
+}
+
+class StudyRun {
+public:
+  StudyRun(const Plan& plan, const RunOptions& options)
+      : plan_(plan), options_(options), directory_(plan.study.directory), found_(directory_) {}
+
+  RunCounts run() {
+    const Progress progress("campaigns", plan_.keys.size());
+    for (std::size_t i = 0; i < plan_.keys.size(); ++i) {
+      if (options_.shard.has(plan_.keys[i]) && seen_.insert(plan_.keys[i]).second) take(i);
+      progress.tick();
+    }
+    return counts_;
+  }
+
+private:
+  void take(std::size_t i) {
+    const std::uint64_t key = plan_.keys[i];
+    if (found_.state(key) == State::done || fs::exists(result_directory(directory_, key)))
+      ++counts_.there;
+    else if (fails_again(key))
+      ++counts_.failed;
+    else
+      compute_or_fail(i);
+  }
+
+  bool fails_again(std::uint64_t key) const {
+    return !options_.retry && found_.state(key) == State::failed &&
+           read_failure(directory_, key).by_input;
+  }
+
+  void compute_or_fail(std::size_t i) {
+    try {
+      compute(i);
+    } catch (const InputError& error) {
+      fail(i, error.what(), true);
+    } catch (const std::bad_alloc&) {
+      fail(i, "out of memory", false);
+    } catch (const std::exception& error) {
+      fail(i, error.what(), false);
+    }
+  }
+
+  void compute(std::size_t i) {
+    const Study& study = plan_.study;
+    const std::uint64_t key = plan_.keys[i];
+    WorkDirectory work(directory_, key);
+    job::Job job = job_of(study, study.campaigns[i]);
+    job.directory = work.path().string();
+    if (const auto& twin = study.campaigns[i].twin)
+      write_twin(study, *twin, work.path() / twin_folder, job);
+    CampaignResult result;
+    { // the pipeline ends, and its lock with it, before the directory gets its name
+      run::Pipeline pipeline(std::move(job));
+      result = run_stages(pipeline, study.stage);
+    }
+    fs::remove_all(work.path() / twin_folder);
+    write_result(result, key, work.path());
+    publish(work, key, !result.missed.empty());
+  }
+
+  static void write_result(const CampaignResult& result, std::uint64_t key,
+                           const fs::path& folder) {
+    io::OutputFiles files(folder);
+    files.write(result_file, result_json(result, key_text(key)));
+    files.commit();
+  }
+
+  void publish(WorkDirectory& work, std::uint64_t key, bool missed) {
+    if (!work.publish()) {
+      ++counts_.elsewhere;
+      return;
+    }
+    ++counts_.computed;
+    counts_.missed += missed;
+    std::error_code ignored;
+    fs::remove(failure_path(directory_, key), ignored);
+    clear_killed(key);
+  }
+
+  // What killed processes left of this campaign. One that still computes it has nothing to give.
+  void clear_killed(std::uint64_t key) const {
+    std::error_code ignored;
+    const std::string prefix = "." + key_text(key) + ".";
+    std::vector<fs::path> left;
+    if (found_.unfinished == 0) return;
+    for (const auto& entry : fs::directory_iterator(fs::path(directory_) / results_folder, ignored))
+      if (entry.path().filename().string().starts_with(prefix)) left.push_back(entry.path());
+    for (const fs::path& path : left)
+      fs::remove_all(path, ignored);
+  }
+
+  void fail(std::size_t i, const std::string& message, bool by_input) {
+    const std::uint64_t key = plan_.keys[i];
+    if (fs::exists(result_directory(directory_, key))) { // another process has cleared our files
+      ++counts_.elsewhere;
+      return;
+    }
+    ++counts_.failed;
+    write_failure(directory_, key, {plan_.study.campaigns[i].name, message, by_input});
+  }
+
+  const Plan& plan_;
+  const RunOptions& options_;
+  const std::string& directory_;
+  Found found_;
+  std::unordered_set<std::uint64_t> seen_; // keys that two campaigns share
+  RunCounts counts_;
+};
+
+} // namespace
+
+RunCounts run_study(const Plan& plan, const RunOptions& options) {
+  return StudyRun(plan, options).run();
+}
+
+} // namespace frictab::study

@@ -1,0 +1,60 @@
+// Counting campaign by campaign.
+#include "study/tally.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frictab::study {
+
+namespace {
+
+LawTally::Parameter& parameter_of(LawTally& law, const FittedParameter& p) {
+  for (LawTally::Parameter& known : law.parameters)
+    if (known.name == p.name && known.unit == p.unit) return known;
+  law.parameters.push_back({p.name, p.unit, {}, 0});
+  return law.parameters.back();
+}
+
+} // namespace
+
+void Tally::add_law(std::size_t campaign, const LawResult& law, bool first) {
+  LawTally& tally = laws[law.law];
+  ++tally.campaigns;
+  tally.best += first;
+  tally.may_be_best += law.best_p_value >= 0.05; // NaN: not compared
+  tally.mae_MPa.push_back(law.mae_MPa);
+  if (!law.fitted) return;
+  for (const FittedParameter& p : law.parameters) {
+    LawTally::Parameter& all = parameter_of(tally, p);
+    if (p.std_error > 0 && std::isfinite(p.std_error) && std::isfinite(p.value))
+      all.estimates.push_back({p.value, p.std_error, 0, campaign});
+    else
+      ++all.without_error;
+  }
+}
+
+void Tally::add_effects(std::size_t campaign, const CampaignResult& result) {
+  for (const EffectResult& effect : result.effects) {
+    EffectTally& tally = effects[effect.column];
+    if (!tally.campaigns.empty() && tally.campaigns.back() == campaign) continue; // of another law
+    tally.campaigns.push_back(campaign);
+    tally.gain_MPa.push_back(effect.gain_MPa);
+    ++tally.forms[effect.form];
+  }
+}
+
+void Tally::add(std::size_t campaign, CampaignResult&& result) {
+  synthetic += result.synthetic;
+  if (result.traced) traced_campaigns.push_back(campaign);
+  experiments += result.experiments;
+  rows += result.rows;
+  compared += std::any_of(result.laws.begin(), result.laws.end(),
+                          [](const LawResult& law) { return !std::isnan(law.best_p_value); });
+  for (std::size_t i = 0; i < result.laws.size(); ++i)
+    add_law(campaign, result.laws[i], i == 0);
+  add_effects(campaign, result);
+  if (!result.missed.empty()) missed.emplace_back(campaign, result.missed.front());
+  if (shown.size() < most_shown) shown.push_back({campaign, std::move(result)});
+}
+
+} // namespace frictab::study

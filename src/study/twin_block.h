@@ -1,0 +1,25 @@
+// [[twin]] of a study: synthetic campaigns by seed.
+#pragma once
+
+#include <string>
+
+#include "study/study.h"
+#include "study/toml_values.h"
+
+namespace frictab::study {
+
+// First and last seed.
+struct Seeds {
+  std::uint64_t first = 1, last = 1;
+};
+
+// 7 or "1..1000". Adds a fault where it is neither, or more than a study can have.
+Seeds seeds_of(const job::TomlNode& node, FaultList& faults);
+
+// Adds the keys that say what the campaigns are like, as the options of `frictab twin` do.
+void add_twin_keys(Keys& keys, twin::TwinOptions& options, FaultList& faults);
+
+// What keys say together, once they are read; faults at the block's place.
+void finish_twin(const job::TomlNode& block, twin::TwinOptions& options, FaultList& faults);
+
+} // namespace frictab::study
