@@ -16,7 +16,7 @@ namespace {
 
 using Column = std::vector<std::string>; // a cell per row
 
-io::CsvTable parse(const std::string& text, const std::string& file,
+io::CsvTable parse(std::string_view text, const std::string& file,
                    const std::vector<std::string>& text_columns) {
   io::CsvFormat format;
   format.text_columns = text_columns;
@@ -68,7 +68,10 @@ void check_names(const std::vector<std::string>& names, const Place& place, Faul
 } // namespace
 
 std::vector<WrittenCampaign> read_campaign_list(const std::string& file) {
-  const std::string text = io::read_text_file(file, file);
+  return parse_campaign_list(io::read_text_file(file, file), file);
+}
+
+std::vector<WrittenCampaign> parse_campaign_list(std::string_view text, const std::string& file) {
   const std::vector<std::string> names = names_of(parse(text, file, {}));
   const io::CsvTable table = parse(text, file, names);
   FaultList faults;

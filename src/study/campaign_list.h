@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,5 +23,6 @@ struct WrittenCampaign {
 // factor. Several files or overrides of a cell have ; between them. All cells are texts: batch 007
 // stays 007. Throws InputError with every fault; `file` is how messages call it.
 std::vector<WrittenCampaign> read_campaign_list(const std::string& file);
+std::vector<WrittenCampaign> parse_campaign_list(std::string_view text, const std::string& file);
 
 } // namespace frictab::study

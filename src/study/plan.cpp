@@ -17,6 +17,7 @@
 #include "io/json.h"
 #include "study/keys.h"
 #include "study/result_store.h"
+#include "study/toml_values.h"
 
 namespace frictab::study {
 
@@ -24,17 +25,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-// Where it stands in the study, then where in the campaign's files.
-void add_faults(const Campaign& campaign, const InputError& error, FaultList& faults) {
-  for (const Fault& fault : error.faults()) {
-    const std::string from = format_place(fault.place);
-    faults.add(campaign.place,
-               fmt::format("campaign '{}': {}{}", campaign.name, from.empty() ? "" : from + ": ",
-                           fault.what),
-               fault.hint);
-  }
-}
 
 // In the order of the campaigns.
 std::vector<std::string> same_campaigns(const Plan& plan) {
@@ -73,7 +63,9 @@ Plan plan_of(Study study) {
   });
   FaultList faults;
   for (std::size_t i = 0; i < errors.size(); ++i)
-    if (errors[i]) add_faults(campaigns[i], *errors[i], faults);
+    if (errors[i])
+      add_at(campaigns[i].place, *errors[i], faults,
+             fmt::format("campaign '{}': ", campaigns[i].name));
   faults.throw_if_any();
   plan.notes = same_campaigns(plan);
   return plan;

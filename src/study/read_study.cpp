@@ -1,4 +1,4 @@
-// study.toml, key by key; then what its parts say together.
+// From what is written to campaigns, each with its job.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -10,13 +10,11 @@
 #include "study/campaign_list.h"
 #include "study/campaigns_csv.h"
 #include "study/resolved_jobs.h"
-#include "study/toml_values.h"
-#include "study/twin_block.h"
+#include "study/written_study.h"
 
 namespace frictab::study {
 
 namespace fs = std::filesystem;
-using job::TomlNode;
 
 const char* stage_name(LastStage stage) {
   switch (stage) {
@@ -40,30 +38,13 @@ namespace {
 
 constexpr std::size_t largest_file = 1 << 20; // as job files
 
-// A block [[twin]] as it is written.
-struct WrittenTwin {
-  std::string name = "twin", text;
-  Seeds seeds;
-  twin::TwinOptions options;
-  WrittenCampaign shared; // its set and factors hold for every seed
-};
-
-struct WrittenStudy {
-  std::string job, list;
-  std::string directory = "study";
-  LastStage stage = LastStage::trace;
-  std::vector<WrittenCampaign> campaigns;
-  std::vector<WrittenTwin> twins;
-  Place job_place, list_place;
-};
-
 class StudyReader {
 public:
   StudyReader(std::string file, const StudyOverrides& overrides)
       : file_(std::move(file)), folder_(fs::path(file_).parent_path()), overrides_(overrides) {}
 
   Study read(std::string_view text) {
-    read_file_keys(job::parse_toml(text, file_));
+    written_ = read_written(text, file_, faults_);
     add_list();
     std::optional<ResolvedJobs> jobs = read_jobs();
     if (jobs) {
@@ -79,116 +60,6 @@ public:
   }
 
 private:
-  // ---- what is written ----
-
-  void read_file_keys(const TomlNode& root) {
-    const Keys keys = {
-        {"job",
-         [&](const TomlNode& node) {
-           written_.job = text_of(node, "job", faults_);
-           written_.job_place = node.place;
-         }},
-        {"directory",
-         [&](const TomlNode& node) { written_.directory = text_of(node, "directory", faults_); }},
-        {"stage", [&](const TomlNode& node) { read_stage(node); }},
-        {"campaigns",
-         [&](const TomlNode& node) {
-           written_.list = text_of(node, "campaigns", faults_);
-           written_.list_place = node.place;
-         }},
-        {"campaign",
-         [&](const TomlNode& node) {
-           for (const TomlNode* table : tables_of(node, "campaign", faults_))
-             read_campaign(*table);
-         }},
-        {"twin", [&](const TomlNode& node) {
-           for (const TomlNode* table : tables_of(node, "twin", faults_))
-             read_twin(*table);
-         }}};
-    read_keys(root, "at the top of the file", keys, faults_);
-    if (!root_has(root, "job"))
-      faults_.add({file_, 0, 0}, "there is no job",
-                  "write job = \"job.toml\": what all campaigns share");
-  }
-
-  static bool root_has(const TomlNode& root, std::string_view key) {
-    return std::any_of(root.items.begin(), root.items.end(),
-                       [&](const TomlNode& item) { return item.key == key; });
-  }
-
-  void read_stage(const TomlNode& node) {
-    const std::string name = text_of(node, "stage", faults_);
-    if (const auto stage = stage_named(name))
-      written_.stage = *stage;
-    else if (!name.empty())
-      faults_.add(node.place, fmt::format("there is no stage '{}'", name),
-                  std::string("known: ") + stage_words);
-  }
-
-  void add_shared_keys(Keys& keys, WrittenCampaign& one, std::string& name,
-                       const std::string& table) {
-    keys["name"] = [&, table](const TomlNode& node) {
-      name = text_of(node, table + ".name", faults_);
-    };
-    keys["set"] = [&, table](const TomlNode& node) {
-      one.set = texts_of(node, table + ".set", faults_);
-    };
-    keys["factors"] = [&](const TomlNode& node) { read_factors(node, one); };
-  }
-
-  void read_campaign(const TomlNode& table) {
-    WrittenCampaign one;
-    one.place = table.place;
-    Keys keys;
-    add_shared_keys(keys, one, one.name, "campaign");
-    keys["files"] = [&](const TomlNode& node) {
-      one.files = texts_of(node, "campaign.files", faults_);
-    };
-    keys["validation"] = [&](const TomlNode& node) {
-      one.validation = texts_of(node, "campaign.validation", faults_);
-    };
-    read_keys(table, "in [[campaign]]", keys, faults_);
-    written_.campaigns.push_back(std::move(one));
-  }
-
-  void read_factors(const TomlNode& node, WrittenCampaign& one) {
-    if (node.type != TomlNode::Type::table) {
-      faults_.add(node.place, "factors must be a table, not " + job::describe(node),
-                  "write factors = { lubricant = \"...\", batch = \"7\" }");
-      return;
-    }
-    for (const TomlNode& factor : node.items)
-      if (factor.type == TomlNode::Type::text)
-        one.factors.emplace_back(factor.key, factor.text);
-      else if (factor.type == TomlNode::Type::whole || factor.type == TomlNode::Type::number)
-        one.factors.emplace_back(factor.key, job::canonical_text(factor));
-      else
-        faults_.add(factor.place, fmt::format("factor {} must be a text or a number, not {}",
-                                              factor.key, job::describe(factor)));
-  }
-
-  void read_twin(const TomlNode& table) {
-    WrittenTwin twin;
-    twin.shared.place = table.place;
-    bool has_seed = false;
-    Keys keys;
-    add_shared_keys(keys, twin.shared, twin.name, "twin");
-    keys["seed"] = [&](const TomlNode& node) {
-      twin.seeds = seeds_of(node, faults_);
-      has_seed = true;
-    };
-    add_twin_keys(keys, twin.options, faults_);
-    read_keys(table, "in [[twin]]", keys, faults_);
-    finish_twin(table, twin.options, faults_);
-    if (!has_seed) faults_.add(table.place, "[[twin]] has no seed", "write seed = \"1..1000\"");
-    TomlNode words = table;
-    std::erase_if(words.items, [](const TomlNode& item) {
-      return item.key == "name" || item.key == "seed" || item.key == "set" || item.key == "factors";
-    });
-    twin.text = job::canonical_text(words);
-    written_.twins.push_back(std::move(twin));
-  }
-
   void add_list() {
     if (written_.list.empty()) return;
     try {
@@ -200,8 +71,6 @@ private:
                     fault.hint);
     }
   }
-
-  // ---- what it amounts to ----
 
   std::string beside_study(const std::string& name) const {
     return (folder_ / name).lexically_normal().string();

@@ -10,6 +10,7 @@
 #include "data/file_list.h"
 #include "io/atomic_file.h"
 #include "job/toml_tree.h"
+#include "study/toml_values.h"
 
 namespace frictab::study {
 
@@ -26,6 +27,16 @@ void erase_keys(TomlNode* table, const std::vector<std::string>& names) {
   std::erase_if(table->items, [&](const TomlNode& item) {
     return std::find(names.begin(), names.end(), item.key) != names.end();
   });
+}
+
+// A campaign has its files by itself: an override of them would be passed over.
+void check_overrides(const std::vector<std::string>& set, FaultList& faults) {
+  for (std::size_t i = 0; i < set.size(); ++i)
+    for (const char* key : {"data.training", "data.validation", "data.oracle", "output.directory"})
+      if (set[i].substr(0, set[i].find_first_of(" =")) == key)
+        faults.add({fmt::format("--set {}", i + 1), 0, 0},
+                   fmt::format("a study does not take {}", key),
+                   "files stand in campaigns, the directory in study.toml");
 }
 
 // The job's words without where files lie: what these hold is hashed instead.
@@ -76,7 +87,6 @@ std::string fingerprint_of(const job::Job& job, const std::string& words) {
 ResolvedJobs::ResolvedJobs(std::string file, std::vector<std::string> set)
     : file_(std::move(file)), text_(io::read_file(file_)),
       folder_(fs::path(file_).parent_path().string()), set_(std::move(set)) {
-  FaultList faults;
   jobs_.push_back(resolve({}));
   known_[{}] = 0;
 }
@@ -84,9 +94,18 @@ ResolvedJobs::ResolvedJobs(std::string file, std::vector<std::string> set)
 ResolvedJob ResolvedJobs::resolve(const std::vector<std::string>& set) const {
   std::vector<std::string> all = set;
   all.insert(all.end(), set_.begin(), set_.end());
+  FaultList faults;
+  check_overrides(all, faults);
   std::vector<std::string> with_data = all;
   with_data.emplace_back(some_data);
-  ResolvedJob resolved{job::parse_job(text_, file_, with_data), ""};
+  ResolvedJob resolved;
+  try {
+    resolved.job = job::parse_job(text_, file_, with_data);
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      faults.add(fault.place, fault.what, fault.hint);
+  }
+  faults.throw_if_any();
   data::DataOptions& data = resolved.job.data;
   data.training.clear();
   data.validation.clear();
@@ -103,10 +122,7 @@ std::size_t ResolvedJobs::find(const std::vector<std::string>& set, const Place&
     jobs_.push_back(resolve(set));
   } catch (const InputError& error) {
     at->second = 0;
-    for (const Fault& fault : error.faults()) {
-      const std::string from = format_place(fault.place);
-      faults.add(place, (from.empty() ? "" : from + ": ") + fault.what, fault.hint);
-    }
+    add_at(place, error, faults);
   }
   return at->second;
 }

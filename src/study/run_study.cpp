@@ -2,6 +2,7 @@
 #include "study/run_study.h"
 
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <unordered_set>
@@ -26,20 +27,23 @@ namespace {
 constexpr const char* twin_folder = "twin";
 
 std::vector<std::string> write_part(const twin::TwinPart& part, const std::string& name,
-                                    io::OutputFiles& files, const fs::path& folder) {
+                                    const fs::path& folder) {
   if (part.data.rows() == 0) return {};
-  files.write(name, data::csv_text(part.data));
-  return {fs::absolute(folder / name).string()};
+  const fs::path file = fs::absolute(folder / name);
+  std::ofstream out(file, std::ios::binary);
+  out << data::csv_text(part.data);
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+  return {file.string()};
 }
 
 void write_twin(const Study& study, const TwinSeed& which, const fs::path& folder, job::Job& job) {
   twin::TwinOptions options = study.twins[which.block].options;
   options.seed = which.seed;
   const twin::Twin twin = twin::make_twin(options);
-  io::OutputFiles files(folder);
-  job.data.training = write_part(twin.training, "training.csv", files, folder);
-  job.data.validation = write_part(twin.validation, "validation.csv", files, folder);
-  files.commit();
+  fs::create_directory(folder);
+  job.data.training = write_part(twin.training, "training.csv", folder);
+  job.data.validation = write_part(twin.validation, "validation.csv", folder);
 }
 
 // Laws are compared before laws with effects join them.

@@ -66,9 +66,15 @@ std::string size_sentence(const Plan& plan, const Tally& tally) {
   return text;
 }
 
+// A study called study.toml says nothing: its folder is the name then.
+std::string name_of(const std::string& study_file) {
+  const std::filesystem::path file = std::filesystem::absolute(study_file);
+  const std::string folder = file.parent_path().filename().string();
+  return file.filename() == "study.toml" && !folder.empty() ? folder : file.filename().string();
+}
+
 void add_head(TemplateValues& page, const Plan& plan, const Tally& tally) {
-  page.text["title"] =
-      svg::escape(std::filesystem::path(report::shown_path(plan.study.file)).string());
+  page.text["title"] = svg::escape(name_of(plan.study.file));
   page.text["style"] = std::string(codegen::embedded_template("report/style.css"));
   page.flags["synthetic"] = tally.synthetic > 0;
   page.text["synthetic_text"] =

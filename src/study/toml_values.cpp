@@ -82,10 +82,11 @@ std::vector<const TomlNode*> tables_of(const TomlNode& node, const std::string& 
   return tables;
 }
 
-void add_at(const Place& place, const InputError& error, FaultList& faults) {
+void add_at(const Place& place, const InputError& error, FaultList& faults,
+            const std::string& about) {
   for (const Fault& fault : error.faults()) {
     const std::string from = format_place(fault.place);
-    faults.add(place, (from.empty() ? "" : from + ": ") + fault.what, fault.hint);
+    faults.add(place, about + (from.empty() ? "" : from + ": ") + fault.what, fault.hint);
   }
 }
 

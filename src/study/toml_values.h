@@ -31,7 +31,8 @@ void read_keys(const job::TomlNode& table, const std::string& where, const Keys&
 std::vector<const job::TomlNode*> tables_of(const job::TomlNode& node, const std::string& name,
                                             FaultList& faults);
 
-// Its faults told at `place`, each behind the place that it named: "--set 1: ...".
-void add_at(const Place& place, const InputError& error, FaultList& faults);
+// Its faults told at `place`, each behind `about` and the place that it named: "--set 1: ...".
+void add_at(const Place& place, const InputError& error, FaultList& faults,
+            const std::string& about = "");
 
 } // namespace frictab::study

@@ -1,0 +1,34 @@
+// study.toml as it is written, before jobs and data are looked at.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/campaign_list.h"
+#include "study/study.h"
+#include "study/twin_block.h"
+
+namespace frictab::study {
+
+// A block [[twin]] as it is written.
+struct WrittenTwin {
+  std::string name = "twin", text;
+  Seeds seeds;
+  twin::TwinOptions options;
+  WrittenCampaign shared; // its set and factors hold for every seed
+};
+
+struct WrittenStudy {
+  std::string job, list;
+  std::string directory = "study";
+  LastStage stage = LastStage::trace;
+  std::vector<WrittenCampaign> campaigns;
+  std::vector<WrittenTwin> twins;
+  Place job_place, list_place;
+};
+
+// Key by key. Faults are added; throws InputError where it is no TOML.
+WrittenStudy read_written(std::string_view text, const std::string& file, FaultList& faults);
+
+} // namespace frictab::study

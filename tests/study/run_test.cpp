@@ -1,0 +1,119 @@
+// Studies as users run them: what is missing is computed, what is there stays.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "study/small_study.h"
+#include "support/json.h"
+
+namespace frictab::study_run_test {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using testing::HasSubstr;
+
+class StudyRun : public test::SmallStudy {
+protected:
+  std::size_t results() const {
+    std::error_code none;
+    const fs::directory_iterator all(directory.path("study/results"), none);
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
+};
+using SlowStudyRun = StudyRun;
+
+TEST_F(StudyRun, ComputesWhatIsMissingAndAChangedCampaignAgain) {
+  write_three();
+  EXPECT_EQ(frictab({"study", "run"}).out, "3 computed, 0 were there, 0 failed\n");
+  EXPECT_EQ(frictab({"study", "run"}).out, "0 computed, 3 were there, 0 failed\n");
+  change_a_digit("b/training.csv");
+  EXPECT_EQ(frictab({"study", "run"}).out, "1 computed, 2 were there, 0 failed\n");
+  EXPECT_EQ(results(), 4u) << "the former result stays";
+  const CommandResult report = frictab({"study", "report", "--json"});
+  EXPECT_EQ(test::parse_json(report.out)["done"], 3);
+}
+
+TEST_F(StudyRun, KeepsFailuresAndGoesOn) {
+  write_three();
+  directory.write("b/training.csv", "experiment,tau_R_MPa\na,1\n");
+  const CommandResult run = frictab({"study", "run"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.out, "2 computed, 0 were there, 1 failed\n");
+  EXPECT_THAT(run.err, HasSubstr("error: 1 campaign failed\n  hint: `frictab study status"));
+  EXPECT_THAT(frictab({"study", "status"}).out, HasSubstr("failed: b: b/training.csv"));
+  EXPECT_EQ(frictab({"study", "run", "--failures-ok"}).exit_code, 0);
+  EXPECT_EQ(frictab({"study", "run", "--retry"}).out, "0 computed, 2 were there, 1 failed\n");
+  EXPECT_EQ(frictab({"study", "report"}).exit_code, 0);
+  EXPECT_THAT(directory.read("study/campaigns.csv"), HasSubstr("failed"));
+}
+
+TEST_F(StudyRun, OfShardsWritesTheSameBytesAsOneProcess) {
+  directory.write("study.toml", test::twin_study(12));
+  ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
+  std::size_t computed = 0;
+  for (const char* shard : {"2/3", "1/3", "3/3"})
+    computed +=
+        test::parse_json(frictab({"study", "run", "--shard", shard, "--json"}).out)["computed"]
+            .get<std::size_t>();
+  EXPECT_EQ(computed, 12u);
+  EXPECT_EQ(difference("whole/results", "study/results"), "");
+}
+
+TEST_F(StudyRun, LeavesNoDataOfTheTwinAndNoWorkingDirectory) {
+  directory.write("study.toml", test::twin_study(2));
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(directory.path("study"))) {
+    EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+    EXPECT_NE(entry.path().filename(), "training.csv") << entry.path();
+  }
+}
+
+TEST_F(StudyRun, ReportsTheSameBytesAgain) {
+  directory.write("study.toml", test::twin_study(3));
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  ASSERT_EQ(frictab({"study", "report"}).exit_code, 0);
+  const std::string page = directory.read("study/report.html"),
+                    table = directory.read("study/campaigns.csv");
+  ASSERT_EQ(frictab({"study", "report", "-j1"}).exit_code, 0);
+  EXPECT_EQ(directory.read("study/report.html"), page);
+  EXPECT_EQ(directory.read("study/campaigns.csv"), table);
+}
+
+TEST_F(SlowStudyRun, ThatIsKilledIsFinishedByTheNextToTheSameBytes) {
+  directory.write("study.toml", test::twin_study(24));
+  ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
+  const std::string script =
+      "mkdir -p study/results\n" FRICTAB_BINARY " study run -j1 -q &\npid=$!\n"
+      "until [ $(ls study/results | wc -l) -ge 3 ]; do sleep 0.01; done\n"
+      "kill -9 $pid; wait $pid; [ $? = 137 ]\n";
+  ASSERT_EQ(test::run_command({"sh", "-c", script}, directory.path()).exit_code, 0);
+  ASSERT_GE(results(), 3u);
+  const auto json = test::parse_json(frictab({"study", "run", "--json"}).out);
+  EXPECT_EQ(json["failed"], 0);
+  EXPECT_GE(json["computed"].get<int>() + json["there"].get<int>(), 24);
+  EXPECT_EQ(difference("whole/results", "study/results"), "") << "nothing of the killed one stays";
+}
+
+TEST_F(SlowStudyRun, OfTwoProcessesAtOnceWritesTheSameBytesAsOne) {
+  directory.write("study.toml", test::twin_study(12));
+  ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
+  const std::string both = FRICTAB_BINARY " study run -j1 & " FRICTAB_BINARY
+                                          " study run -j1; a=$?; wait $!; [ $a$? = 00 ]";
+  const CommandResult result = test::run_command({"sh", "-c", both}, directory.path());
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(difference("whole/results", "study/results"), "");
+}
+
+TEST_F(SlowStudyRun, ThroughAllStagesHasTablesAndRoutines) {
+  directory.write("study.toml", test::twin_study(1));
+  ASSERT_EQ(frictab({"study", "run", "--stage", "run", "--set", "table.tolerance_MPa=5"}).exit_code,
+            0);
+  std::size_t tables = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(directory.path("study/results")))
+    tables += entry.path().extension() == ".h5";
+  EXPECT_EQ(tables, 1u);
+}
+
+} // namespace
+} // namespace frictab::study_run_test
