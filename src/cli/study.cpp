@@ -84,7 +84,7 @@ int run(const Options& options, const CommonOptions& common) {
                "--failures-ok they are left to the report\n",
                counts.failed == 1 ? "1 campaign" : thousands(counts.failed) + " campaigns",
                printable(plan.study.file));
-    return 2;
+    return counts.broken > 0 ? 3 : 2;
   }
   return counts.missed > 0 ? 1 : 0;
 }

@@ -76,7 +76,8 @@ Explanation about_exit_codes() {
             "further apart than `table diff --max-MPa`",
             {}},
            {"2",
-            "usage, job file or input data wrong; results that are stale. Nothing was written",
+            "usage, job file or input data wrong; results that are stale. Nothing was written; by "
+            "`study run` all campaigns but those that failed",
             {}},
            {"3",
             "anything else: a full disk, a compiler that fails, no memory, `doctor` that "

@@ -16,4 +16,7 @@ void add_parameters(codegen::TemplateValues& page, const Plan& plan, const Tally
                     const std::vector<FactorLevels>& factors,
                     const std::vector<std::string>& notes);
 
+// The first campaigns that have a result.
+void add_campaigns(codegen::TemplateValues& page, const Plan& plan, const Tally& tally);
+
 } // namespace frictab::study

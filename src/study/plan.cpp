@@ -95,10 +95,12 @@ Found::Found(const std::string& directory) {
   std::error_code none; // no directory: nothing is there
   for (const auto& entry : fs::directory_iterator(fs::path(directory) / results_folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (const auto key = read_key(name))
+    if (const auto key = read_key(name)) {
       done.insert(*key);
-    else if (name.starts_with("."))
+    } else if (name.starts_with(".") && name.size() > 17) { // .KEY.XXXXXX
       ++unfinished;
+      if (const auto open = read_key(std::string_view(name).substr(1, 16))) begun.insert(*open);
+    }
   }
   for (const auto& entry : fs::directory_iterator(fs::path(directory) / failures_folder, none))
     if (const auto key = read_key(entry.path().stem().string())) failed.insert(*key);

@@ -36,7 +36,9 @@ struct Found {
   State state(std::uint64_t key) const;
 
   std::unordered_set<std::uint64_t> done, failed;
-  std::size_t unfinished = 0; // working directories, of processes that run or were killed
+  // Those with working directories, of processes that run or were ended, and how many there are.
+  std::unordered_set<std::uint64_t> begun;
+  std::size_t unfinished = 0;
 };
 
 // Campaigns by their state.

@@ -66,9 +66,15 @@ public:
       : plan_(plan), options_(options), directory_(plan.study.directory), found_(directory_) {}
 
   RunCounts run() {
-    const Progress progress("campaigns", plan_.keys.size());
-    for (std::size_t i = 0; i < plan_.keys.size(); ++i) {
-      if (options_.shard.has(plan_.keys[i]) && seen_.insert(plan_.keys[i]).second) take(i);
+    std::vector<std::size_t> now, last;
+    for (std::size_t i = 0; i < plan_.keys.size(); ++i)
+      if (options_.shard.has(plan_.keys[i]) && seen_.insert(plan_.keys[i]).second)
+        (found_.begun.count(plan_.keys[i]) > 0 ? last : now).push_back(i);
+    // What ended another process may end this one: the others first.
+    now.insert(now.end(), last.begin(), last.end());
+    const Progress progress("campaigns", now.size());
+    for (const std::size_t i : now) {
+      take(i);
       progress.tick();
     }
     return counts_;
@@ -141,10 +147,10 @@ private:
 
   // What killed processes left of this campaign. One that still computes it has nothing to give.
   void clear_killed(std::uint64_t key) const {
+    if (found_.begun.count(key) == 0) return;
     std::error_code ignored;
     const std::string prefix = "." + key_text(key) + ".";
     std::vector<fs::path> left;
-    if (found_.unfinished == 0) return;
     for (const auto& entry : fs::directory_iterator(fs::path(directory_) / results_folder, ignored))
       if (entry.path().filename().string().starts_with(prefix)) left.push_back(entry.path());
     for (const fs::path& path : left)
@@ -158,6 +164,7 @@ private:
       return;
     }
     ++counts_.failed;
+    counts_.broken += !by_input;
     write_failure(directory_, key, {plan_.study.campaigns[i].name, message, by_input});
   }
 

@@ -15,6 +15,7 @@ struct RunOptions {
 // Of the shard's campaigns.
 struct RunCounts {
   std::size_t computed = 0, there = 0, failed = 0; // failed: now or before
+  std::size_t broken = 0;                          // of those: not by their job or data
   std::size_t elsewhere = 0;                       // another process was first
   std::size_t missed = 0;                          // computed now, with a target missed
 };

@@ -14,7 +14,6 @@
 #include "study/law_order.h"
 #include "study/page_sections.h"
 #include "study/report_study.h"
-#include "study/row_plot.h"
 
 namespace frictab::study {
 
@@ -195,63 +194,6 @@ void add_failures(TemplateValues& page, const Plan& plan, const Tally& tally) {
   if (more > 0)
     page.lists["failure_notes"].push_back(
         codegen::item(fmt::format("And {} more, in campaigns.csv.", thousands(more))));
-}
-
-// ---- campaigns as small multiples ----
-
-constexpr std::size_t most_laws = 6;
-
-// Constants of the literature may be many times worse: they leave the plot.
-svg::Axis shared_axis(const Tally& tally) {
-  double high = 0;
-  for (const Shown& one : tally.shown)
-    for (std::size_t i = 0; i < one.result.laws.size() && i < most_laws; ++i)
-      if (const LawResult& law = one.result.laws[i];
-          law.mae_MPa <= 4 * one.result.laws.front().mae_MPa)
-        high = std::max({high, law.mae_MPa,
-                         std::isfinite(law.mae_interval.high)
-                             ? std::min(law.mae_interval.high, 3 * law.mae_MPa)
-                             : 0.0});
-  return svg::nice_axis(0, high > 0 ? high : 1, 3, "MAE in MPa");
-}
-
-std::string campaign_plot(const std::string& name, const CampaignResult& result,
-                          const svg::Axis& axis) {
-  std::vector<PlotRow> rows;
-  for (std::size_t i = 0; i < result.laws.size() && i < most_laws; ++i) {
-    const LawResult& law = result.laws[i];
-    rows.push_back({law.law + " " + report::figures(law.mae_MPa), law.mae_MPa, law.mae_interval.low,
-                    law.mae_interval.high, law.best_p_value < 0.05});
-  }
-  return row_plot(rows, axis, 200, "laws of campaign " + name,
-                  "mean absolute error of each law with its 95 % interval");
-}
-
-std::string about_text(const Study& study, const Campaign& campaign, const CampaignResult& result) {
-  std::string text;
-  for (std::size_t i = 0; i < campaign.factors.size(); ++i)
-    if (!campaign.factors[i].empty()) text += study.factors[i] + " " + campaign.factors[i] + ", ";
-  return text + report::count_of(result.experiments, "test") +
-         (result.synthetic ? ", synthetic" : "");
-}
-
-void add_campaigns(TemplateValues& page, const Plan& plan, const Tally& tally) {
-  const svg::Axis axis = shared_axis(tally);
-  page.lists["campaigns"];
-  for (const Shown& one : tally.shown) {
-    const Campaign& campaign = plan.study.campaigns[one.campaign];
-    page.lists["campaigns"].push_back(
-        {{{"name", svg::escape(campaign.name)},
-          {"about", svg::escape(about_text(plan.study, campaign, one.result))},
-          {"plot", campaign_plot(campaign.name, one.result, axis)}},
-         {},
-         {}});
-  }
-  page.text["shown_text"] =
-      tally.counts.done > tally.shown.size()
-          ? fmt::format("The first {} of {}, of each its first {} laws.",
-                        thousands(tally.shown.size()), thousands(tally.counts.done), most_laws)
-          : fmt::format("Of each its first {} laws.", most_laws);
 }
 
 } // namespace

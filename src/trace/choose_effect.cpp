@@ -265,10 +265,13 @@ public:
         whitener_(winner.noise, winner.predicted, search.blocks, search.campaign().nuisance) {
     MatrixXd known = search.base.jacobian;
     append_columns(known, search.trained());
-    for (std::size_t i = 0; i < winner.effects.size(); ++i)
-      if (i != index)
-        append_columns(known, search.sensitivities()[site_of(winner.effects[i])].asDiagonal() *
+    for (std::size_t i = 0; i < winner.effects.size(); ++i) {
+      const VectorXd& sensitivity = search.sensitivities()[site_of(winner.effects[i])];
+      // None: with the effects found since, its site no longer changes tau_R anywhere.
+      if (i != index && sensitivity.size() > 0)
+        append_columns(known, sensitivity.asDiagonal() *
                                   amplitude_basis(winner.effects[i], search.candidates.by_symbol));
+    }
     whitener_.apply(known);
     known_ = orthonormal(known);
     MatrixXd target = to_explain(search, winner, index);

@@ -120,6 +120,9 @@ protected:
     ASSERT_NO_FATAL_FAILURE(SmallCampaign::SetUp());
     write_job("[models]\nuse = [\"coulomb\", \"shear\"]\n[table]\nmodel = \"all\"\n"
               "tolerance_MPa = 3\n[export]\ntargets = [\"c\"]\n");
+    directory.write("study.toml", "job = \"job.toml\"\n[[campaign]]\nname = \"a\"\n"
+                                  "files = \"data/training.csv\"\n"
+                                  "validation = \"data/validation.csv\"\n");
   }
 };
 

@@ -143,6 +143,22 @@ TEST_F(SlowTraceCommand, ALawThatIsExactLacksNothing) {
   EXPECT_THAT(result.out, HasSubstr("coulomb lacks, by its residual: nothing"));
 }
 
+// In one fold of the nested search an effect is found on the limit, which effects found after it
+// leave without influence.
+TEST_F(SlowTraceCommand, GoesOnWhereALaterEffectTakesTheSiteOfAnEarlierOne) {
+  ASSERT_EQ(run_frictab({"twin", directory.path("data"), "-q", "--seed", "16", "--design",
+                         "p=1725,2005;psi=1,4.47,20;v=5,500;T=20,200;points=20;validation=6",
+                         "--effect", "form=power,column=humidity_pct,strength=0.5,on=mu"})
+                .exit_code,
+            0);
+  directory.write("job.toml", "[data]\ntraining = \"data/training.csv\"\n"
+                              "validation = \"data/validation.csv\"\n"
+                              "[models]\nuse = [\"coulomb\", \"shear\", \"log_coulomb\"]\n"
+                              "[calibration]\nbootstrap = 200\n");
+  const auto result = run_frictab({"trace", directory.path("job.toml")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(TraceCommand, NamesAColumnThatIsNotThere) {
   make({});
   ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);

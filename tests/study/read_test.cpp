@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "study/plan.h"
 #include "study/small_study.h"
 #include "study/study.h"
@@ -114,6 +115,18 @@ TEST_F(StudyFile, MayLieInAnotherFolderThanItsJob) {
   const study::Study study = parse("job = \"jobs/base.toml\"\n[[campaign]]\nname = \"a\"\nfiles = "
                                    "\"data/a.csv\"\n");
   EXPECT_EQ(study.campaigns[0].training, std::vector<std::string>{"../data/a.csv"});
+}
+
+TEST_F(StudyFile, OfTheDocumentationAndOfTheExampleAreRead) {
+  const std::string page = io::read_file(FRICTAB_SOURCE_DIR "/docs/study.md");
+  const std::size_t begin = page.find("```toml\n") + 8;
+  directory.write("list.csv", "name,files\none,a.csv\n");
+  const study::Study shown = parse(page.substr(begin, page.find("```", begin) - begin));
+  EXPECT_EQ(shown.campaigns.size(), 1002u);
+  EXPECT_EQ(shown.factors.size(), 4u);
+  const study::Study example =
+      study::read_study(FRICTAB_SOURCE_DIR "/examples/11_study/study.toml");
+  EXPECT_EQ(example.campaigns.size(), 30u);
 }
 
 TEST_F(StudyFile, GivesEachTwinASeedAndItsFactors) {
