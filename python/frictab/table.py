@@ -61,7 +61,10 @@ class Axis:
 
 
 class Table:
-    """A friction table. `axes`, `inputs`, `value` (as its units say), `attributes` of the root."""
+    """A friction table. `axes`, `inputs`, `value` (as its units say), `attributes` of the root;
+    `distance` of every node from the nearest test (1: what the data span of one axis), or None."""
+
+    distance = None
 
     def __init__(self, source, axes, value, attributes, root):
         self.source, self.axes, self.value = source, axes, value
@@ -273,4 +276,7 @@ def _read(file, path):
             raise FrictabError(f"{path}: axis {d} of 'value' has no dimension scale")
         scale = value.dims[d][0]
         axes.append(axis_of(scale.name.lstrip("/"), scale[()], plain(scale.attrs)))
-    return Table(path, axes, np.asarray(value[()], float), plain(value.attrs), plain(file.attrs))
+    table = Table(path, axes, np.asarray(value[()], float), plain(value.attrs), plain(file.attrs))
+    if "distance" in file:
+        table.distance = np.asarray(file["distance"][()], float)
+    return table

@@ -209,6 +209,14 @@ Explanation about_table_layout() {
       {"AXIS: share_beyond_data",
        "written for readers: share of the nodes that lie beyond them, 0 to 1",
        {}},
+      {"distance",
+       "written for readers: how far each node is from the nearest test; 1 is what the data span "
+       "of "
+       "one axis",
+       {}},
+      {"/: share_far",
+       "optional: share of the range, 0 to 1, that is further than 0.25 from every test",
+       {}},
       {"value: extension",
        "where a side says law: the law's own `value` (never its ln) as an expression of the axes "
        "and constants; a long one goes on in extension_2, extension_3, ...",

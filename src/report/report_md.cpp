@@ -10,6 +10,7 @@
 #include "report/report.h"
 #include "report/wiring.h"
 #include "table/bound.h"
+#include "table/distance.h"
 #include "trace/trace_text.h"
 
 namespace frictab::report {
@@ -48,6 +49,14 @@ void add_md_drift(std::string& out, const verify::Verification& verification) {
                        markdown_cell(r.subject), r.ran ? figures(r.worst_case_MPa) : "\u2013",
                        proven, result);
   }
+}
+
+void add_md_reach(std::string& out, const std::vector<table::Table>& tables) {
+  std::string lines;
+  for (const table::Table& table : tables)
+    if (const std::string far = table::distance_text(table); !far.empty())
+      lines += fmt::format("- {}: {}.\n", markdown_cell(table.model), far);
+  if (!lines.empty()) out += "\n## Tables and tests\n" + lines;
 }
 
 void add_md_traces(std::string& out, const ReportInput& input) {
@@ -94,6 +103,7 @@ std::string report_md(const ReportInput& input) {
   out += "\nData: " + size_text(calibration.judged_by, input.training, input.validation) + ".\n";
   add_md_ranking(out, calibration);
   add_md_drift(out, input.verification);
+  add_md_reach(out, input.tables);
   add_md_traces(out, input);
   add_md_wiring(out, input.recipes);
   add_md_remarks(out, calibration);

@@ -12,6 +12,7 @@
 #include "report/svg.h"
 #include "table/beyond_data.h"
 #include "table/bound.h"
+#include "table/distance.h"
 #include "verify/beyond.h"
 
 namespace frictab::report {
@@ -39,7 +40,9 @@ std::string summary_of(const table::Table& table) {
     text += (i ? ", " : "") + ("<code>" + svg::escape(inputs[i]) + "</code>");
   if (inputs.empty()) text += "none";
   const std::string edge = codegen::edge_text(table);
-  return text + "." + (edge.empty() ? "" : " It " + svg::escape(edge) + ".");
+  const std::string far = table::distance_text(table);
+  text += "." + (edge.empty() ? "" : " It " + svg::escape(edge) + ".");
+  return text + (far.empty() ? "" : " " + svg::escape(far) + ".");
 }
 
 // Table or the law itself: what a source holds of each.

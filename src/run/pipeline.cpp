@@ -21,6 +21,7 @@
 #include "run/chosen.h"
 #include "table/build.h"
 #include "table/direct.h"
+#include "table/distance.h"
 #include "table/stream.h"
 #include "table/table_file.h"
 #include "trace/trace_file.h"
@@ -388,6 +389,7 @@ Table Pipeline::made_table(const models::AssembledLaw& law) {
     return table;
   }
   table = sample_table(law);
+  if (job_.table.distance) table::add_distance(table, law, data_behind(law.model));
   table.record.tool_version = tool_version();
   table.record.data_hash = calibration_->data_hash;
   table.record.data_origin = calibration_->synthetic ? "synthetic" : "measured";

@@ -16,6 +16,7 @@
 #include "report/numbers.h"
 #include "run/ranking_text.h"
 #include "table/beyond_data.h"
+#include "table/distance.h"
 #include "trace/trace_text.h"
 #include "verify/forms.h"
 
@@ -68,6 +69,8 @@ std::string tables_text(const Pipeline& p) {
     for (const table::TableAxis& axis : table.axes)
       if (const std::string beyond = table::beyond_data_text(axis); !beyond.empty())
         out += fmt::format("  {:<{}} {}: {}\n", "", width, axis.name, beyond);
+    if (const std::string far = table::distance_text(table); !far.empty())
+      out += fmt::format("  {:<{}} {}\n", "", width, far);
     if (table.interpolation == table::Interpolation::linear && table.nodes() > many_nodes)
       out += fmt::format("  {:<{}} table.interpolation = \"cubic\" needs far fewer nodes where the "
                          "law is smooth\n",

@@ -28,6 +28,7 @@ nlohmann::ordered_json form_json(const verify::FormComparison& c) {
 nlohmann::ordered_json table_json(const table::Table& table) {
   nlohmann::ordered_json j = {
       {"model", table.model}, {"nodes", table.nodes()}, {"bytes", table.bytes()}};
+  if (table.record.share_far) j["share_far"] = *table.record.share_far;
   for (const table::TableAxis& axis : table.axes)
     if (axis.data)
       j["axes"].push_back({{"name", axis.name},

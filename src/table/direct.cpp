@@ -17,6 +17,7 @@ void add_extension(Table& table, const models::AssembledLaw& law) {
 Table direct_form(const models::AssembledLaw& law, const Table& table) {
   Table direct = table;
   direct.value.clear();
+  direct.distance.clear();
   direct.log_value = false;
   direct.interpolation = Interpolation::none;
   for (TableAxis& axis : direct.axes) {

@@ -12,6 +12,7 @@
 #include "io/json.h"
 #include "table/beyond_data.h"
 #include "table/bound.h"
+#include "table/distance.h"
 #include "table/outside.h"
 #include "table/states.h"
 
@@ -107,6 +108,7 @@ std::string info_text(const TableDescription& description, const std::string& fi
   for (const auto& [name, value] : table.constants)
     out += fmt::format("  {} = {}\n", name, shortest(value));
   add_drift(out, table);
+  if (const std::string far = distance_text(table); !far.empty()) out += "Tests: " + far + "\n";
   out += fmt::format("Nodes: {}, {} of values; {} in the file, {}\n", thousands(table.nodes()),
                      human_bytes(8.0 * static_cast<double>(table.nodes())),
                      human_bytes(static_cast<double>(description.layout.stored_bytes)),

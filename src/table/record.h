@@ -44,6 +44,7 @@ struct TableRecord {
   std::optional<double> proven_drift_MPa;    // no state in the range drifts further
   std::optional<double> asked_nodes;         // table.nodes of the job
   std::optional<double> asked_bytes;         // table.max_bytes of the job
+  std::optional<double> share_far;           // from every test, of the range (table/distance.h)
   std::map<std::string, InputRecord> inputs; // by name
   TableAttributes others;                    // of a file, kept as they are
 

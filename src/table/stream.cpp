@@ -173,7 +173,9 @@ bool is_streamed(const models::AssembledLaw& law, const std::vector<StateRange>&
   const auto axes = fixed_axes(law, ranges, options);
   if (!axes || axes->empty()) return false;
   const double bytes = 8.0 * static_cast<double>(count_nodes(*axes));
-  if (bytes <= options.memory_limit_MiB * (1 << 20)) return false;
+  // HDF5 puts smaller datasets where it likes, not at values_at.
+  if (bytes <= std::max(options.memory_limit_MiB * (1 << 20), static_cast<double>(values_at)))
+    return false;
   if (options.interpolation == Interpolation::cubic)
     throw InputError(options.place,
                      fmt::format("a cubic table of {} nodes ({}) is larger than "

@@ -61,6 +61,9 @@ struct Table {
                                // say only over which range it holds
   // Set: the values of a linear table that is too large for memory, and `value` is empty.
   std::shared_ptr<const io::StoredValues> stored;
+  // Per node, how far it is from the nearest test (table/distance.h); empty: not known, or read
+  // from a file, where it is for others to read.
+  std::vector<double> distance;
   models::PieceQuantity quantity = models::PieceQuantity::mu;
   bool log_value = false; // interpolate in ln value; every value is then > 0
   Interpolation interpolation = Interpolation::linear;

@@ -101,6 +101,19 @@ void write_coordinates(io::Hdf5Writer& out, const Table& table) {
   if (!logarithms.empty()) out.attribute("value", "coordinates", join(logarithms, " ")); // of CF
 }
 
+void write_distance(io::Hdf5Writer& out, const Table& table, const io::Hdf5Storage& storage) {
+  if (table.distance.empty()) return;
+  out.dataset("distance", table.shape(), table.distance, storage);
+  out.attribute("distance", "units", std::string("1"));
+  out.attribute("distance", "long_name", std::string("distance from the nearest test"));
+  out.attribute("distance", "comment",
+                std::string("Euclidean over the axes, each in its own coordinate (ln where its "
+                            "transform is log) and divided by what the data span of it: 1 is the "
+                            "whole range of the data of one axis"));
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    out.dimension_scale("distance", a, table.axes[a].name);
+}
+
 void write_attributes(io::Hdf5Writer& out, const Table& table) {
   write_coordinates(out, table);
   out.attribute("value", "comment", value_comment(table));
@@ -152,6 +165,7 @@ void write_table(const Table& table, const std::filesystem::path& file,
   else
     out.dataset("value", table.shape(), table.value, storage);
   write_attributes(out, table);
+  write_distance(out, table, storage);
   out.close();
 }
 
@@ -410,6 +424,8 @@ private:
     const double quantile = table_.quantile(), gain = table_.record.gain.value_or(1);
     if (!(quantile > 0 && quantile < 1)) fault(fmt::format("the quantile is {}", quantile));
     if (!(gain > 0) || !std::isfinite(gain)) fault(fmt::format("the gain is {}", gain));
+    const double share = table_.record.share_far.value_or(0);
+    if (!(share >= 0 && share <= 1)) fault(fmt::format("share_far is {}", share));
   }
 
   void read_extension() {

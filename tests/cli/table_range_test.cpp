@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/hdf5.h"
 #include "support/json.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
@@ -68,6 +69,41 @@ TEST_F(TableRange, RangeOfTheJobBeyondTheDataIsToldAsWell) {
   EXPECT_THAT(result.out, HasSubstr("beyond the data: from "));
   EXPECT_THAT(result.out, HasSubstr(" down to 1, from "));
   EXPECT_THAT(result.out, HasSubstr(" up to 1000 mm/s\n"));
+}
+
+TEST_F(TableRange, WhatIsFarFromEveryTestStandsInSummaryInfoAndReports) {
+  const std::string told = " % of its range is far from every test";
+  EXPECT_THAT(run("tabulate", "table1").out, HasSubstr(told));
+  EXPECT_THAT(run_frictab({"table", "info", directory.path("out/tables/wzl.h5")}).out,
+              HasSubstr(told));
+  run("report", "table1");
+  EXPECT_THAT(directory.read("out/report.html"), HasSubstr(told));
+  EXPECT_THAT(directory.read("out/report.md"), HasSubstr("\n## Tables and tests\n- wzl: "));
+  const auto result = run_frictab({"tabulate", job, "--set", "table.distance=false"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr(told)));
+}
+
+TEST_F(TableRange, OfATableLargerThanMemoryTheShareAloneIsTold) {
+  const auto result =
+      run_frictab({"tabulate", job, "--set", "table.memory_limit_MiB=0.5", "--set",
+                   "table.axes.sigma_n_MPa.nodes=60", "--set", "table.axes.v_rel_mm_s.nodes=60",
+                   "--set", "table.axes.T_contact_C.nodes=60"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(" % of its range is far from every test"));
+  const io::Hdf5Reader file(directory.path("out/tables/wzl.h5"), "wzl.h5");
+  EXPECT_FALSE(file.has("distance"));
+  EXPECT_TRUE(file.number_attribute("/", "share_far"));
+}
+
+TEST_F(TableRange, ASmallTableIsWrittenWhateverTheLimitOfMemory) {
+  const auto result =
+      run_frictab({"tabulate", job, "--set", "table.memory_limit_MiB=0.001", "--set",
+                   "table.axes.sigma_n_MPa.nodes=20", "--set", "table.axes.v_rel_mm_s.nodes=20",
+                   "--set", "table.axes.T_contact_C.nodes=20"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(run_frictab({"table", "info", directory.path("out/tables/wzl.h5")}).out,
+              HasSubstr("Nodes: 8,400, 65.6 KiB of values"));
 }
 
 TEST_F(TableRange, OtherWordsAreRefused) {

@@ -1,0 +1,176 @@
+// The nearest row of a test, by a k-d tree.
+#include "table/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "calibrate/input_columns.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "table/sampling.h"
+
+namespace frictab::table {
+
+namespace {
+
+constexpr double same_place = 0.01; // of the span: rows of one test that count once
+constexpr std::size_t share_points = 4096;
+
+// Of one axis: (u - low)/span, u its coordinate.
+struct Scale {
+  bool log = false;
+  double low = 0, span = 1;
+  double operator()(double x) const { return ((log ? std::log(x) : x) - low) / span; }
+};
+
+Scale scale_of(const TableAxis& axis, std::span<const double> values) {
+  Scale scale{axis.log, 0, 1};
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double value : values)
+    if (const double u = scale(value); std::isfinite(u)) {
+      low = std::min(low, u);
+      high = std::max(high, u);
+    }
+  if (!(high > low)) {
+    low = scale(axis.nodes.front());
+    high = scale(axis.nodes.back());
+  }
+  scale.low = low;
+  scale.span = high - low;
+  return scale;
+}
+
+// What nanoflann asks of points.
+struct Points {
+  std::size_t dims = 0;
+  std::vector<double> at; // dims numbers each
+  std::size_t kdtree_get_point_count() const { return at.size() / dims; }
+  double kdtree_get_pt(std::size_t i, std::size_t d) const { return at[i * dims + d]; }
+  template <class Box> bool kdtree_get_bbox(Box&) const { return false; }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Points>, Points, -1>;
+
+Points points_of(const std::vector<Scale>& scales,
+                 const std::vector<std::span<const double>>& columns,
+                 std::span<const std::size_t> first_row) {
+  Points points{scales.size(), {}};
+  std::vector<double> u(scales.size()), place;
+  for (std::size_t test = 0; test + 1 < first_row.size(); ++test) {
+    std::set<std::vector<double>> places;
+    std::vector<double> last;
+    for (std::size_t row = first_row[test]; row < first_row[test + 1]; ++row) {
+      for (std::size_t a = 0; a < u.size(); ++a)
+        u[a] = scales[a](columns[a][row]);
+      if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); })) continue;
+      place = u;
+      for (double& x : place)
+        x = std::floor(x / same_place);
+      if (place == last || !places.insert(place).second) continue;
+      last = place;
+      points.at.insert(points.at.end(), u.begin(), u.end());
+    }
+  }
+  return points;
+}
+
+} // namespace
+
+struct TestRows::Data {
+  std::vector<TableAxis> axes;
+  std::vector<Scale> scales;
+  Points points;
+  std::unique_ptr<Tree> tree; // none: no points
+
+  double nearest(const std::vector<double>& u) const {
+    unsigned index = 0;
+    double squared = HUGE_VAL;
+    if (tree) tree->knnSearch(u.data(), 1, &index, &squared);
+    return std::sqrt(squared);
+  }
+};
+
+TestRows::TestRows(std::vector<TableAxis> axes, const std::vector<std::span<const double>>& columns,
+                   std::span<const std::size_t> first_row)
+    : data_(std::make_unique<Data>()) {
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    data_->scales.push_back(scale_of(axes[a], columns[a]));
+  data_->axes = std::move(axes);
+  data_->points = points_of(data_->scales, columns, first_row);
+  if (!data_->points.at.empty())
+    data_->tree = std::make_unique<Tree>(data_->points.dims, data_->points);
+}
+
+TestRows::~TestRows() = default;
+
+bool TestRows::empty() const {
+  return data_->tree == nullptr;
+}
+
+double TestRows::distance(std::span<const double> state) const {
+  std::vector<double> u(state.size());
+  for (std::size_t a = 0; a < u.size(); ++a)
+    u[a] = data_->scales[a](state[a]);
+  return data_->nearest(u);
+}
+
+double TestRows::share_far() const {
+  const std::size_t dims = data_->axes.size();
+  std::vector<double> u(dims);
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < share_points; ++i) {
+    halton(i, u);
+    for (std::size_t a = 0; a < dims; ++a) {
+      const std::vector<double>& nodes = data_->axes[a].nodes;
+      const double low = data_->scales[a](nodes.front()), high = data_->scales[a](nodes.back());
+      u[a] = low + u[a] * (high - low);
+    }
+    beyond += data_->nearest(u) > far_from_tests;
+  }
+  return static_cast<double>(beyond) / static_cast<double>(share_points);
+}
+
+namespace {
+
+std::vector<double> at_nodes(const Table& table, const TestRows& rows) {
+  std::vector<double> distances(table.nodes());
+  parallel_for((distances.size() + sample_block - 1) / sample_block, [&](std::size_t block) {
+    const std::size_t end = std::min(distances.size(), (block + 1) * sample_block);
+    std::vector<double> state(table.axes.size());
+    for (std::size_t i = block * sample_block; i < end; ++i) {
+      std::size_t rest = i;
+      for (std::size_t a = state.size(); a-- > 0; rest /= table.axes[a].nodes.size())
+        state[a] = table.axes[a].nodes[rest % table.axes[a].nodes.size()];
+      distances[i] = rows.distance(state);
+    }
+  });
+  return distances;
+}
+
+} // namespace
+
+void add_distance(Table& table, const models::AssembledLaw& law, const data::Dataset& data) {
+  if (table.axes.empty()) return;
+  const calibrate::InputColumns inputs = calibrate::input_columns(law, law.inputs, data);
+  std::vector<std::span<const double>> columns;
+  for (const TableAxis& axis : table.axes)
+    for (std::size_t i = 0; i < inputs.names().size(); ++i)
+      if (inputs.names()[i] == axis.name) columns.push_back(inputs[i]);
+  const TestRows rows(table.axes, columns, data.first_row);
+  if (rows.empty()) return;
+  if (!table.stored) table.distance = at_nodes(table, rows);
+  table.record.share_far = rows.share_far();
+}
+
+std::string distance_text(const Table& table) {
+  if (!table.record.share_far) return "";
+  return fmt::format("{:.0f} % of its range is far from every test: by more than a quarter of what "
+                     "the data span of one axis",
+                     100 * *table.record.share_far);
+}
+
+} // namespace frictab::table
