@@ -13,8 +13,8 @@
 namespace frictab::table {
 
 // A linear table whose nodes the job fixes on every axis and whose values take more than
-// options.memory_limit_MiB, and more than 1 MiB, is streamed. Throws InputError where it is cubic: the coefficients of a
-// spline follow from all values at once.
+// options.memory_limit_MiB, and more than 1 MiB, is streamed. Throws InputError where it is cubic:
+// the coefficients of a spline follow from all values at once.
 bool is_streamed(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                  const TableOptions& options);
 

@@ -1,0 +1,141 @@
+// Laws that are tables, further: from a workbook, over five axes with a recorded column and a
+// history among them; traced; on any number of threads.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+
+namespace frictab::table_law_trace_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const char* const job_text = R"([data]
+training = "data/training.csv"
+validation = "data/validation.csv"
+[models]
+use = ["log_coulomb", "wide", "slid"]
+[models.wide]
+table = "wide.xlsx"
+interpolation = "linear"
+log_axes = ["v_rel_mm_s"]
+[models.slid]
+table = "slid.csv"
+interpolation = "linear"
+[table]
+model = ["wide", "slid_traced"]
+[export]
+targets = ["c"]
+[trace]
+models = ["wide", "slid"]
+)";
+
+// wide.xlsx from the lines of wide.csv.
+const char* const make_workbook = R"(
+import csv, zipfile
+rows = [[c if i == 0 else float(c) for c in r] for i, r in enumerate(csv.reader(open('wide.csv')))]
+cell = lambda c: ('t="inlineStr"><is><t>%s</t></is>' % c if isinstance(c, str) else '><v>%r</v>' % c)
+xml = ''.join('<row r="%d">%s</row>' % (i + 1, ''.join('<c r="%s%d" %s</c>' % ('ABCDEF'[j], i + 1, cell(c))
+              for j, c in enumerate(row))) for i, row in enumerate(rows))
+main = 'http://schemas.openxmlformats.org/spreadsheetml/2006/main'
+rel = 'http://schemas.openxmlformats.org/officeDocument/2006/relationships'
+package = 'http://schemas.openxmlformats.org/package/2006/'
+sheet = 'application/vnd.openxmlformats-officedocument.spreadsheetml.'
+with zipfile.ZipFile('wide.xlsx', 'w') as z:
+    z.writestr('[Content_Types].xml', '<Types xmlns="%scontent-types"><Override PartName="/xl/workbook.xml" ContentType="%ssheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="%sworksheet+xml"/></Types>' % (package, sheet, sheet))
+    z.writestr('_rels/.rels', '<Relationships xmlns="%srelationships"><Relationship Id="r1" Type="%s/officeDocument" Target="xl/workbook.xml"/></Relationships>' % (package, rel))
+    z.writestr('xl/workbook.xml', '<workbook xmlns="%s" xmlns:r="%s"><sheets><sheet name="1" sheetId="1" r:id="rId1"/></sheets></workbook>' % (main, rel))
+    z.writestr('xl/_rels/workbook.xml.rels', '<Relationships xmlns="%srelationships"><Relationship Id="rId1" Type="%s/worksheet" Target="worksheets/sheet1.xml"/></Relationships>' % (package, rel))
+    z.writestr('xl/worksheets/sheet1.xml', '<worksheet xmlns="%s"><sheetData>%s</sheetData></worksheet>' % (main, xml))
+)";
+
+// The run of one job on a SYNTHETIC campaign, for all claims.
+class SlowTracedTableLaw : public testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    directory = std::make_unique<test::TemporaryDirectory>();
+    ASSERT_EQ(frictab({"twin", "data", "--seed", "3", "--design",
+                       "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=40;validation=8"})
+                  .exit_code,
+              0);
+    write_tables();
+    directory->write("make.py", make_workbook);
+    if (test::run_command({"/usr/bin/python3", "make.py"}, directory->path()).exit_code != 0)
+      return;
+    directory->write("job.toml", job_text);
+    const auto result = frictab({"run", "job.toml", "-j", "1"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    summary = result.out;
+  }
+  static void TearDownTestSuite() { directory.reset(); }
+  void SetUp() override {
+    if (!fs::exists(directory->path("wide.xlsx"))) GTEST_SKIP() << "python3 is not installed";
+  }
+
+  static test::CommandResult frictab(const std::vector<std::string>& arguments) {
+    return test::run_frictab(arguments, directory->path());
+  }
+
+  static void write_tables() {
+    std::string wide = "sigma_n_MPa,v_rel_mm_s,psi,humidity_pct,friction_work,mu\n";
+    for (const double p : {500.0, 1500.0, 2500.0})
+      for (const double v : {5.0, 500.0})
+        for (const double psi : {1.0, 20.0})
+          for (const double humidity : {20.0, 80.0})
+            for (const double work : {0.0, 2000.0, 9000.0})
+              wide += fmt::format("{},{},{},{},{},{}\n", p, v, psi, humidity, work,
+                                  0.03 + 30 / p + 0.1 / (3 + v) + 1e-4 * psi + 1e-4 * humidity +
+                                      2e-3 * work / (1000 + work));
+    directory->write("wide.csv", wide);
+    directory->write("slid.csv", "sliding_distance,v_rel_mm_s,mu\n0,5,0.06\n50,5,0.07\n"
+                                 "0,500,0.055\n50,500,0.06\n");
+  }
+
+  static nlohmann::json json_of(const std::string& file) {
+    return nlohmann::json::parse(directory->read(file));
+  }
+
+  static std::unique_ptr<test::TemporaryDirectory> directory;
+  static std::string summary;
+};
+std::unique_ptr<test::TemporaryDirectory> SlowTracedTableLaw::directory;
+std::string SlowTracedTableLaw::summary;
+
+TEST_F(SlowTracedTableLaw, FromAWorkbookOverFiveAxesIsTabulatedAndVerified) {
+  const auto info =
+      nlohmann::json::parse(frictab({"table", "info", "out/tables/wide.h5", "--json"}).out);
+  std::vector<std::string> axes;
+  for (const auto& axis : info.at("axes"))
+    axes.push_back(axis.at("name"));
+  EXPECT_THAT(axes, testing::UnorderedElementsAre("sigma_n_MPa", "v_rel_mm_s", "psi",
+                                                  "humidity_pct", "friction_work"));
+  const auto verified = json_of("out/verify.json");
+  EXPECT_TRUE(verified.at("passed").get<bool>());
+  EXPECT_THAT(directory->read("out/export/c/wide/recipe.json"), HasSubstr("friction_work"));
+}
+
+// slid knows no pressure, and mu of the campaign falls with it.
+TEST_F(SlowTracedTableLaw, IsDeliveredWithTheEffectThatTheTraceFinds) {
+  const auto model = json_of("out/models/slid_traced.json");
+  EXPECT_THAT(model.dump(), HasSubstr("sigma_n_MPa"));
+  const auto traces = json_of("out/trace.json");
+  EXPECT_THAT(traces.dump(), HasSubstr("\"model\":\"slid\""));
+  EXPECT_THAT(traces.dump(), HasSubstr("effect_added"));
+  EXPECT_THAT(summary, HasSubstr("slid_traced"));
+}
+
+TEST_F(SlowTracedTableLaw, GivesTheSameBytesOnFourThreads) {
+  const auto result = frictab({"run", "job.toml", "-j", "4", "-o", "again"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto diff = test::run_command({"/usr/bin/diff", "-rq", "out", "again"}, directory->path());
+  EXPECT_EQ(diff.out, "");
+}
+
+} // namespace
+} // namespace frictab::table_law_trace_test
