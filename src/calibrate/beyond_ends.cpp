@@ -34,8 +34,7 @@ std::vector<std::string> rows_beyond_ends(const models::Law& law,
   }
   if (sides.empty()) return {};
   const auto count = static_cast<std::size_t>(std::count(any.begin(), any.end(), 1));
-  return {fmt::format("{} of {} {} rows lie beyond the axes of the table, where it is held at "
-                      "their ends: {}",
+  return {fmt::format("{} of {} {} rows lie beyond the ends at which the law is held: {}",
                       thousands(count), thousands(rows), data, join(sides, ", "))};
 }
 

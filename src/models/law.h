@@ -74,7 +74,7 @@ struct Law {
   bool log_value = false;               // tabulate ln(value): straight for products of powers
   std::map<std::string, bool> log_axes; // axis coordinate where it differs from the quantity's
   std::map<std::string, std::vector<double>> kinks; // on an axis, inside `value`: get a node each
-  std::map<std::string, std::pair<double, double>> held; // inputs held at these ends: a table's
+  std::map<std::string, std::pair<double, double>> held; // inputs held at these ends
   std::vector<std::string> may_use; // trained laws: states used where the data vary in them
   std::string base; // of a law with traced effects: the registered one it extends; else empty
   // Inputs that are text columns: the levels that their numbers 0, 1, ... stand for.

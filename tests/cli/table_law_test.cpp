@@ -96,9 +96,9 @@ TEST_F(SlowTableLaw, SaysWhichRowsLieBeyondItsAxes) {
   const CommandResult result = frictab({"calibrate", "job.toml"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(fit().at("remarks").dump(),
-            "[\"40 of 80 training rows lie beyond the axes of the table, where it is held at their "
-            "ends: v_rel_mm_s above 200 (40)\"]");
-  EXPECT_THAT(result.out, HasSubstr("lie beyond the axes of the table"));
+            "[\"40 of 80 training rows lie beyond the ends at which the law is held: v_rel_mm_s "
+            "above 200 (40)\"]");
+  EXPECT_THAT(result.out, HasSubstr("lie beyond the ends at which the law is held"));
 }
 
 TEST_F(SlowTableLaw, IsReadAgainWhenItsFileHasChanged) {

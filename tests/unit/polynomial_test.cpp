@@ -341,6 +341,20 @@ TEST(Polynomial, ModelFileReadsBackToTheSameBits) {
   EXPECT_EQ(calibrate::calibration_json(read), calibrate::calibration_json(calibration));
 }
 
+TEST(Polynomial, CountsRowsBeyondItsEndsAsARemark) {
+  const Dataset data = campaign(0.05, 5, 12);
+  Dataset beyond = data;
+  set(beyond, "v_rel_mm_s", 1e4);
+  calibrate::CalibrationInput input{data, beyond, {}, {}};
+  input.models.use = {"polynomial"};
+  const calibrate::Calibration calibration = calibrate::calibrate(input);
+  EXPECT_THAT(calibration.fits.front().remarks,
+              testing::Contains(testing::AllOf(
+                  testing::HasSubstr("validation rows lie beyond the ends at which the law is "
+                                     "held: "),
+                  testing::HasSubstr("v_rel_mm_s above "))));
+}
+
 TEST(Polynomial, NeedsFiveExperiments) {
   const Dataset data = campaign(0.05, 5, 4);
   const calibrate::Calibration calibration = calibrate::calibrate({data, data, {}, {}});
