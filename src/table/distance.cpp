@@ -35,12 +35,11 @@ Scale scale_of(const TableAxis& axis, std::span<const double> values) {
       low = std::min(low, u);
       high = std::max(high, u);
     }
-  if (!(high > low)) {
-    low = scale(axis.nodes.front());
-    high = scale(axis.nodes.back());
-  }
   scale.low = low;
-  scale.span = high - low;
+  if (high > low)
+    scale.span = high - low;
+  else if (!axis.log && std::abs(low) > 0)
+    scale.span = std::abs(low);
   return scale;
 }
 

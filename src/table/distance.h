@@ -2,8 +2,8 @@
 // the data are a box; tests fill it unevenly, and in its corners a law may never have been asked.
 //
 // Distance of two states: Euclidean over the axes of the table, each in its own coordinate (ln
-// where the axis is logarithmic) and divided by what the data span of it there; by the axis' own
-// span where the data hold one value. So 1 is the whole range of the data of one axis.
+// where the axis is logarithmic) and divided by what the data span of it there; where the data hold
+// one value, by that value (in ln by 1). So 1 is the whole range of the data of one axis.
 #pragma once
 
 #include <memory>

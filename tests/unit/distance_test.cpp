@@ -78,12 +78,15 @@ TEST(TestRows, AreAtDistanceZeroFromThemselvesAndOneFromTheOtherEndOfTheirRange)
   EXPECT_NEAR(rows.share_far(), 0.8, 0.002);
 }
 
-TEST(TestRows, OfOneValueTakeTheSpanOfTheAxis) {
+TEST(TestRows, OfOneValueTakeThatValueForTheSpan) {
   const std::vector<double> x{5, 5};
   const std::vector<std::size_t> first_row{0, 2};
   const TestRows rows({axis("x", false, 0, 10)}, {x}, first_row);
-  EXPECT_EQ(rows.distance(std::vector{10.0}), 0.5);
-  EXPECT_NEAR(rows.share_far(), 0.5, 0.002);
+  EXPECT_EQ(rows.distance(std::vector{10.0}), 1);
+  EXPECT_NEAR(rows.share_far(), 0.75, 0.002);
+  const TestRows widened({axis("x", true, 4.95, 5.05)}, {x}, first_row);
+  EXPECT_NEAR(widened.distance(std::vector{5.05}), 0.00995, 1e-5);
+  EXPECT_EQ(widened.share_far(), 0);
 }
 
 TEST(TestRows, WithoutAFiniteCoordinateDoNotCount) {
