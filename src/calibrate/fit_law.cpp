@@ -165,11 +165,22 @@ ModelFit fit_at_slip_distance(const models::Law& law, std::size_t parameter,
   ModelFit fit =
       fit_law(at_slip_distance(law, parameter, found.distance_mm), conventions, data, options);
   fit.evaluations += found.evaluations;
-  fit.std_error_method += ", at the " + distance.name + " found";
-  fit.remarks.push_back(fmt::format("{} = {:.4g} mm, the best of {} tries{}; it has no standard "
-                                    "error",
-                                    distance.name, found.distance_mm, found.evaluations,
-                                    found.at_bound ? ", at its bound" : ""));
+  Uncertainty joint =
+      slip_distance_uncertainty(law, parameter, found.distance_mm, fit.model, data, options);
+  const auto at = static_cast<std::ptrdiff_t>(parameter);
+  const double error = found.at_bound ? no_value : joint.std_error[parameter];
+  joint.std_error.erase(joint.std_error.begin() + at);
+  if (std::isfinite(error)) {
+    fit.std_error = std::move(joint.std_error);
+    fit.std_error_method += ", " + distance.name + " among the parameters";
+  } else
+    fit.std_error_method += ", at the " + distance.name + " found";
+  fit.remarks.push_back(fmt::format(
+      "{} = {:.4g} mm{}, the best of {} tries{}{}", distance.name, found.distance_mm,
+      std::isfinite(error) ? fmt::format(" \u00B1 {:.2g} (standard error by experiment)", error)
+                           : "",
+      found.evaluations, found.at_bound ? ", at its bound" : "",
+      std::isfinite(error) ? "" : "; it has no standard error"));
   return fit;
 }
 

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
 
+#include "calibrate/calibration.h"
 #include "calibrate/law_problem.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -112,6 +114,77 @@ SlipDistance find_slip_distance(const Law& law, std::size_t parameter,
     found.distance_mm = std::exp(refined(search, at - step, at, at + step, found.evaluations));
   }
   return found;
+}
+
+namespace {
+
+std::string value_name(const std::string& family) {
+  return "value_of_" + family;
+}
+std::string slope_name(const std::string& family) {
+  return "slope_of_" + family;
+}
+
+// The law with its distance as a parameter of the formula: state = value + (D - D0) slope.
+Law along_distance(const Law& law, const std::string& name, double distance_mm) {
+  std::map<std::string, expr::Expr> straight;
+  for (const auto& [family, rule] : data::slip_states())
+    straight.emplace(family + name, expr::Expr::symbol(value_name(family)) +
+                                        (expr::Expr::symbol(name) - distance_mm) *
+                                            expr::Expr::symbol(slope_name(family)));
+  Law along = law;
+  along.build = [build = law.build, straight](const models::Conventions& conventions) {
+    const models::Formula formula = build(conventions);
+    return models::Formula{substitute(formula.value, straight),
+                           substitute(formula.combine, straight)};
+  };
+  return along;
+}
+
+// Adds value and slope of every state of the law to the data.
+void add_states(Dataset& data, const std::vector<std::string>& inputs, const std::string& name,
+                double distance_mm) {
+  constexpr double step = 0.02;
+  for (const auto& [family, rule] : data::slip_states()) {
+    if (std::find(inputs.begin(), inputs.end(), family + name) == inputs.end()) continue;
+    const auto at = [&](double distance) {
+      const std::string state = data::slip_state_name(rule, distance); // rounds the distance
+      return std::pair{data::slip_state(state)->distance_mm,
+                       data::derive(*data::find_derived(state), data, {})};
+    };
+    const auto [low, below] = at(distance_mm * (1 - step));
+    const auto [high, above] = at(distance_mm * (1 + step));
+    std::vector<double> slope(data.rows());
+    for (std::size_t i = 0; i < slope.size(); ++i)
+      slope[i] = (above[i] - below[i]) / (high - low);
+    std::vector<double> value = at(distance_mm).second;
+    data.columns.push_back({value_name(family), "", std::move(value), {}});
+    data.columns.push_back({slope_name(family), "", std::move(slope), {}});
+  }
+}
+
+} // namespace
+
+Uncertainty slip_distance_uncertainty(const Law& law, std::size_t parameter, double distance_mm,
+                                      const models::Model& fitted, const Dataset& data,
+                                      const CalibrationOptions& options) {
+  const std::string& name = law.parameters[parameter].name;
+  const double rounded =
+      data::slip_state(data::slip_state_name(data::Continuation::aging, distance_mm))->distance_mm;
+  Dataset with_states = data;
+  add_states(with_states, models::inputs(law, fitted.conventions), name, rounded);
+  const std::vector<double> tau = predict(fitted, data);
+  LawFit fit;
+  fit.result.parameters = fitted.parameters;
+  fit.result.parameters.insert(
+      fit.result.parameters.begin() + static_cast<std::ptrdiff_t>(parameter), rounded);
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    fit.result.cost +=
+        std::abs(data.values("tau_R_MPa")[i] - tau[i]) / static_cast<double>(tau.size());
+  const Law along = along_distance(law, name, rounded);
+  LawProblem(along, fitted.conventions, with_states, tau)
+      .add_uncertainty(fit, options.loss, options.huber_delta_MPa, data.first_row);
+  return std::move(fit.uncertainty);
 }
 
 } // namespace frictab::calibrate

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "calibrate/options.h"
+#include "calibrate/sandwich.h"
 #include "data/dataset.h"
 #include "models/law.h"
 
@@ -30,5 +31,12 @@ struct SlipDistance {
 SlipDistance find_slip_distance(const models::Law& law, std::size_t parameter,
                                 const models::Conventions& conventions, const data::Dataset& data,
                                 const CalibrationOptions& options);
+
+// Standard errors of all parameters of `law`, the distance among them, by the cluster sandwich:
+// around the distance found the state is taken as straight in it, by central differences of its
+// solution at 2 % more and less. `fitted`: the others' values, at_slip_distance of `distance_mm`.
+Uncertainty slip_distance_uncertainty(const models::Law& law, std::size_t parameter,
+                                      double distance_mm, const models::Model& fitted,
+                                      const data::Dataset& data, const CalibrationOptions& options);
 
 } // namespace frictab::calibrate

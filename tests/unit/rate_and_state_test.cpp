@@ -1,12 +1,15 @@
 // Rate-and-state friction: the state's differential equations, its name, and the slip distance that
 // calibration finds.
 #include <cmath>
+#include <iostream>
+#include <numeric>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration.h"
 #include "calibrate/calibration_file.h"
+#include "calibrate/fit_law.h"
 #include "calibrate/slip_distance.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -128,9 +131,9 @@ TEST(RateAndState, DistanceStandsInTheNameToFourDigits) {
 }
 
 // Steps of speed over three decades, up and down in another order in each test.
-Dataset campaign(const models::Model& truth, double scatter, double noise) {
+Dataset campaign(const models::Model& truth, double scatter, double noise, std::uint64_t seed = 5) {
   std::vector<std::vector<double>> speeds;
-  Random random(5);
+  Random random(seed);
   for (int e = 0; e < 9; ++e) {
     std::vector<double> v;
     for (int step = 0; step < 8; ++step)
@@ -173,6 +176,14 @@ double distance_in(const models::Model& model) {
   return 0;
 }
 
+// "D_c = 0.0432 mm ± 0.0011 (standard error by experiment), ...".
+double distance_error_in(const calibrate::ModelFit& fit) {
+  for (const std::string& remark : fit.remarks)
+    if (const auto at = remark.find(" mm \u00B1 "); at != remark.npos)
+      return std::stod(remark.substr(at + std::string(" mm \u00B1 ").size()));
+  return std::nan("");
+}
+
 TEST(RateAndState, DistanceAndParametersAreFoundAgain) {
   for (const std::string law : {"rate_and_state_aging", "rate_and_state_slip"}) {
     const models::Model truth = truth_of(law, 0.0432);
@@ -187,6 +198,7 @@ TEST(RateAndState, DistanceAndParametersAreFoundAgain) {
       EXPECT_LT(std::abs(noisy.model.parameters[p] - truth.parameters[p]), 4 * noisy.std_error[p])
           << law << " " << p;
     EXPECT_THAT(noisy.remarks, testing::Contains(HasSubstr("D_c = 0.0")));
+    EXPECT_LT(std::abs(distance_in(noisy.model) - 0.0432), 4 * distance_error_in(noisy)) << law;
   }
 }
 
@@ -202,6 +214,41 @@ TEST(RateAndState, CalibrationIsTheSameForAnyNumberOfThreadsAndItsFileReadsBack)
   const models::Model again =
       calibrate::parse_model(calibrate::model_json(one.fits.front(), one), "model.json");
   EXPECT_EQ(calibrate::predict(again, data), calibrate::predict(one.fits.front().model, data));
+}
+
+TEST(SlowRateAndState, StandardErrorOfTheDistanceIsItsScatterBetweenCampaigns) {
+  for (const std::string law : {"rate_and_state_aging", "rate_and_state_slip"}) {
+    const models::Model truth = truth_of(law, 0.0432);
+    std::vector<double> errors, found;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+      const Dataset data = campaign(truth, 0.02, 0.1, seed);
+      const auto fit =
+          calibrate::fit_law(*job::literature().find(law), truth.conventions, data, {});
+      found.push_back(distance_in(fit.model));
+      errors.push_back(distance_error_in(fit));
+    }
+    const auto mean = [](const std::vector<double>& x) {
+      return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+    };
+    double squares = 0;
+    for (const double x : found)
+      squares += (x - mean(found)) * (x - mean(found));
+    const double scatter = std::sqrt(squares / static_cast<double>(found.size() - 1));
+    std::cout << law << ": mean " << mean(found) << " mm, scatter " << scatter
+              << " mm, standard error in the mean " << mean(errors) << " mm\n";
+    EXPECT_NEAR(mean(found), 0.0432, 3 * scatter / std::sqrt(24.0));
+    EXPECT_GT(mean(errors), 0.6 * scatter) << law;
+    EXPECT_LT(mean(errors), 1.6 * scatter) << law;
+  }
+}
+
+TEST(RateAndState, DistanceOfOneExperimentHasNoStandardError) {
+  const models::Model truth = truth_of("rate_and_state_aging", 0.0432);
+  const std::size_t one[] = {0};
+  const auto fit = calibrate::fit_law(*job::literature().find("rate_and_state_aging"),
+                                      truth.conventions, campaign(truth, 0, 0.02).subset(one), {});
+  EXPECT_THAT(fit.remarks, testing::Contains(HasSubstr("; it has no standard error")));
+  EXPECT_TRUE(std::isnan(distance_error_in(fit)));
 }
 
 std::string faults_of(const std::string& law) {
