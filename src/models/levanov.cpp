@@ -8,7 +8,7 @@ using expr::Expr;
 namespace {
 
 Formula build(const Conventions& conventions) {
-  const Expr saturation = 1.0 - exp(-1.25 * state::sigma_n() / state::sigma_f());
+  const Expr saturation = 1.0 - exp(-1.25 * state::sigma_n_over(state::sigma_f()));
   return {Expr::symbol("m") * shear_yield_stress(conventions) * saturation, state::value()};
 }
 

@@ -11,7 +11,7 @@ Formula build(const Conventions& conventions) {
   const Expr m = Expr::symbol("m"), n = Expr::symbol("n"), k = shear_yield_stress(conventions);
   // u/(1+u^n)^(1/n) = min(u,1)/(1+w^n)^(1/n) with w = min(u,1/u) <= 1: no power overflows for
   // large n, and one formula serves both sides of u = 1.
-  const Expr slope = state::value() / m, load = state::sigma_n() / k;
+  const Expr slope = state::value() / m, load = state::sigma_n_over(k);
   const Expr u = slope * load;
   const Expr ln_u = log(maximum(slope, 1e-100)) + log(maximum(load, 1e-100));
   const Expr w_n = exp(-n * maximum(ln_u, -ln_u));

@@ -23,6 +23,11 @@ inline expr::Expr sliding_distance() {
 inline expr::Expr sigma_f() {
   return expr::Expr::symbol("sigma_f_MPa");
 }
+// sigma_n over a strength of the workpiece, sigma_f or k. Nothing over nothing is nothing: where a
+// melt neither presses nor resists there is no friction.
+inline expr::Expr sigma_n_over(const expr::Expr& strength) {
+  return sigma_n() / maximum(strength, 1e-100);
+}
 inline expr::Expr value() {
   return expr::Expr::symbol("value");
 } // the tabulated piece, in `combine`

@@ -12,7 +12,7 @@ namespace {
 Formula build(const Conventions& conventions) {
   // f = 1 (full sticking) is where slopes become infinite: it is approached to 1e-12.
   const Expr f = Expr::symbol("f") * (1 - 1e-12);
-  const Expr q = state::sigma_n() / state::sigma_f();
+  const Expr q = state::sigma_n_over(state::sigma_f());
   // t1: tau/k at the proportional limit q1; C1 there; tau -> f k for large q. With root =
   // sqrt(1-f): f - t1 = root t1, so that nothing is divided by f - t1, which is 0 for f = 1.
   // Slip lines give the limit as p/k: as p/sigma_f it follows the k that the job means.

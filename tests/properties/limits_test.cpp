@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "expr/program.h"
+#include "job/literature.h"
 #include "models/assembled_law.h"
 #include "support/sample_data.h"
 
@@ -18,15 +19,17 @@ namespace {
 
 using models::Model;
 
-// At and far beyond the ends of what a rig or a process reaches; sigma_f falls to nothing in a
-// melt.
+// At and far beyond the ends of what a rig or a process reaches; sigma_f is nothing in a melt.
 const std::map<std::string, std::vector<double>> far = {
     {"sigma_n_MPa", {0, 1e-12, 1e-3, 1, 1000, 1e6}},
     {"psi", {1, 20, 1e6}},
     {"v_rel_mm_s", {0, 1e-9, 100, 1e6}},
     {"T_contact_C", {-273.15, 0, 20, 1500, 3000}},
     {"s_mm", {0, 1e6}},
-    {"sigma_f_MPa", {1e-6, 450, 1e5}}};
+    {"sigma_f_MPa", {0, 1e-6, 450, 1e5}},
+    // An age is above 0: D_c over the speed, however fast.
+    {"aging_state_over_D_c", {1e-9, 1, 1e9}},
+    {"slip_state_over_D_c", {1e-9, 1, 1e9}}};
 
 // Their coefficient may fall faster than the stress rises: docs/laws.md says so.
 const std::set<std::string> may_fall = {"log_coulomb", "neural_network"};
@@ -152,6 +155,39 @@ TEST_P(EveryLawFarOut, NeverLosesFrictionByMoreContactNormalStressUnlessItSaysSo
       }
     }
 }
+
+// Those of the literature at the constants that they come with, and anywhere within the bounds of
+// what is fitted.
+class EveryLawOfTheLiteratureFarOut : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryLawOfTheLiteratureFarOut, StaysFiniteAndBetweenZeroAndK) {
+  const models::Law& law = *job::literature().find(GetParam());
+  const models::Conventions conventions;
+  std::vector<std::string> names = models::inputs(law, conventions);
+  const expr::Program program(models::tau_formula(law, conventions), names,
+                              models::parameter_names(law));
+  const std::size_t sigma_f = place_of(names, "sigma_f_MPa");
+  Model model;
+  model.law = models::unregistered_law(law);
+  for (const models::Parameter& parameter : law.parameters)
+    model.parameters.push_back(parameter.start);
+  for (const std::vector<double>& row : far_states(names)) {
+    const double tau = program(row, model.parameters);
+    ASSERT_TRUE(std::isfinite(tau)) << words(row) << "| " << words(model.parameters);
+    ASSERT_GE(tau, 0) << words(row);
+    ASSERT_LE(tau, conventions.k_over_sigma_f * row[sigma_f]) << words(row);
+  }
+}
+
+std::vector<std::string> names_of_the_literature() {
+  std::vector<std::string> names;
+  for (const models::Law* law : job::literature().all())
+    if (!models::find_law(law->name)) names.push_back(law->name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Literature, EveryLawOfTheLiteratureFarOut,
+                         testing::ValuesIn(names_of_the_literature()), test_name);
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLawFarOut, testing::ValuesIn(models::law_names()),
                          test_name);
