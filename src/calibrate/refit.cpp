@@ -30,13 +30,6 @@ namespace {
 // times and not a hundred.
 constexpr std::size_t many_experiments = 30, usual_folds = 10;
 
-std::vector<std::size_t> folds_of(std::size_t experiments, std::uint64_t seed) {
-  if (experiments >= many_experiments) return experiment_folds(experiments, usual_folds, seed, 0);
-  std::vector<std::size_t> alone(experiments);
-  std::iota(alone.begin(), alone.end(), 0);
-  return alone;
-}
-
 ModelFit fitted_to(const Dataset& all, const models::Law& law,
                    const models::Conventions& conventions, const CalibrationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
@@ -45,8 +38,8 @@ ModelFit fitted_to(const Dataset& all, const models::Law& law,
   const models::AssembledLaw assembled(fit.model);
   const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
   fit.data_range = columns.ranges();
-  for (std::string& remark :
-       rows_beyond_ends(law, assembled.inputs, columns, all.rows(), "training and validation"))
+  for (std::string& remark : rows_beyond_ends(*fit.model.law, assembled.inputs, columns, all.rows(),
+                                              "training and validation"))
     fit.remarks.push_back(std::move(remark));
   fit.training =
       metrics(all.values("tau_R_MPa"), tau, all.first_row, options.bootstrap, options.seed);
@@ -89,7 +82,7 @@ std::string nothing_left_to_add(const Calibration& c) {
                      all);
 }
 
-// Laws with effects: the search for these has seen the training experiments alone.
+// Laws with effects that are not fitted again (trace/refit_traced.h).
 std::string traced_words(const Calibration& c) {
   std::vector<std::string> names;
   for (const ModelFit& fit : c.fits)
@@ -100,6 +93,13 @@ std::string traced_words(const Calibration& c) {
 }
 
 } // namespace
+
+std::vector<std::size_t> delivery_folds(std::size_t experiments, std::uint64_t seed) {
+  if (experiments >= many_experiments) return experiment_folds(experiments, usual_folds, seed, 0);
+  std::vector<std::size_t> alone(experiments);
+  std::iota(alone.begin(), alone.end(), 0);
+  return alone;
+}
 
 void refit_on_all(Calibration& calibration, const models::Conventions& conventions,
                   const CalibrationInput& input) {
@@ -115,7 +115,7 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
     fits[i] = fitted_to(all, *laws[i], conventions, input.options);
     progress.tick();
   });
-  const auto fold_of = folds_of(all.experiments.size(), input.options.seed);
+  const auto fold_of = delivery_folds(all.experiments.size(), input.options.seed);
   cross_validate_fits(fits, cross_validate(laws, conventions, all, input.options, fold_of),
                       input.options);
   calibration.delivery_folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;

@@ -2,7 +2,9 @@
 // on the others.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "calibrate/calibration.h"
 
@@ -14,6 +16,9 @@ namespace frictab::calibrate {
 // judged changes.
 void refit_on_all(Calibration& calibration, const models::Conventions& conventions,
                   const CalibrationInput& input);
+
+// The fold of each experiment in which errors of delivered laws are cross-validated.
+std::vector<std::size_t> delivery_folds(std::size_t experiments, std::uint64_t seed);
 
 // What is delivered, and what to expect of it on new experiments; without a full stop at the end.
 // Empty where there is nothing to tell: deliver = training, and all experiments are in it anyway.

@@ -258,8 +258,9 @@ void Pipeline::trace() {
                      "\"best\", or a name from the ranking");
   const Progress progress("tracing", fits.size());
   for (const ModelFit* fit : fits) {
-    traces_.push_back(trace::trace({data_->training, data_->validation, *fit, job_.trace,
-                                    job_.calibration.bootstrap, job_.calibration.seed}));
+    traces_.push_back(
+        trace::trace({data_->training, data_->validation, *fit, job_.trace,
+                      job_.calibration.bootstrap, job_.calibration.seed, data_->all()}));
     progress.tick();
   }
   add_traced_laws();
@@ -317,11 +318,14 @@ const models::AssembledLaw& Pipeline::assembled(const models::Model& model) {
   return laws_.try_emplace(model.name(), model).first->second;
 }
 
-// The tests that the delivered law was fitted to: its tables reach what they reach. A law with
-// effects stays as it was traced.
+// The tests that the delivered law was fitted to: its tables reach what they reach.
 const data::Dataset& Pipeline::data_behind(const models::Model& model) const {
   const data::Dataset* all = data_->all();
-  return all && !model.traced() ? *all : data_->training;
+  const bool on_all =
+      std::any_of(calibration_->fits.begin(), calibration_->fits.end(), [&](const ModelFit& fit) {
+        return fit.on_all && fit.model.law->name == model.law->name;
+      });
+  return all && on_all ? *all : data_->training;
 }
 
 void Pipeline::check_sizes() {

@@ -11,7 +11,6 @@
 #include "calibrate/experiment_errors.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
-#include "calibrate/sandwich.h"
 #include "core/no_value.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -20,40 +19,14 @@
 #include "trace/detectable.h"
 #include "trace/effect_curve.h"
 #include "trace/leads.h"
+#include "trace/refit_traced.h"
 #include "trace/scatter.h"
+#include "trace/uncertainty.h"
 #include "trace/verdict.h"
 
 namespace frictab::trace {
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-
-// What each test says about the parameters, by whitened residuals. (Nuisance columns are projected
-// out of all tests together; what a test's own share in them is worth is not counted.)
-std::vector<calibrate::ExperimentSums> sums_by_test(const Campaign& campaign, const Rival& rival) {
-  const Whitener whitener(rival.weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  MatrixXd jacobian = rival.jacobian;
-  MatrixXd residual = campaign.measured - rival.predicted;
-  whitener.apply(jacobian);
-  whitener.apply(residual);
-  std::vector<calibrate::ExperimentSums> sums;
-  const auto& first = campaign.blocks.first;
-  for (std::size_t e = 0; e + 1 < first.size(); ++e) {
-    const auto begin = static_cast<Index>(first[e]);
-    const auto count = static_cast<Index>(first[e + 1]) - begin;
-    const auto rows = jacobian.middleRows(begin, count);
-    sums.push_back(
-        {rows.transpose() * residual.col(0).segment(begin, count), rows.transpose() * rows});
-  }
-  return sums;
-}
-
-calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival) {
-  return calibrate::cluster_sandwich(bounded_law(campaign, rival).parameters, rival.parameters,
-                                     sums_by_test(campaign, rival), penalty_of(rival));
-}
 
 class Reporter {
 public:
@@ -149,6 +122,7 @@ private:
     judge(trace);
     trace.extended_model = fit.model.name();
     if (rival.effects.empty()) trace.after = {fit.training, fit.validation};
+    if (in_.all) fit.on_all = refit_traced(search_, delivery_, *in_.all);
   }
 
   // --- effects ------------------------------------------------------------------------------
@@ -259,8 +233,10 @@ const char* verdict_name(Verdict verdict) {
 
 Trace trace(const TraceInput& input) {
   const data::Dataset training = in_order_of_names(input.training);
-  const TraceInput sorted{training,      input.validation, input.fit,
-                          input.options, input.bootstrap,  input.seed};
+  const data::Dataset all = input.all ? in_order_of_names(*input.all) : data::Dataset{};
+  const TraceInput sorted{
+      training,   input.validation,          input.fit, input.options, input.bootstrap,
+      input.seed, input.all ? &all : nullptr};
   const std::unique_ptr<Search> search = search_effects(sorted);
   return Reporter(sorted, *search).run();
 }

@@ -24,6 +24,8 @@
 //     nested_errors    the whole search repeated without some tests
 //     delivery         which findings are delivered with the law
 //     leads, design    what is not, and the tests that would settle it, with candidate_tests
+//     refit_traced     the law with them, fitted again to all experiments
+//     uncertainty      standard errors of its parameters
 //     scatter          what stays unexplained
 //     detectable       what would have been found
 //     effect_curve     curves for plots
@@ -204,6 +206,8 @@ struct TraceInput {
   const TraceOptions& options;
   std::size_t bootstrap = 1000;
   std::uint64_t seed = 1;
+  // deliver = all: training and validation together, to which a law with effects is fitted again.
+  const data::Dataset* all = nullptr;
 };
 
 // An effect that shows in all of E experiments has a p-value of 2^(1-E) at best: how many of them

@@ -107,6 +107,39 @@ TEST_F(DeliveredLaws, AreAnotherKeyThanAnyOther) {
 
 struct SlowDeliveredLaws : DeliveredLaws {};
 
+// Coulomb's mu knows no state: the trace adds what it follows.
+TEST_F(SlowDeliveredLaws, WithTracedEffectsAreFittedToAllExperimentsAsWell) {
+  const std::vector<std::string> traced = {"--set", "models.use=[\"coulomb\"]", "--set",
+                                           "table.model=coulomb_traced"};
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), traced.begin(), traced.end());
+    return run(arguments);
+  };
+  ASSERT_EQ(with({"calibrate", "job.toml"}).exit_code, 0);
+  const CommandResult result = with({"trace", "job.toml"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto calibration = json("out/calibration.json");
+  const auto& models = calibration.at("models");
+  const auto fit = std::find_if(models.begin(), models.end(),
+                                [](const auto& one) { return one.at("name") == "coulomb_traced"; });
+  ASSERT_NE(fit, models.end()) << result.out;
+  EXPECT_EQ(fit->at("training").at("n_experiments"), 16);
+  EXPECT_EQ(fit->at("delivered").at("training").at("n_experiments"), 22);
+  EXPECT_EQ(fit->at("delivered").at("cross_validation").at("n_experiments"), 22);
+  const auto model = json("out/models/coulomb_traced.json");
+  EXPECT_EQ(model.at("parameters"), fit->at("delivered").at("parameters"));
+  EXPECT_NE(model.at("parameters"), fit->at("parameters"));
+  EXPECT_EQ(model.at("fitted_to"), "all");
+  EXPECT_THAT(directory.read("out/benchmark.md"),
+              testing::Not(HasSubstr("delivered as traced, fitted to the training")));
+  const CommandResult tables = with({"tabulate", "job.toml"});
+  EXPECT_EQ(tables.exit_code, 0) << tables.err;
+  const CommandResult verified =
+      run({"verify", "--table", "out/tables/coulomb_traced.h5", "--model",
+           "out/models/coulomb_traced.json", "--data", "data/training.csv"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
 TEST_F(SlowDeliveredLaws, OfAllExperimentsAreInTablesAndSources) {
   const CommandResult result = run({"run", "job.toml"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -1,0 +1,12 @@
+// Standard errors of a rival's parameters, with the test as the statistical unit.
+#pragma once
+
+#include "calibrate/sandwich.h"
+#include "trace/rivals.h"
+
+namespace frictab::trace {
+
+// The cluster sandwich of the residuals as the rival's weights whiten them.
+calibrate::Uncertainty uncertainty_of(const Campaign& campaign, const Rival& rival);
+
+} // namespace frictab::trace
