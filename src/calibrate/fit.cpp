@@ -134,7 +134,8 @@ public:
         why = end;
         break;
       }
-    return {x_, here_.cost, evaluations_, why, correction_};
+    const bool influence = (here_.hessian.diagonal().array() > 0).any();
+    return {x_, here_.cost, evaluations_, why, correction_, !influence};
   }
 
 private:

@@ -37,6 +37,9 @@ struct FitResult {
   // The rank-one correction of H, as it was in the end; a fit of the same law to similar rows may
   // start with it.
   Eigen::MatrixXd correction;
+  // No parameter moves any row there, as where the shear limit holds in all of them: that two fits
+  // end so says nothing of a minimum.
+  bool without_influence = false;
 };
 
 // Whether a parameter's bounds say that it is a positive scale of unknown size: it is then searched

@@ -95,6 +95,7 @@ std::vector<std::vector<double>> best_starts(const FitProblem& problem,
 bool agree(const std::vector<FitResult>& fits) {
   double first = std::numeric_limits<double>::infinity(), second = first;
   for (const FitResult& fit : fits) {
+    if (fit.without_influence) continue;
     second = std::min(second, std::max(first, fit.cost));
     first = std::min(first, fit.cost);
   }

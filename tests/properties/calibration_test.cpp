@@ -9,9 +9,11 @@
 
 #include "calibrate/calibration_file.h"
 #include "calibrate/experiment_errors.h"
+#include "calibrate/fit_law.h"
 #include "calibrate/metrics.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "job/job.h"
 #include "support/sample_data.h"
 
 namespace frictab::calibration_test {
@@ -114,6 +116,23 @@ TEST(SlowCalibration, OrowanFindsTheBestOfItsSeveralMinima) {
   for (int i = 0; i <= 150; ++i)
     for (int j = 0; j <= 100; ++j)
       ASSERT_LE(found, cost(0.03 + 0.001 * i, 0.1 + 0.009 * j) * (1 + 1e-12)) << i << " " << j;
+}
+
+// mu of the start, and of most of the bounds, is so large that tau_R is k in every row.
+TEST(Calibration, StartsAtWhichTheShearLimitHoldsEverywhereAreNoMinimum) {
+  const job::Job job = job::parse_job(
+      "[data]\ntraining = \"a.csv\"\n[models.mine]\n"
+      "formula = \"sigma_n_MPa*(mu0 + a*ln(v_rel_mm_s/0.001))\"\n[models.mine.parameters]\n"
+      "mu0 = { range = [0, 2], start = 0.6 }\na = { range = [-0.2, 0.2], start = 0.01 }\n",
+      "job.toml");
+  models::Model truth = test::plausible_model(*models::find_law("coulomb"));
+  truth.parameters = {0.05};
+  const data::Dataset data = test::sample_data(truth);
+  const calibrate::ModelFit fit =
+      calibrate::fit_law(*job.models.laws.find("mine"), truth.conventions, data, {});
+  const std::vector<double> tau = calibrate::predict(fit.model, data);
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    ASSERT_NEAR(tau[i], data.values("tau_R_MPa")[i], 1e-3);
 }
 
 TEST(Calibration, MeansAreThePapersWay) {
