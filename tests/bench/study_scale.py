@@ -17,14 +17,23 @@ DESIGN = "p=1725,2005;psi=1,20;v=5,500;T=20;points=10;validation=4"
 JOB = '[models]\nuse = ["coulomb", "shear", "log_coulomb"]\n[calibration]\nbootstrap = 100\n'
 
 
-def run(work, *arguments, out=subprocess.DEVNULL):
-    """Seconds and peak MiB."""
-    start = time.perf_counter()
-    process = subprocess.Popen([FRICTAB, "study", *arguments, "-q"], cwd=work, stdout=out)
+def start(work, *arguments, out=subprocess.DEVNULL):
+    return subprocess.Popen([FRICTAB, "study", *arguments, "-q"], cwd=work, stdout=out)
+
+
+def end(process):
+    """What the process used."""
     _, status, usage = os.wait4(process.pid, 0)
     if status:
-        sys.exit(f"frictab study {arguments} failed")
-    return time.perf_counter() - start, usage.ru_maxrss / 1024
+        sys.exit(f"{process.args} failed")
+    return usage
+
+
+def run(work, *arguments, out=subprocess.DEVNULL):
+    """Seconds, peak MiB and processor seconds."""
+    begin = time.perf_counter()
+    usage = end(start(work, *arguments, out=out))
+    return (time.perf_counter() - begin, usage.ru_maxrss / 1024, usage.ru_utime + usage.ru_stime)
 
 
 def write_study(work, keys, design=DESIGN, job=JOB, stage="calibrate"):
@@ -39,7 +48,7 @@ def write_study(work, keys, design=DESIGN, job=JOB, stage="calibrate"):
 def copy_results(work):
     """A result for every key of the plan."""
     with open(work / "plan.json", "w") as out:
-        seconds, mib = run(work, "plan", "--json", out=out)
+        seconds, mib, _ = run(work, "plan", "--json", out=out)
     print(f"plan: {seconds:.1f} s, {mib:.0f} MiB")
     run(work, "run", "--shard", "1/10000" if KEYS >= 10000 else "1/1")
     results = work / "study" / "results"
@@ -61,33 +70,33 @@ def copy_results(work):
 def scale(work):
     write_study(work, KEYS)
     copy_results(work)
-    seconds, mib = run(work, "report")
+    seconds, mib, _ = run(work, "report")
     page = (work / "study" / "report.html").stat().st_size / 1024
     rows = sum(1 for _ in open(work / "study" / "campaigns.csv")) - 1
     print(f"report of {KEYS:,} campaigns, {rows:,} rows: {seconds:.1f} s, {mib:.0f} MiB, page "
           f"{page:.0f} KiB")
-    seconds, mib = run(work, "run")
+    seconds, mib, _ = run(work, "run")
     print(f"run with nothing to do: {1000 * seconds / KEYS:.3f} s per 1,000 keys, {mib:.0f} MiB")
 
 
 def speed_up(work):
-    """Campaigns that take about half a second each."""
-    job = JOB.replace("100", "2000") + '[trace]\nmodels = ["coulomb"]\n'
+    """Campaigns that take about half a second each, with the network among their laws."""
+    job = JOB.replace('"shear"', '"neural_network"')
     design = "p=1725,2005;psi=1,4.47,20;v=5,500;T=20,200;points=20;validation=6"
-    write_study(work, 16, design, job, "trace")
-    one, _ = run(work, "run", "-j1", "-o", "one")
-    start = time.perf_counter()
-    parts = [subprocess.Popen([FRICTAB, "study", "run", "-j1", "-q", "-o", "two", "--shard",
-                               f"{i}/2"], cwd=work, stdout=subprocess.DEVNULL) for i in (1, 2)]
-    if any(part.wait() for part in parts):
-        sys.exit("a shard failed")
-    two = time.perf_counter() - start
+    write_study(work, 100, design, job)
+    one, _, one_cpu = run(work, "run", "-j1", "-o", "one")
+    begin = time.perf_counter()
+    parts = [start(work, "run", "-j1", "-o", "two", "--shard", f"{i}/2") for i in (1, 2)]
+    usage = [end(part) for part in parts]
+    two = time.perf_counter() - begin
+    cpu = [u.ru_utime + u.ru_stime for u in usage]
     same = subprocess.run(["diff", "-r", "one", "two"], cwd=work).returncode == 0
     counts = [sum(int(p.name, 16) % 2 == i for p in (work / "two/results").iterdir())
               for i in (0, 1)]
     print(f"two shards of {counts[0]} and {counts[1]} campaigns: {two:.1f} s, one process "
-          f"{one:.1f} s, {one / two:.2f} times; same bytes: {same}; load "
-          f"{os.getloadavg()[0]:.1f}")
+          f"{one:.1f} s, {one / two:.2f} times; processor time {cpu[0]:.1f} and {cpu[1]:.1f} s, "
+          f"one {one_cpu:.1f} s, {one_cpu / max(cpu):.2f} times the longer; same bytes: {same}; "
+          f"load {os.getloadavg()[0]:.1f}")
 
 
 FRICTAB = str(pathlib.Path(sys.argv[1]).resolve())
