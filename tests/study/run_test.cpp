@@ -69,6 +69,21 @@ TEST_F(StudyRun, LeavesNoDataOfTheTwinAndNoWorkingDirectory) {
   }
 }
 
+// What ended that process may end this one.
+TEST_F(StudyRun, ComputesLastWhatAnotherProcessBeganAndDidNotEnd) {
+  directory.write("study.toml", test::twin_study(3));
+  const auto plan = test::parse_json(frictab({"study", "plan", "--json"}).out);
+  const std::string first = plan["keys"][0]["key"];
+  directory.write("study/results/." + first + ".AAAAAA/part", "of a result");
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  const auto written = [&](const std::string& key) {
+    return fs::last_write_time(directory.path("study/results/" + key + "/study.json"));
+  };
+  for (const int other : {1, 2})
+    EXPECT_LT(written(plan["keys"][other]["key"]), written(first));
+  EXPECT_EQ(results(), 3u) << "what was left is removed";
+}
+
 TEST_F(StudyRun, ReportsTheSameBytesAgain) {
   directory.write("study.toml", test::twin_study(3));
   ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
