@@ -145,9 +145,10 @@ Law along_distance(const Law& law, const std::string& name, double distance_mm) 
 void add_states(Dataset& data, const std::vector<std::string>& inputs, const std::string& name,
                 double distance_mm) {
   constexpr double step = 0.02;
-  for (const auto& [family, rule] : data::slip_states()) {
+  for (const auto& slip_state : data::slip_states()) {
+    const std::string& family = slip_state.first;
     if (std::find(inputs.begin(), inputs.end(), family + name) == inputs.end()) continue;
-    const auto at = [&](double distance) {
+    const auto at = [&data, rule = slip_state.second](double distance) {
       const std::string state = data::slip_state_name(rule, distance); // rounds the distance
       return std::pair{data::slip_state(state)->distance_mm,
                        data::derive(*data::find_derived(state), data, {})};
