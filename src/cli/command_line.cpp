@@ -20,6 +20,7 @@
 
 #include "cli/command.h"
 #include "core/error.h"
+#include "core/large_work.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -218,6 +219,8 @@ int tell_error() {
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;
+  } catch (const OutOfMemory& error) {
+    fmt::print(stderr, "error: {}\n  hint: {}\n", printable(error.what()), error.hint());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n  hint: fewer nodes, or a smaller file\n");
   } catch (const std::exception& error) {

@@ -6,7 +6,11 @@
 #include <optional>
 #include <tuple>
 
+#include <fmt/format.h>
+
+#include "core/large_work.h"
 #include "core/parallel.h"
+#include "core/text.h"
 #include "data/append.h"
 #include "data/checks.h"
 #include "data/computed.h"
@@ -36,6 +40,18 @@ void read_part(Part& part, const FilePlan& plan) {
   take_slopes(part, options);
 }
 
+void read_file(Part& part, const FilePlan& plan) {
+  std::error_code unknown; // what is no file is told by who reads it
+  const auto bytes =
+      std::filesystem::file_size(std::filesystem::path(plan.options.base) / plan.file, unknown);
+  const std::string size =
+      unknown ? "" : fmt::format(" ({})", human_bytes(static_cast<double>(bytes)));
+  large_work("reading " + plan.file + size, 0,
+             "every row is held in memory: means over some rows of each test say as much of slow "
+             "friction as all of them; or name fewer bystanders",
+             [&] { read_part(part, plan); });
+}
+
 void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   if (beside.tests) add_test_columns(part, *beside.tests);
   if (beside.second) join_clocks(part, *beside.second, options.join);
@@ -55,7 +71,7 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
 Part load_part(const FilePlan& plan, const Beside& beside) {
   Part part;
   try {
-    read_part(part, plan);
+    read_file(part, plan);
     finish_part(part, plan.options, beside);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults())

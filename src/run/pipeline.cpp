@@ -14,6 +14,7 @@
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
+#include "core/large_work.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -69,7 +70,9 @@ void Pipeline::check_as_written(const std::string& stage, const std::string& pat
 void Pipeline::load_data() {
   if (data_) return;
   const Progress progress("reading data", 0);
-  data_ = load_job_data(job_);
+  data_ = large_work("putting the files of [data] together", 0,
+                     "fewer rows: means over some rows of each test; or fewer bystanders",
+                     [&] { return load_job_data(job_); });
 }
 
 // Files of an earlier run: by their names, which is all there is of those of 0.1, and as
@@ -212,10 +215,20 @@ bool Pipeline::take_kept_table(const std::string& model, Table& table) {
 
 // ---- calibrate ----
 
+// What rows need memory for; the message says how many there are.
+void Pipeline::with_rows(const std::function<void()>& work) const {
+  const std::size_t rows = data_->training.rows() + data_->validation.rows();
+  large_work(fmt::format("with {} rows in memory", thousands(rows)), rows,
+             "fewer rows: means over some rows of each test say as much of slow friction as all of "
+             "them; or a machine with more memory",
+             work);
+}
+
 void Pipeline::calibrate() {
   load_data();
   const bool is_kept = kept_ && kept_->has_calibration(data_key());
-  if (!is_kept) calibration_ = calibrate::calibrate(data_->calibration_input(job_));
+  if (!is_kept)
+    with_rows([&] { calibration_ = calibrate::calibrate(data_->calibration_input(job_)); });
   new_calibration_ = true;
   laws_.clear();
   remove_earlier(earlier_.model_files(), "models/");
@@ -258,9 +271,11 @@ void Pipeline::trace() {
                      "\"best\", or a name from the ranking");
   const Progress progress("tracing", fits.size());
   for (const ModelFit* fit : fits) {
-    traces_.push_back(
-        trace::trace({data_->training, data_->validation, *fit, job_.trace,
-                      job_.calibration.bootstrap, job_.calibration.seed, data_->all()}));
+    with_rows([&] {
+      traces_.push_back(
+          trace::trace({data_->training, data_->validation, *fit, job_.trace,
+                        job_.calibration.bootstrap, job_.calibration.seed, data_->all()}));
+    });
     progress.tick();
   }
   add_traced_laws();
@@ -347,7 +362,9 @@ void Pipeline::check_sizes() {
 Table Pipeline::sample_table(const models::AssembledLaw& law) {
   const auto ranges = table::state_ranges(law, data_behind(law.model), job_.table);
   if (!table::is_streamed(law, ranges, job_.table))
-    return table::build_table(law, ranges, job_.table);
+    return large_work("making the table of " + law.model.name(), 0,
+                      "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
+                      [&] { return table::build_table(law, ranges, job_.table); });
   const std::string name = law.model.name();
   const fs::path file = fs::path(job_.directory) / "tables" / (name + ".h5");
   table::StreamedTable streamed = table::stream_table(law, ranges, job_.table, file);

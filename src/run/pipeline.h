@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -68,6 +69,7 @@ private:
   // Where no stage of this run has made them, from the job's files or an earlier run. What is not
   // there is made first; what was made from other data or another job is an InputError.
   void load_data();
+  void with_rows(const std::function<void()>& work) const;
   void load_calibration();
   void load_tables();
   void load_sources();

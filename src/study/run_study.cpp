@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/large_work.h"
 #include "core/progress.h"
 #include "data/write_dataset.h"
 #include "io/atomic_file.h"
@@ -101,6 +102,8 @@ private:
       compute(i);
     } catch (const InputError& error) {
       fail(i, error.what(), true);
+    } catch (const OutOfMemory& error) {
+      fail(i, error.what(), false);
     } catch (const std::bad_alloc&) {
       fail(i, "out of memory", false);
     } catch (const std::exception& error) {
