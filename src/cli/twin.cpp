@@ -71,8 +71,7 @@ void read_options(Options& options, const CommonOptions& common) {
     try {
       options.twin.effects.push_back(twin::parse_effect(text));
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults())
-        faults.add(fault.place, fault.what, fault.hint);
+      faults.add(error);
     }
   }
   faults.throw_if_any();

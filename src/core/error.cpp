@@ -39,6 +39,10 @@ void FaultList::add(Place place, std::string what, std::string hint) {
   faults_.push_back({std::move(place), std::move(what), std::move(hint)});
 }
 
+void FaultList::add(const InputError& error) {
+  faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
+}
+
 void FaultList::throw_if_any() const {
   if (!faults_.empty()) throw InputError(faults_);
 }

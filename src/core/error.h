@@ -45,6 +45,7 @@ class FaultList {
 public:
   static constexpr std::size_t shown = 20;
   void add(Place place, std::string what, std::string hint = "");
+  void add(const InputError& error); // each of its faults
   bool empty() const { return faults_.empty(); }
   std::size_t size() const { return faults_.size(); }
   const std::vector<Fault>& all() const { return faults_; }

@@ -9,6 +9,11 @@
 
 namespace frictab {
 
+// The remedy where rows need the memory.
+inline constexpr const char* fewer_rows =
+    "every row is held in memory: means over some rows of each test say as much of slow friction "
+    "as all of them; or name fewer bystanders";
+
 // Instead of the std::bad_alloc of `large_work`; `what()` is "out of memory ...".
 class OutOfMemory : public std::bad_alloc {
 public:

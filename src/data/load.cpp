@@ -30,26 +30,24 @@ struct Beside {
   std::optional<Dataset> second; // of data.join
 };
 
+// What a message calls a file whose rows find no room.
+std::string reading_words(const FilePlan& plan, const std::filesystem::path& path) {
+  std::error_code unknown; // what is no file is told by who reads it
+  const auto bytes = std::filesystem::file_size(path, unknown);
+  if (unknown) return "reading " + plan.file;
+  return fmt::format("reading {} ({})", plan.file, human_bytes(static_cast<double>(bytes)));
+}
+
 // A file's own rows and columns, by experiment.
 void read_part(Part& part, const FilePlan& plan) {
   const auto& [file, label, options] = plan;
   const auto path = std::filesystem::path(options.base) / file;
-  part.raw = read_raw(path.string(), file, options, part.faults);
-  if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
-  gather_experiments(part, map_columns(part.raw, options, label, part.faults), label);
-  take_slopes(part, options);
-}
-
-void read_file(Part& part, const FilePlan& plan) {
-  std::error_code unknown; // what is no file is told by who reads it
-  const auto bytes =
-      std::filesystem::file_size(std::filesystem::path(plan.options.base) / plan.file, unknown);
-  const std::string size =
-      unknown ? "" : fmt::format(" ({})", human_bytes(static_cast<double>(bytes)));
-  large_work("reading " + plan.file + size, 0,
-             "every row is held in memory: means over some rows of each test say as much of slow "
-             "friction as all of them; or name fewer bystanders",
-             [&] { read_part(part, plan); });
+  large_work(reading_words(plan, path), 0, fewer_rows, [&] {
+    part.raw = read_raw(path.string(), file, options, part.faults);
+    if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
+    gather_experiments(part, map_columns(part.raw, options, label, part.faults), label);
+    take_slopes(part, options);
+  });
 }
 
 void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
@@ -71,11 +69,10 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
 Part load_part(const FilePlan& plan, const Beside& beside) {
   Part part;
   try {
-    read_file(part, plan);
+    read_part(part, plan);
     finish_part(part, plan.options, beside);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      part.faults.add(fault.place, fault.what, fault.hint);
+    part.faults.add(error);
   }
   return part;
 }
@@ -92,8 +89,7 @@ Part load_second_part(const FilePlan& plan) {
     check_values(part);
     check_computed(part);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      part.faults.add(fault.place, fault.what, fault.hint);
+    part.faults.add(error);
   }
   return part;
 }

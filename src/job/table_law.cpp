@@ -112,8 +112,7 @@ std::optional<LawTable> read_law_table(const models::LawText& text, const std::s
     table = has_frictab_layout(path) ? of_frictab_table(text, path, place, faults)
                                      : of_rows(text, path, place, faults);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      faults.add(fault.place, fault.what, fault.hint);
+    faults.add(error);
   }
   if (!table) return std::nullopt;
   table->name = text.name;

@@ -70,8 +70,7 @@ void Pipeline::check_as_written(const std::string& stage, const std::string& pat
 void Pipeline::load_data() {
   if (data_) return;
   const Progress progress("reading data", 0);
-  data_ = large_work("putting the files of [data] together", 0,
-                     "fewer rows: means over some rows of each test; or fewer bystanders",
+  data_ = large_work("putting the files of [data] together", 0, fewer_rows,
                      [&] { return load_job_data(job_); });
 }
 
@@ -218,10 +217,7 @@ bool Pipeline::take_kept_table(const std::string& model, Table& table) {
 // What rows need memory for; the message says how many there are.
 void Pipeline::with_rows(const std::function<void()>& work) const {
   const std::size_t rows = data_->training.rows() + data_->validation.rows();
-  large_work(fmt::format("with {} rows in memory", thousands(rows)), rows,
-             "fewer rows: means over some rows of each test say as much of slow friction as all of "
-             "them; or a machine with more memory",
-             work);
+  large_work(fmt::format("with {} rows in memory", thousands(rows)), rows, fewer_rows, work);
 }
 
 void Pipeline::calibrate() {

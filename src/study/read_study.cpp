@@ -85,8 +85,7 @@ private:
     try {
       return ResolvedJobs(beside_study(written_.job), overrides_.set);
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults())
-        faults_.add(fault.place, fault.what, fault.hint);
+      faults_.add(error);
       return std::nullopt;
     }
   }

@@ -102,8 +102,7 @@ ResolvedJob ResolvedJobs::resolve(const std::vector<std::string>& set) const {
   try {
     resolved.job = job::parse_job(text_, file_, with_data);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      faults.add(fault.place, fault.what, fault.hint);
+    faults.add(error);
   }
   faults.throw_if_any();
   data::DataOptions& data = resolved.job.data;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "table/drift.h"
+#include "table/options.h"
 
 namespace frictab::table {
 
@@ -27,7 +28,7 @@ struct DriftBound {
 // differently from the law, or has more cells than `most_boxes`.
 struct BoundOptions {
   double goal_MPa = 0;
-  std::size_t most_boxes = 2'000'000;
+  std::size_t most_boxes = usual_proof_boxes;
 };
 DriftBound bound_drift(const models::AssembledLaw& law, const Table& table,
                        const std::vector<StateRange>& ranges, const BoundOptions& options);
@@ -40,7 +41,7 @@ struct ProvenDrift {
 };
 ProvenDrift prove_drift(const models::AssembledLaw& law, const Table& table,
                         const std::vector<StateRange>& ranges, WorstCase found, double allowed_MPa,
-                        std::size_t most_boxes = BoundOptions{}.most_boxes);
+                        std::size_t most_boxes = usual_proof_boxes);
 
 // Three significant digits, never below the value: how a bound is shown.
 double rounded_up(double value);

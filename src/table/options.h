@@ -14,6 +14,9 @@
 
 namespace frictab::table {
 
+// Parts of a table's range that a proof of its drift looks at (verify.proof_boxes, table/bound.h).
+inline constexpr std::size_t usual_proof_boxes = 2'000'000;
+
 struct AxisOptions {
   std::optional<std::pair<double, double>> range;
   std::optional<std::size_t> nodes;

@@ -18,7 +18,7 @@ struct VerifyInput {
   double max_drift_MPa = 0.5;
   std::size_t samples = 200000;       // points over the whole range
   const DriftRecord* known = nullptr; // the table's own, where it was compared just before
-  std::size_t proof_boxes = 2000000;  // that the proof may look at
+  std::size_t proof_boxes = table::usual_proof_boxes; // that the proof may look at
 };
 
 // Compares the table, then each variant of each bundle. A variant whose compiler is absent is

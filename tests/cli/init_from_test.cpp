@@ -10,6 +10,7 @@
 #include "support/encoding.h"
 #include "support/json.h"
 #include "support/run_command.h"
+#include "support/workbook.h"
 
 namespace frictab::init_from_test {
 namespace {
@@ -328,25 +329,9 @@ with h5py.File('a.h5', 'w') as f:
 TEST_F(InitFrom, ReadsAWorkbook) {
   if (!have_program("/usr/bin/python3") || !have_program("xlsx2csv"))
     GTEST_SKIP() << "python3 or xlsx2csv is not installed";
-  directory.write("make.py", R"(
-import zipfile
+  ASSERT_TRUE(test::write_workbook(directory, "a.xlsx", R"(
 rows = [['Rig 7'], ['Test', 'Time [s]', 'COF', 'Pressure [MPa]']]
-rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2), 100.5 + i] for k in range(3) for i in range(5)]
-cell = lambda c: ('t="inlineStr"><is><t>%s</t></is>' % c if isinstance(c, str) else '><v>%r</v>' % c)
-xml = ''.join('<row r="%d">%s</row>' % (i + 1, ''.join('<c r="%s%d" %s</c>' % ('ABCD'[j], i + 1, cell(c))
-              for j, c in enumerate(row))) for i, row in enumerate(rows))
-main = 'http://schemas.openxmlformats.org/spreadsheetml/2006/main'
-rel = 'http://schemas.openxmlformats.org/officeDocument/2006/relationships'
-package = 'http://schemas.openxmlformats.org/package/2006/'
-sheet = 'application/vnd.openxmlformats-officedocument.spreadsheetml.'
-with zipfile.ZipFile('a.xlsx', 'w') as z:
-    z.writestr('[Content_Types].xml', '<Types xmlns="%scontent-types"><Override PartName="/xl/workbook.xml" ContentType="%ssheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="%sworksheet+xml"/></Types>' % (package, sheet, sheet))
-    z.writestr('_rels/.rels', '<Relationships xmlns="%srelationships"><Relationship Id="r1" Type="%s/officeDocument" Target="xl/workbook.xml"/></Relationships>' % (package, rel))
-    z.writestr('xl/workbook.xml', '<workbook xmlns="%s" xmlns:r="%s"><sheets><sheet name="1" sheetId="1" r:id="rId1"/></sheets></workbook>' % (main, rel))
-    z.writestr('xl/_rels/workbook.xml.rels', '<Relationships xmlns="%srelationships"><Relationship Id="rId1" Type="%s/worksheet" Target="worksheets/sheet1.xml"/></Relationships>' % (package, rel))
-    z.writestr('xl/worksheets/sheet1.xml', '<worksheet xmlns="%s"><sheetData>%s</sheetData></worksheet>' % (main, xml))
-)");
-  ASSERT_EQ(test::run_command({"/usr/bin/python3", "make.py"}, directory.path()).exit_code, 0);
+rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2), 100.5 + i] for k in range(3) for i in range(5)])"));
   EXPECT_THAT(job_from({"a.xlsx"}), HasSubstr("\nexperiment = \"Test\" "));
   EXPECT_EQ(read().tests, "K0 5, K1 5, K2 5");
 }

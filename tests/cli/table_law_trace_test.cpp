@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/run_command.h"
+#include "support/workbook.h"
 
 namespace frictab::table_law_trace_test {
 namespace {
@@ -36,24 +37,9 @@ targets = ["c"]
 models = ["wide", "slid"]
 )";
 
-// wide.xlsx from the lines of wide.csv.
-const char* const make_workbook = R"(
-import csv, zipfile
-rows = [[c if i == 0 else float(c) for c in r] for i, r in enumerate(csv.reader(open('wide.csv')))]
-cell = lambda c: ('t="inlineStr"><is><t>%s</t></is>' % c if isinstance(c, str) else '><v>%r</v>' % c)
-xml = ''.join('<row r="%d">%s</row>' % (i + 1, ''.join('<c r="%s%d" %s</c>' % ('ABCDEF'[j], i + 1, cell(c))
-              for j, c in enumerate(row))) for i, row in enumerate(rows))
-main = 'http://schemas.openxmlformats.org/spreadsheetml/2006/main'
-rel = 'http://schemas.openxmlformats.org/officeDocument/2006/relationships'
-package = 'http://schemas.openxmlformats.org/package/2006/'
-sheet = 'application/vnd.openxmlformats-officedocument.spreadsheetml.'
-with zipfile.ZipFile('wide.xlsx', 'w') as z:
-    z.writestr('[Content_Types].xml', '<Types xmlns="%scontent-types"><Override PartName="/xl/workbook.xml" ContentType="%ssheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="%sworksheet+xml"/></Types>' % (package, sheet, sheet))
-    z.writestr('_rels/.rels', '<Relationships xmlns="%srelationships"><Relationship Id="r1" Type="%s/officeDocument" Target="xl/workbook.xml"/></Relationships>' % (package, rel))
-    z.writestr('xl/workbook.xml', '<workbook xmlns="%s" xmlns:r="%s"><sheets><sheet name="1" sheetId="1" r:id="rId1"/></sheets></workbook>' % (main, rel))
-    z.writestr('xl/_rels/workbook.xml.rels', '<Relationships xmlns="%srelationships"><Relationship Id="rId1" Type="%s/worksheet" Target="worksheets/sheet1.xml"/></Relationships>' % (package, rel))
-    z.writestr('xl/worksheets/sheet1.xml', '<worksheet xmlns="%s"><sheetData>%s</sheetData></worksheet>' % (main, xml))
-)";
+// Of wide.xlsx: the lines of wide.csv.
+const char* const rows_of_wide = "rows = [[c if i == 0 else float(c) for c in r] "
+                                 "for i, r in enumerate(csv.reader(open('wide.csv')))]";
 
 // The run of one job on a SYNTHETIC campaign, for all claims.
 class SlowTracedTableLaw : public testing::Test {
@@ -65,9 +51,7 @@ protected:
                   .exit_code,
               0);
     write_tables();
-    directory->write("make.py", make_workbook);
-    if (test::run_command({"/usr/bin/python3", "make.py"}, directory->path()).exit_code != 0)
-      return;
+    if (!test::write_workbook(*directory, "wide.xlsx", rows_of_wide)) return;
     directory->write("job.toml", job_text);
     const auto result = frictab({"run", "job.toml", "-j", "1"});
     ASSERT_EQ(result.exit_code, 0) << result.err;

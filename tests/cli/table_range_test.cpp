@@ -1,4 +1,5 @@
 // table.range through the commands: what axes reach, and where nodes beyond the data are told.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,6 +37,18 @@ protected:
     auto result = run_frictab({stage, job, "--set", "table.range=" + range});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result;
+  }
+
+  // A table of `nodes` nodes on each axis, where memory ends at `limit_MiB`.
+  std::string tabulate_within(const std::string& limit_MiB, int nodes) {
+    std::vector<std::string> arguments = {"tabulate", job, "--set",
+                                          "table.memory_limit_MiB=" + limit_MiB};
+    for (const char* axis : {"sigma_n_MPa", "v_rel_mm_s", "T_contact_C"})
+      arguments.insert(arguments.end(),
+                       {"--set", fmt::format("table.axes.{}.nodes={}", axis, nodes)});
+    const auto result = run_frictab(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
   }
 
   test::TemporaryDirectory directory;
@@ -85,23 +98,15 @@ TEST_F(TableRange, WhatIsFarFromEveryTestStandsInSummaryInfoAndReports) {
 }
 
 TEST_F(TableRange, OfATableLargerThanMemoryTheShareAloneIsTold) {
-  const auto result =
-      run_frictab({"tabulate", job, "--set", "table.memory_limit_MiB=0.5", "--set",
-                   "table.axes.sigma_n_MPa.nodes=60", "--set", "table.axes.v_rel_mm_s.nodes=60",
-                   "--set", "table.axes.T_contact_C.nodes=60"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr(" % of its range is far from every test"));
+  const std::string out = tabulate_within("0.5", 60);
+  EXPECT_THAT(out, HasSubstr(" % of its range is far from every test"));
   const io::Hdf5Reader file(directory.path("out/tables/wzl.h5"), "wzl.h5");
   EXPECT_FALSE(file.has("distance"));
   EXPECT_TRUE(file.number_attribute("/", "share_far"));
 }
 
 TEST_F(TableRange, ASmallTableIsWrittenWhateverTheLimitOfMemory) {
-  const auto result =
-      run_frictab({"tabulate", job, "--set", "table.memory_limit_MiB=0.001", "--set",
-                   "table.axes.sigma_n_MPa.nodes=20", "--set", "table.axes.v_rel_mm_s.nodes=20",
-                   "--set", "table.axes.T_contact_C.nodes=20"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  tabulate_within("0.001", 20);
   EXPECT_THAT(run_frictab({"table", "info", directory.path("out/tables/wzl.h5")}).out,
               HasSubstr("Nodes: 8,400, 65.6 KiB of values"));
 }
