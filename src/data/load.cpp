@@ -40,7 +40,9 @@ std::string reading_words(const FilePlan& plan, const std::filesystem::path& pat
 
 // A file's own rows and columns, by experiment.
 void read_part(Part& part, const FilePlan& plan) {
-  const auto& [file, label, options] = plan;
+  const std::string& file = plan.file;
+  const std::string& label = plan.label;
+  const DataOptions& options = plan.options;
   const auto path = std::filesystem::path(options.base) / file;
   large_work(reading_words(plan, path), 0, fewer_rows, [&] {
     part.raw = read_raw(path.string(), file, options, part.faults);
