@@ -24,12 +24,18 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 // Bytes of the well-formed UTF-8 sequence at the front (RFC 3629); 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
+// Of UTF-8 text: how many places it takes in a column (combining and wide letters are not told).
+std::size_t characters(std::string_view text);
+
 // The beginning of the text of at most so many bytes that cuts no UTF-8 sequence.
 std::string_view utf8_start(std::string_view text, std::size_t bytes);
 
 // For a terminal: control characters but line ends and tabs, and bytes that are no UTF-8, become
 // "\\x1b". What a file says reaches people as text, and moves no cursor.
 std::string printable(std::string_view text);
+
+// As a shell reads it back as one word: as it is where it is plain, else in quotes.
+std::string shell_word(const std::string& text);
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to);
 

@@ -7,11 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
+
 namespace frictab::report::svg {
 
 namespace {
 
-constexpr double left = 58, right = 14, top = 10, bottom = 46;
+constexpr double top = 10, bottom = 46;
+// Left of the drawing area: the axis' label and the ticks'; right of it: half of the last tick's.
+constexpr double least_left = 58, least_right = 14, beside_ticks = 28;
+constexpr double digit = 6.2; // width of one of a tick's label
 
 // Light to dark blue-green; the lightest is still told from white, on screen and in print.
 constexpr std::array<std::array<int, 3>, 5> ramp = {
@@ -39,6 +44,21 @@ std::string axis_label(std::string_view text) {
 std::string label_at(double x, double y, std::string_view anchor, std::string_view text) {
   return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>", pixel(x), pixel(y),
                      anchor, escape(text));
+}
+
+double widest_tick(const Axis& axis) {
+  double widest = 0;
+  for (const double tick : axis.ticks) {
+    const std::string label = tick_label(axis, tick);
+    widest = std::max(widest, digit * static_cast<double>(characters(label)));
+  }
+  return widest;
+}
+
+// Every how many ticks there is room for a label.
+std::size_t labelled_ticks(const Axis& axis, double width) {
+  const double room = width / static_cast<double>(std::max<std::size_t>(axis.ticks.size(), 2) - 1);
+  return static_cast<std::size_t>(std::ceil((widest_tick(axis) + digit) / room));
 }
 
 // One path per class: runs of neighbouring cells of a row are one rectangle.
@@ -151,7 +171,9 @@ std::string class_colour(std::size_t index, std::size_t classes) {
 }
 
 Plot::Plot(double width, double height, Axis x, Axis y)
-    : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)) {}
+    : width_(width), height_(height), x_(std::move(x)), y_(std::move(y)),
+      left_(std::max(least_left, beside_ticks + widest_tick(y_))),
+      right_(std::max(least_right, 0.5 * widest_tick(x_) + 2)) {}
 
 double Plot::pixel_x(double value) const {
   return (value - x_.low) / (x_.high - x_.low) * width_;
@@ -243,31 +265,33 @@ void Plot::labels_apart(double x, std::vector<EndLabel> labels) {
 
 std::string Plot::axes() const {
   std::string grid, labels;
-  for (const double tick : x_.ticks) {
-    const double x = left + pixel_x(tick);
+  const std::size_t every = labelled_ticks(x_, width_);
+  for (std::size_t i = 0; i < x_.ticks.size(); ++i) {
+    const double x = left_ + pixel_x(x_.ticks[i]);
     grid += fmt::format("M{} {}v{}", pixel(x), pixel(top), pixel(height_ + 4));
-    labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, tick));
+    if (i % every == 0)
+      labels += label_at(x, top + height_ + 17, "middle", tick_label(x_, x_.ticks[i]));
   }
   for (const double tick : y_.ticks) {
     const double y = top + pixel_y(tick);
-    grid += fmt::format("M{} {}h{}", pixel(left - 4), pixel(y), pixel(width_ + 4));
-    labels += label_at(left - 8, y + 4, "end", tick_label(y_, tick));
+    grid += fmt::format("M{} {}h{}", pixel(left_ - 4), pixel(y), pixel(width_ + 4));
+    labels += label_at(left_ - 8, y + 4, "end", tick_label(y_, tick));
   }
   const double middle = top + height_ / 2;
   return fmt::format("<path class=\"grid\" d=\"{}\"/>\n{}\n"
                      "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
                      "<text class=\"label\" text-anchor=\"middle\" "
                      "transform=\"translate(14 {}) rotate(-90)\">{}</text>\n",
-                     grid, labels, pixel(left + width_ / 2), pixel(top + height_ + 36),
+                     grid, labels, pixel(left_ + width_ / 2), pixel(top + height_ + 36),
                      axis_label(x_.label), pixel(middle), axis_label(y_.label));
 }
 
 std::string Plot::text(std::string_view title, std::string_view description) const {
-  return begin_svg(left + width_ + right, top + height_ + bottom, "plot", title, description) +
+  return begin_svg(left_ + width_ + right_, top + height_ + bottom, "plot", title, description) +
          "\n" + axes() +
          fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n"
                      "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></svg>",
-                     pixel(left), pixel(top), pixel(width_), pixel(height_), body_, pixel(left),
+                     pixel(left_), pixel(top), pixel(width_), pixel(height_), body_, pixel(left_),
                      pixel(top), pixel(width_), pixel(height_));
 }
 
@@ -277,7 +301,7 @@ std::string Plot::file(std::string_view title, std::string_view caption) const {
       ".grid{stroke:#dfe4e9;stroke-width:1;fill:none}"
       ".frame{stroke:#6b7580;stroke-width:1;fill:none}";
   constexpr double above = 22; // the caption
-  const std::string width = pixel(left + width_ + right);
+  const std::string width = pixel(left_ + width_ + right_);
   const double height = top + height_ + bottom;
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                      "style=\"background:#fff\">\n<style>{2}</style>\n"

@@ -67,7 +67,8 @@ struct EndLabel {
   std::string colour;
 };
 
-// One plot of given size of its drawing area in pixels; margins come on top.
+// One plot of given size of its drawing area in pixels; margins come on top, as wide as the ticks'
+// labels need. Where these would touch each other, only every second one is written, or fewer.
 class Plot {
 public:
   Plot(double width, double height, Axis x, Axis y);
@@ -103,6 +104,7 @@ private:
 
   double width_, height_;
   Axis x_, y_;
+  double left_, right_; // margins
   std::string body_;
 };
 

@@ -47,6 +47,34 @@ TEST(Svg, AxisOfOneValueOrNoneIsStillAnAxis) {
   }
 }
 
+TEST(Svg, LabelsOfLongNumbersFitBesideThePlotAndDoNotTouch) {
+  constexpr double digit = 6.1; // of a sans-serif of 11 pixels
+  const svg::Axis x = svg::nice_axis(0, 400000, 8, "s, mm"), y = svg::nice_axis(0, 1200000, 4, "t");
+  pugi::xml_document page;
+  ASSERT_TRUE(page.load_string(svg::Plot(150, 84, x, y).text("t", "").c_str()));
+  const pugi::xml_node plot = page.child("svg");
+  const double width = std::stod(std::string(plot.attribute("viewBox").value()).substr(4));
+  double free = 0; // from where on nothing is written below the plot
+  std::size_t below = 0, beside = 0;
+  for (const pugi::xml_node text : plot.children("text")) {
+    if (text.attribute("class")) continue; // of an axis
+    const std::string label = text.child_value();
+    const double at = text.attribute("x").as_double();
+    const double length = digit * static_cast<double>(label.size());
+    if (text.attribute("text-anchor").value() == std::string("end")) {
+      EXPECT_GT(at - length, 20) << label << " covers the axis' label";
+      ++beside;
+      continue;
+    }
+    EXPECT_GT(at - length / 2, free) << label;
+    free = at + length / 2;
+    EXPECT_LT(free, width) << label << " is cut at the right";
+    ++below;
+  }
+  EXPECT_GE(below, 2u);
+  EXPECT_EQ(beside, y.ticks.size());
+}
+
 TEST(Svg, BinsCountEachRowOnceFromTheTop) {
   svg::Axis axis;
   axis.high = 2;
