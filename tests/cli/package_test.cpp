@@ -34,7 +34,7 @@ void expect_whole(const fs::path& usr) {
       elsewhere.path());
   EXPECT_EQ(run.exit_code, 0) << run.err; // templates are within it
   for (const char* file :
-       {"share/man/man1/frictab.1", "share/man/man1/frictab-table-slice.1",
+       {"share/man/man1/frictab.1.gz", "share/man/man1/frictab-table-slice.1.gz",
         "share/bash-completion/completions/frictab", "share/zsh/vendor-completions/_frictab",
         "share/fish/vendor_completions.d/frictab.fish", "share/frictab/job.schema.json",
         "share/doc/frictab/copyright", "share/doc/frictab/docs/guide.md",
