@@ -179,23 +179,38 @@ TEST(SlowDocsExample, TheTutorialPrintsWhatItShows) {
   EXPECT_GE(compared, 8u);
 }
 
+// The report of a synthetic campaign with an effect that tracing finds.
+std::string report_with_an_effect(const test::TemporaryDirectory& directory) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"twin", "data", "--seed", "3", "--law", "log_coulomb", "--design",
+       "p=500,1625,2750;psi=1,5;v=5,500;T=20,200;points=40;validation=6", "--effect",
+       "form=saturation,column=s_mm,strength=0.3,x0=3"},
+      {"run", "data/job.toml", "--set", "models.use=log_coulomb", "--set", "export.targets=c"}};
+  for (const std::vector<std::string>& command : commands) {
+    const auto result = run_frictab(command, directory.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  return directory.path("data/out/report.html");
+}
+
 TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
   if (test::run_command({FRICTAB_PYTHON, "-c", "import markdown"}).exit_code != 0)
     GTEST_SKIP() << "Debian's python3-markdown is not installed";
   const test::TemporaryDirectory directory;
-  const std::string report = directory.write("a_report.html", "<html></html>");
+  const std::string report = report_with_an_effect(directory);
   const auto built = test::run_command(
       {FRICTAB_PYTHON, (house / "docs/build").string(), directory.path("site"), report});
   ASSERT_EQ(built.exit_code, 0) << built.err;
   EXPECT_EQ(built.out,
             fmt::format("wrote {} pages to {}\n", pages().size(), directory.path("site")));
-  std::size_t links = 0;
+  std::size_t links = 0, plots = 0;
   for (const fs::path& page : pages()) {
     fs::path place = fs::path(directory.path("site")) / fs::relative(page, house);
     place.replace_extension(".html");
     if (page == house / "README.md") place.replace_filename("index.html");
     const std::string text = text_of(place);
     EXPECT_NE(text.find("<main><h1"), text.npos) << place;
+    plots += matches(text, std::regex("<figure><svg class=\"plot\"")).size();
     EXPECT_EQ(text.find("<p>| "), text.npos) << place << " has a table that is none";
     EXPECT_EQ(text.find("<p>* "), text.npos) << place << " has a list that is none";
     for (const auto& m : matches(text, std::regex("href=\"([^\"#]*)#?([^\"]*)\""))) {
@@ -209,6 +224,7 @@ TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
       ++links;
     }
   }
+  EXPECT_GE(plots, 4u);
   EXPECT_GE(links, 200u);
 }
 
