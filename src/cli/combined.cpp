@@ -12,6 +12,7 @@
 #include "codegen/combine.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
+#include "core/column_width.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/atomic_file.h"
@@ -202,10 +203,16 @@ verify::Verification verify_combined(const std::string& directory,
 }
 
 std::string combined_drift_text(const verify::Verification& verification) {
-  std::string out = fmt::format("{:<28}{:<28}{:>12}{:>14}\n", "MPa, over the whole range", "",
-                                "from table", "from law");
+  std::vector<std::string> laws, subjects;
   for (const verify::DriftRecord& r : verification.records) {
-    out += fmt::format("  {:<26}{:<28}", r.model, r.subject);
+    laws.push_back(r.model);
+    subjects.push_back(r.subject);
+  }
+  const std::size_t first = column_width(laws, 26), second = column_width(subjects, 28);
+  std::string out = fmt::format("{:<{}}{:<{}}{:>12}{:>14}\n", "MPa, over the whole range",
+                                first + 2, "", second, "from table", "from law");
+  for (const verify::DriftRecord& r : verification.records) {
+    out += fmt::format("  {:<{}}{:<{}}", r.model, first, r.subject, second);
     if (r.ran)
       out += fmt::format("{:>12.3g}{:>14}   {}\n", r.max_vs_table_MPa,
                          fmt::format("<= {:.3g}", r.worst_case_MPa),

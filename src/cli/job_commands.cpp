@@ -42,8 +42,16 @@ std::string job_file(const std::string& given) {
 
 job::Job read_job(const std::string& file, const CommonOptions& common) {
   job::Job job = job::read_job(file, common.set);
-  if (!common.output.empty()) job.directory = common.output;
-  if (common.seed) job.calibration.seed = *common.seed;
+  if (!common.output.empty()) {
+    job.directory = common.output;
+    job.said += " -o " + shell_word(common.output);
+  }
+  if (common.seed) {
+    job.calibration.seed = *common.seed;
+    job.said += fmt::format(" --seed {}", *common.seed);
+  }
+  for (const std::string& key : common.set)
+    job.said += " --set " + shell_word(key);
   return job;
 }
 

@@ -61,19 +61,19 @@ std::vector<StageStatus> status_of(const job::Job& job) {
 }
 
 // Several stages to be run are a run. Tracing that was never asked for is no gap.
-std::string next_command(const std::vector<StageStatus>& all, const std::string& job) {
+std::string next_command(const std::vector<StageStatus>& all, const job::Job& job) {
   std::vector<std::string> open;
   for (const StageStatus& one : all)
     if (one.state == "stale" || (one.state == "missing" && one.name != "trace"))
       open.push_back(one.name);
   if (open.empty()) return "";
-  return fmt::format("frictab {} {}", open.size() == 1 ? open.front() : "run", job);
+  return fmt::format("frictab {} {}", open.size() == 1 ? open.front() : "run", job.arguments());
 }
 
 int run(const std::string& file, const CommonOptions& common) {
   const job::Job job = read_job(file, common);
   const std::vector<StageStatus> all = status_of(job);
-  const std::string next = next_command(all, file);
+  const std::string next = next_command(all, job);
   if (common.json) {
     nlohmann::ordered_json json = {{"directory", job.directory}, {"stages", {}}, {"next", next}};
     for (const StageStatus& one : all)

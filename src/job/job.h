@@ -8,6 +8,7 @@
 
 #include "calibrate/options.h"
 #include "codegen/options.h"
+#include "core/text.h"
 #include "data/options.h"
 #include "table/options.h"
 #include "trace/options.h"
@@ -17,6 +18,7 @@ namespace frictab::job {
 
 struct Job {
   std::string file; // as given by the user
+  std::string said; // what else the command line said: " -o loose --set data.holdout=0.2"
   data::DataOptions data;
   calibrate::ModelOptions models;
   calibrate::CalibrationOptions calibration;
@@ -29,6 +31,9 @@ struct Job {
   // stage knows results that another job has made. Without table.model, which also picks among
   // tables that are there.
   std::map<std::string, std::string> sections;
+
+  // What to give another command, as advice repeats it: "job.toml -o loose".
+  std::string arguments() const { return shell_word(file) + said; }
 };
 
 // Reads and checks a job file; `set` holds "key=value" overrides (TOML values, dotted keys). Throws

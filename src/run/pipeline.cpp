@@ -53,7 +53,7 @@ void Pipeline::check_fresh(const std::string& stage, const std::string& files) c
   throw InputError({(fs::path(job_.directory) / files).string(), 0, 0}, "is stale: " + why,
                    fmt::format("`frictab {} {}` makes it anew, `frictab run` everything; `frictab "
                                "status` shows all stages",
-                               stage, job_.file));
+                               stage, job_.arguments()));
 }
 
 // Hints say what makes a file anew.
@@ -64,7 +64,7 @@ void Pipeline::check_as_written(const std::string& stage, const std::string& pat
       fmt::format("was changed since `frictab {}` wrote it", stage),
       fmt::format("`frictab {} {}` makes it anew; for a law with constants of your own "
                   "or a table from elsewhere: `frictab export --law` or `--table`",
-                  stage, job_.file));
+                  stage, job_.arguments()));
 }
 
 void Pipeline::load_data() {
@@ -98,7 +98,7 @@ void Pipeline::load_calibration() {
   if (data_ && calibration_->data_hash != data::fingerprint(data_->training, data_->judged()))
     throw InputError({(fs::path(job_.directory) / "calibration.json").string(), 0, 0},
                      "was made from other data: their fingerprint is " + calibration_->data_hash,
-                     "`frictab calibrate " + job_.file + "` makes it anew");
+                     "`frictab calibrate " + job_.arguments() + "` makes it anew");
 }
 
 namespace {
@@ -152,7 +152,7 @@ void Pipeline::check_origin(Table& table) {
                      fmt::format("was made from other data: their fingerprint is {}, that of "
                                  "calibration.json is {}",
                                  hash, calibration_->data_hash),
-                     "`frictab tabulate " + job_.file + "` makes it anew");
+                     "`frictab tabulate " + job_.arguments() + "` makes it anew");
   const std::optional<bool> as_written = stages_.is_as_written(path);
   table.drift_is_claimed = !as_written.value_or(false);
   if (as_written.value_or(true)) return;
@@ -169,7 +169,7 @@ void Pipeline::go_on() {
 std::string Pipeline::kept_text() const {
   if (!keeps_) return "";
   return fmt::format("what was finished is kept in {}; `frictab run {}` goes on from there",
-                     (fs::path(job_.directory) / io::kept_name).string(), job_.file);
+                     (fs::path(job_.directory) / io::kept_name).string(), job_.arguments());
 }
 
 void Pipeline::record_files() {

@@ -103,8 +103,8 @@ std::string next_step(const Pipeline& p) {
                        [&](const std::string& file) { return file.starts_with(start); });
   };
   const std::string page = (std::filesystem::path(p.job().directory) / "report.html").string();
-  if (wrote("report.html")) return "open " + page;
-  const std::string job = " " + p.job().file;
+  if (wrote("report.html")) return "open " + shell_word(page);
+  const std::string job = " " + p.job().arguments();
   if (wrote("verify.json"))
     return p.verification()->passed() && p.missed().empty()
                ? "frictab report" + job

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/column_width.h"
 #include "core/text.h"
 #include "data/derived.h"
 #include "trace/candidates.h"
@@ -278,12 +279,16 @@ std::string detectable_text(const Trace& t) {
       "line over the column's range; root mean square of tau_R), and how many experiments like\n"
       "these it takes to see {:g} %:\n",
       100 * wanted);
+  std::vector<std::string> names;
+  for (const Detectable& d : t.detectable)
+    names.push_back(d.column);
+  const std::size_t width = column_width(names, 20);
   for (const Detectable& d : t.detectable)
     out += d.identifiable
-               ? fmt::format("  {:<20}{:#8.3g} MPa{:#8.3g} %{:8.0f}\n", d.column, d.size_MPa,
+               ? fmt::format("  {:<{}}{:#8.3g} MPa{:#8.3g} %{:8.0f}\n", d.column, width, d.size_MPa,
                              100 * d.share, std::ceil(experiments * std::pow(d.share / wanted, 2)))
-               : fmt::format("  {:<20}  cannot be seen: the law's own parameters imitate it\n",
-                             d.column);
+               : fmt::format("  {:<{}}  cannot be seen: the law's own parameters imitate it\n",
+                             d.column, width);
   out +=
       "  Fewer do where a column is spread wider (twice the spread shows effects per unit half as "
       "large), or changes within tests, where their scatter does not hide it.\n";

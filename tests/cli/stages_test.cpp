@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 using test::CommandResult;
 using test::run_frictab;
 using test::TemporaryDirectory;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 class StagesOfAJob : public testing::Test {
@@ -60,6 +61,19 @@ TEST_F(StagesOfAJob, MakeWhatIsMissingFirst) {
                       "export     done\nverify     done\nnothing is left to do\n");
   for (const char* file : {"calibration.json", "tables/levanov.h5", "verify.json"})
     EXPECT_TRUE(fs::exists(directory.path(std::string("out/") + file))) << file;
+}
+
+TEST_F(StagesOfAJob, AdviceRepeatsWhatTheCommandLineSaid) {
+  const std::vector<std::string> said = {"-o", "a loose one", "--seed",
+                                         "7",  "--set",       "table.tolerance_MPa=0.4"};
+  const auto with_said = [&](std::vector<std::string> command) {
+    command.insert(command.end(), said.begin(), said.end());
+    return run(command).out;
+  };
+  const std::string repeated =
+      " job.toml -o 'a loose one' --seed 7 --set table.tolerance_MPa=0.4\n";
+  EXPECT_THAT(with_said({"calibrate", "job.toml"}), EndsWith("next: frictab tabulate" + repeated));
+  EXPECT_THAT(with_said({"status", "job.toml"}), EndsWith("next: frictab run" + repeated));
 }
 
 TEST_F(StagesOfAJob, NameResultsOfOtherData) {
