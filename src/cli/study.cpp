@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "core/error.h"
+#include "core/shard.h"
 #include "core/text.h"
 #include "io/json.h"
 #include "study/plan.h"
@@ -74,7 +75,7 @@ void tell(const study::RunCounts& counts, const CommonOptions& common) {
 }
 
 int run(const Options& options, const CommonOptions& common) {
-  const study::Shard shard = study::read_shard(options.shard);
+  const Shard shard = read_shard(options.shard);
   const study::Plan plan = read_plan(options, common);
   const study::RunCounts counts = run_study(plan, {shard, options.retry});
   tell(counts, common);

@@ -355,6 +355,10 @@ void Pipeline::check_sizes() {
   }
 }
 
+fs::path Pipeline::table_file(const std::string& model) const {
+  return fs::path(job_.directory) / "tables" / (model + ".h5");
+}
+
 Table Pipeline::sample_table(const models::AssembledLaw& law) {
   const auto ranges = table::state_ranges(law, data_behind(law.model), job_.table);
   if (!table::is_streamed(law, ranges, job_.table))
@@ -362,10 +366,9 @@ Table Pipeline::sample_table(const models::AssembledLaw& law) {
                       "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
                       [&] { return table::build_table(law, ranges, job_.table); });
   const std::string name = law.model.name();
-  const fs::path file = fs::path(job_.directory) / "tables" / (name + ".h5");
-  table::StreamedTable streamed = table::stream_table(law, ranges, job_.table, file);
+  table::StreamedTable streamed = table::stream_table(law, ranges, job_.table, table_file(name));
   if (streamed.kept > 0)
-    notes_.push_back(fmt::format("{}: {} of {} chunks kept from an interrupted run", name,
+    notes_.push_back(fmt::format("{}: {} of {} chunks kept from shards or an interrupted run", name,
                                  thousands(streamed.kept), thousands(streamed.chunks)));
   return std::move(streamed.table);
 }
@@ -393,8 +396,7 @@ void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
 void Pipeline::write_table_file(const Table& table) {
   const std::string name = "tables/" + table.model + ".h5";
   if (table.stored)
-    output_.adopt(name,
-                  table::finish_stream(table, job_.table.hdf5, fs::path(job_.directory) / name));
+    output_.adopt(name, table::finish_stream(table, job_.table.hdf5, table_file(table.model)));
   else
     table::write_table(table, output_.stage(name), job_.table.hdf5);
 }
@@ -433,6 +435,32 @@ void Pipeline::tabulate() {
   std::sort(tables_.begin(), tables_.end(),
             [](const Table& a, const Table& b) { return a.model < b.model; });
   stages_.record("tabulate", data_key());
+}
+
+std::string Pipeline::tabulate_shard(const Shard& shard) {
+  load_data();
+  if (!earlier_.has_calibration())
+    throw InputError({(fs::path(job_.directory) / "calibration.json").string(), 0, 0},
+                     "is not there: all shards sample the laws of one calibration",
+                     "`frictab calibrate " + job_.arguments() + "` before the shards");
+  load_calibration();
+  std::string done;
+  for (const models::Model& model : models_to_tabulate(*calibration_, job_.table)) {
+    const models::AssembledLaw& law = assembled(model);
+    const auto ranges = table::state_ranges(law, data_behind(model), job_.table);
+    if (!table::is_streamed(law, ranges, job_.table))
+      throw InputError({job_.file, 0, 0},
+                       "the table of " + model.name() + " is made in memory: it has no shards",
+                       "without --shard; shards are for tables larger than table.memory_limit_MiB, "
+                       "with the nodes of every axis given");
+    const table::SampledShard part =
+        table::sample_shard(law, ranges, job_.table, table_file(model.name()), shard);
+    done +=
+        fmt::format("{}: shard {} sampled, {} in {}{}\n", model.name(), shard.text(),
+                    report::count_of(part.nodes, "node"), report::count_of(part.chunks, "chunk"),
+                    part.kept > 0 ? fmt::format(", {} of them there before", part.kept) : "");
+  }
+  return done + "next, when all shards are sampled: frictab tabulate " + job_.arguments() + "\n";
 }
 
 // ---- generate ----

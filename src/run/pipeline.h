@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "calibrate/calibration.h"
 #include "codegen/exporter.h"
+#include "core/shard.h"
 #include "io/atomic_file.h"
 #include "job/job.h"
 #include "models/assembled_law.h"
@@ -44,6 +46,10 @@ public:
   // sources that are asked for: before hours of sampling.
   void check_sizes();
   void tabulate();
+  // Samples a part of each table that is streamed to disk, for a later tabulate() to complete;
+  // gives what it did in words. Throws InputError where the laws were not calibrated, and where a
+  // table is made in memory.
+  std::string tabulate_shard(const Shard& shard);
   void generate(); // sources
   void verify();
   void compare_forms(); // table or the law itself: measured, told by the summary, never written
@@ -89,6 +95,7 @@ private:
   void write_calibration();
   void add_traced_laws();
   table::Table made_table(const models::AssembledLaw& law); // and its file
+  std::filesystem::path table_file(const std::string& model) const;
   table::Table sample_table(const models::AssembledLaw& law);
   void measure_drift(const models::AssembledLaw& law, table::Table& table);
   void write_table_file(const table::Table& table);

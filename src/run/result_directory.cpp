@@ -172,7 +172,7 @@ std::vector<std::string> ResultDirectory::table_files() const {
   std::vector<std::string> files;
   for (const std::string& name : table_names()) {
     files.push_back("tables/" + name + ".h5");
-    for (const std::string& work : table::work_files(name + ".h5"))
+    for (const std::string& work : table::work_files(directory_ / "tables" / (name + ".h5")))
       files.push_back("tables/" + work);
   }
   return files;

@@ -2,7 +2,6 @@
 #include "study/plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <numeric>
 #include <optional>
@@ -69,21 +68,6 @@ Plan plan_of(Study study) {
   faults.throw_if_any();
   plan.notes = same_campaigns(plan);
   return plan;
-}
-
-Shard read_shard(const std::string& text) {
-  Shard shard;
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto read = [](std::string_view part, std::uint64_t& value) {
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    return error == std::errc() && end == part.data() + part.size() && value > 0;
-  };
-  const std::string_view all(text);
-  if (slash < text.size() && read(all.substr(0, slash), shard.number) &&
-      read(all.substr(slash + 1), shard.of) && shard.number <= shard.of)
-    return shard;
-  throw InputError({"--shard", 0, 0}, fmt::format("'{}' is no shard", text),
-                   "write i/n with i from 1 to n: --shard 3/8");
 }
 
 const char* state_name(State state) {

@@ -19,14 +19,6 @@ struct Plan {
 // Reads the data's bytes. Throws InputError with the faults of all campaigns.
 Plan plan_of(Study study);
 
-// i/n: every n-th key, from 1. Each key is in one shard, whatever else the study holds.
-struct Shard {
-  std::uint64_t number = 1, of = 1;
-  bool has(std::uint64_t key) const { return key % of == number - 1; }
-};
-// "3/8". Throws InputError.
-Shard read_shard(const std::string& text);
-
 enum class State { missing, done, failed };
 const char* state_name(State state);
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "core/shard.h"
 #include "study/plan.h"
 
 namespace frictab::study {

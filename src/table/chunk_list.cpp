@@ -8,7 +8,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -29,6 +28,39 @@ template <class T> bool parse(std::string_view text, int base, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// Line by line until one is not whole; gives the bytes that are good.
+std::size_t read_chunks(std::string_view text, std::string_view head, Chunks& found) {
+  std::size_t good = text.starts_with(head) ? head.size() : 0;
+  for (; good > 0 && good + line_length <= text.size(); good += line_length) {
+    const std::string_view line = text.substr(good, line_length);
+    std::size_t chunk = 0;
+    std::uint64_t hash = 0;
+    if (!parse(line.substr(0, 12), 10, chunk) || !parse(line.substr(13, 16), 16, hash)) break;
+    found[chunk] = hash;
+  }
+  return good;
+}
+
+// Locks of the open file (fcntl, F_OFD_...): they end with the process, and can be asked for
+// without being taken, so that shards that start together do not trip over each other.
+struct flock whole_file() {
+  struct flock lock = {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+bool lock(int file) {
+  struct flock wanted = whole_file();
+  const bool refused = ::fcntl(file, F_OFD_SETLK, &wanted) != 0;
+  return !refused || (errno != EAGAIN && errno != EACCES);
+}
+
+bool is_locked(int file) {
+  struct flock other = whole_file();
+  return ::fcntl(file, F_OFD_GETLK, &other) == 0 && other.l_type != F_UNLCK;
+}
+
 } // namespace
 
 ChunkList::ChunkList(const std::filesystem::path& file, const std::string& job)
@@ -36,23 +68,24 @@ ChunkList::ChunkList(const std::filesystem::path& file, const std::string& job)
   if (file_ < 0)
     throw InputError({file.string(), 0, 0},
                      fmt::format("cannot be written: {}", std::strerror(errno)));
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+  if (!lock(file_)) {
     ::close(file_);
     throw InputError({file.string(), 0, 0}, "another frictab is writing this table",
                      "wait for it, or choose another directory with -o DIR");
   }
   const std::string text = io::read_file(file), head = job + "\n";
-  std::size_t good = text.starts_with(head) ? head.size() : 0;
-  for (; good > 0 && good + line_length <= text.size(); good += line_length) {
-    const std::string_view line = std::string_view(text).substr(good, line_length);
-    std::size_t chunk = 0;
-    std::uint64_t hash = 0;
-    if (!parse(line.substr(0, 12), 10, chunk) || !parse(line.substr(13, 16), 16, hash)) break;
-    found_[chunk] = hash;
-  }
+  const std::size_t good = read_chunks(text, head, found_);
   const bool cut = ::ftruncate(file_, static_cast<off_t>(good)) == 0;
   if (!cut || (good == 0 && ::write(file_, head.data(), head.size()) != ssize_t(head.size())))
     throw std::runtime_error("cannot write " + file.string());
+}
+
+bool in_use_for_another_job(const std::filesystem::path& file, const std::string& job) {
+  const int list = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (list < 0) return false;
+  const bool in_use = is_locked(list);
+  ::close(list);
+  return in_use && !io::read_file(file).starts_with(job + "\n");
 }
 
 ChunkList::~ChunkList() {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <fstream>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -125,12 +127,22 @@ private:
   Place place_;
 };
 
+// Lists of the shards of this table that are there.
+std::vector<fs::path> shard_lists(const fs::path& file) {
+  const std::string start = beside(file, ".chunks.").filename().string();
+  std::vector<fs::path> lists;
+  std::error_code none; // no directory: no lists
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), none))
+    if (entry.path().filename().string().starts_with(start)) lists.push_back(entry.path());
+  std::sort(lists.begin(), lists.end());
+  return lists;
+}
+
 // Chunks whose bytes in the file still have the hash that was listed for them.
-std::vector<char> kept_chunks(const Sampler& sampler, const ChunkList& list,
+std::vector<char> kept_chunks(const Sampler& sampler, const Chunks& listed,
                               const io::StoredValues& stored) {
   std::vector<char> kept(sampler.chunks(), 0);
-  const std::vector<std::pair<std::size_t, std::uint64_t>> found(list.found().begin(),
-                                                                 list.found().end());
+  const std::vector<std::pair<std::size_t, std::uint64_t>> found(listed.begin(), listed.end());
   const Progress progress("checking what is there", found.size());
   parallel_for(found.size(), [&](std::size_t i) {
     const auto [chunk, hash] = found[i];
@@ -188,30 +200,88 @@ bool is_streamed(const models::AssembledLaw& law, const std::vector<StateRange>&
   return true;
 }
 
-StreamedTable stream_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
-                           const TableOptions& options, const fs::path& file) {
-  Sampler sampler(law, ranges, options);
-  check_room(sampler.table, options.hdf5, file);
-  fs::create_directories(file.parent_path());
-  const fs::path work = beside(file, ".partial");
-  const ChunkList list(beside(file, ".chunks"), job_line(law, sampler.table));
-  if (list.found().empty()) fs::remove(work); // of another job
-  const io::ValuesFile out(work, values_at, sampler.table.nodes());
-  const auto stored = std::make_shared<const io::StoredValues>(work, work.string(), values_at,
-                                                               sampler.table.nodes());
-  const std::vector<char> kept = kept_chunks(sampler, list, *stored);
+namespace {
+
+using StoredTogether = std::shared_ptr<const io::StoredValues>;
+
+// Samples those of the `wanted` chunks that are not kept, and lists them. Gives how many were kept.
+std::size_t sample_chunks(const Sampler& sampler, const std::vector<std::size_t>& wanted,
+                          const Chunks& listed, const ChunkList& list, const io::ValuesFile& out,
+                          const io::StoredValues& stored) {
+  const std::vector<char> kept = kept_chunks(sampler, listed, stored);
   std::vector<std::size_t> open;
-  for (std::size_t chunk = 0; chunk < kept.size(); ++chunk)
+  for (const std::size_t chunk : wanted)
     if (!kept[chunk]) open.push_back(chunk);
-  const Progress progress("sampling " + law.model.name(), kept.size(), kept.size() - open.size());
+  const std::size_t there = wanted.size() - open.size();
+  const Progress progress("sampling " + sampler.table.model, wanted.size(), there);
   parallel_for(open.size(), [&](std::size_t i) {
     const std::vector<double> values = sampler.values(open[i]);
     out.write(sampler.first(open[i]), values);
     list.add(open[i], hash_of(values));
     progress.tick();
   });
+  return there;
+}
+
+StoredTogether stored_values(const fs::path& work, const Sampler& sampler) {
+  return std::make_shared<const io::StoredValues>(work, work.string(), values_at,
+                                                  sampler.table.nodes());
+}
+
+} // namespace
+
+StreamedTable stream_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
+                           const TableOptions& options, const fs::path& file) {
+  Sampler sampler(law, ranges, options);
+  check_room(sampler.table, options.hdf5, file);
+  fs::create_directories(file.parent_path());
+  const fs::path work = beside(file, ".partial");
+  const std::string job = job_line(law, sampler.table);
+  const ChunkList list(beside(file, ".chunks"), job);
+  Chunks listed = list.found();
+  std::deque<ChunkList> of_shards; // held until the table is complete
+  for (const fs::path& shard : shard_lists(file)) {
+    const Chunks& found = of_shards.emplace_back(shard, job).found();
+    listed.insert(found.begin(), found.end());
+  }
+  if (listed.empty()) fs::remove(work); // of another job
+  const io::ValuesFile out(work, values_at, sampler.table.nodes());
+  const StoredTogether stored = stored_values(work, sampler);
+  std::vector<std::size_t> all(sampler.chunks());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::size_t kept = sample_chunks(sampler, all, listed, list, out, *stored);
   sampler.table.stored = stored;
-  return {std::move(sampler.table), kept.size(), kept.size() - open.size()};
+  return {std::move(sampler.table), all.size(), kept};
+}
+
+SampledShard sample_shard(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
+                          const TableOptions& options, const fs::path& file, const Shard& shard) {
+  const Sampler sampler(law, ranges, options);
+  check_room(sampler.table, options.hdf5, file);
+  fs::create_directories(file.parent_path());
+  const std::string job = job_line(law, sampler.table);
+  std::vector<fs::path> others = shard_lists(file);
+  others.push_back(beside(file, ".chunks"));
+  for (const fs::path& other : others)
+    if (in_use_for_another_job(other, job))
+      throw InputError({other.string(), 0, 0},
+                       "another frictab is writing this table, of another job",
+                       "wait for it, or choose another directory with -o DIR");
+  const std::string ending = fmt::format(".chunks.{}-of-{}", shard.number, shard.of);
+  const ChunkList list(beside(file, ending.c_str()), job);
+  const fs::path work = beside(file, ".partial");
+  const io::ValuesFile out(work, values_at, sampler.table.nodes());
+  SampledShard done;
+  std::vector<std::size_t> wanted;
+  for (std::size_t chunk = 0; chunk < sampler.chunks(); ++chunk)
+    if (shard.has(chunk)) {
+      wanted.push_back(chunk);
+      done.nodes += sampler.size(chunk);
+    }
+  done.chunks = wanted.size();
+  done.kept =
+      sample_chunks(sampler, wanted, list.found(), list, out, *stored_values(work, sampler));
+  return done;
 }
 
 namespace {
@@ -285,10 +355,12 @@ fs::path finish_stream(const Table& table, const io::Hdf5Storage& storage, const
   return packed;
 }
 
-std::vector<std::string> work_files(const std::string& file_name) {
+std::vector<std::string> work_files(const fs::path& file) {
   std::vector<std::string> names;
   for (const char* ending : {".partial", ".chunks", ".head", ".packed"})
-    names.push_back(beside(file_name, ending).string());
+    names.push_back(beside(file, ending).filename().string());
+  for (const fs::path& list : shard_lists(file))
+    names.push_back(list.filename().string());
   return names;
 }
 

@@ -68,7 +68,7 @@ TEST_F(SlowLargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
   EXPECT_FALSE(fs::exists(directory.path("out/tables/log_coulomb.h5")));
   const CommandResult resumed = run("tabulate");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_THAT(resumed.err, HasSubstr(" of 12 chunks kept from an interrupted run\n"));
+  EXPECT_THAT(resumed.err, HasSubstr(" of 12 chunks kept from shards or an interrupted run\n"));
   EXPECT_THAT(resumed.out, HasSubstr("log_coulomb    12,000,000 nodes, 91.6 MiB: "));
   EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
   fs::rename(directory.path("out/tables/log_coulomb.h5"), directory.path("first.h5"));
@@ -76,6 +76,46 @@ TEST_F(SlowLargeTable, KilledRunGoesOnWhereItWasAndGivesTheSameBytes) {
   EXPECT_EQ(anew.err, "");
   EXPECT_EQ(run_command({"cmp", "first.h5", "out/tables/log_coulomb.h5"}, directory.path()).out,
             "");
+}
+
+TEST_F(SlowLargeTable, FourShardsOneOfThemKilledMakeTheBytesOfOneProcess) {
+  ASSERT_EQ(run("tabulate").exit_code, 0);
+  fs::rename(directory.path("out/tables/log_coulomb.h5"), directory.path("first.h5"));
+  const std::string script = std::string("for i in 1 2 3 4; do\n  '") + FRICTAB_BINARY +
+                             "' tabulate job.toml -j1 --shard $i/4 > $i.txt & pids=\"$pids $!\"\n"
+                             "done\n"
+                             "while [ \"$(cat out/tables/.log_coulomb.h5.chunks.4-of-4 2> /dev/null"
+                             " | wc -l)\" -lt 2 ]; do sleep 0.002; done\n"
+                             "kill -9 $!\nwait";
+  run_command({"sh", "-c", script}, directory.path());
+  EXPECT_EQ(directory.read("2.txt"),
+            "log_coulomb: shard 2/4 sampled, 3,145,728 nodes in 3 chunks\n"
+            "next, when all shards are sampled: frictab tabulate job.toml\n");
+  EXPECT_FALSE(fs::exists(directory.path("out/tables/log_coulomb.h5")));
+  const CommandResult completed = run("tabulate");
+  EXPECT_EQ(completed.exit_code, 0) << completed.err;
+  EXPECT_THAT(completed.err,
+              testing::ContainsRegex("log_coulomb: (10|11|12) of 12 chunks kept from shards or an "
+                                     "interrupted run\n"));
+  EXPECT_EQ(files(), (std::vector<std::string>{"log_coulomb.h5"}));
+  EXPECT_EQ(run_command({"cmp", "first.h5", "out/tables/log_coulomb.h5"}, directory.path()).out,
+            "");
+}
+
+TEST_F(SlowLargeTable, ShardsWithoutACalibrationOrOfATableInMemoryAreRefused) {
+  const CommandResult small =
+      run("tabulate", {"--shard", "1/2", "--set", "table.memory_limit_MiB=256.0"});
+  EXPECT_EQ(small.exit_code, 2);
+  EXPECT_EQ(small.err, "job.toml: error: the table of log_coulomb is made in memory: it has no "
+                       "shards\n  hint: without --shard; shards are for tables larger than "
+                       "table.memory_limit_MiB, with the nodes of every axis given\n");
+  EXPECT_EQ(run("tabulate", {"--shard", "3/2"}).exit_code, 2);
+  const CommandResult none = run("tabulate", {"--shard", "1/2", "-o", "elsewhere"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err,
+            "elsewhere/calibration.json: error: is not there: all shards sample the laws "
+            "of one calibration\n  hint: `frictab calibrate job.toml -o elsewhere` before "
+            "the shards\n");
 }
 
 TEST_F(SlowLargeTable, IsVerifiedByTheJobAndAlone) {

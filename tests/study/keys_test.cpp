@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/shard.h"
 #include "study/keys.h"
 #include "study/plan.h"
 #include "study/small_study.h"
@@ -109,15 +110,15 @@ TEST(StudyShards, PartTheKeys) {
   for (std::uint64_t key = 1000; key < 1100; ++key) {
     int shards = 0;
     for (const char* text : {"1/7", "2/7", "3/7", "4/7", "5/7", "6/7", "7/7"})
-      shards += study::read_shard(text).has(key);
+      shards += read_shard(text).has(key);
     EXPECT_EQ(shards, 1) << key;
   }
-  EXPECT_TRUE(study::read_shard("1/1").has(12));
+  EXPECT_TRUE(read_shard("1/1").has(12));
 }
 
 TEST(StudyShards, AreRefusedWhereTheyAreNone) {
   for (const char* text : {"", "1", "/", "0/2", "3/2", "1/0", "-1/2", "1/2/3", "a/b", "1/ 2"})
-    EXPECT_THROW(study::read_shard(text), InputError) << text;
+    EXPECT_THROW(read_shard(text), InputError) << text;
 }
 
 } // namespace

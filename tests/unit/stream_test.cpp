@@ -223,6 +223,55 @@ TEST_F(StreamedTableFile, TwoProcessesDoNotWriteTheSameTable) {
   }
 }
 
+TEST_F(StreamedTableFile, ShardsInAnyOrderMakeTheTableOfOneProcess) {
+  const Case c;
+  const auto shard = [&](std::uint64_t number, std::uint64_t of) {
+    return table::sample_shard(AssembledLaw(c.model), c.ranges, c.options, file(), {number, of});
+  };
+  const table::SampledShard second = shard(2, 3);
+  EXPECT_EQ(second.chunks, 1u);
+  EXPECT_EQ(shard(1, 3).chunks, 2u); // of four: the first and the last, which is not full
+  EXPECT_EQ(shard(1, 3).kept, 2u) << "a shard that is run again";
+  StreamedTable streamed = stream(c); // the third shard never came
+  EXPECT_EQ(streamed.kept, 3u);
+  EXPECT_EQ(values_of(complete(c, streamed)),
+            table::build_table(AssembledLaw(c.model), c.ranges, c.options).value);
+}
+
+TEST_F(StreamedTableFile, ChunksOfAShardWhoseBytesAreNotTheListedOnesAreSampledAgain) {
+  const Case c;
+  for (const std::uint64_t number : {1, 2})
+    table::sample_shard(AssembledLaw(c.model), c.ranges, c.options, file(), {number, 2});
+  {
+    std::fstream partial(work(".partial"), std::ios::in | std::ios::out | std::ios::binary);
+    partial.seekp((1 << 20) + 12345);
+    partial << "not what was sampled";
+  }
+  StreamedTable streamed = stream(c);
+  EXPECT_EQ(streamed.kept, 3u);
+  EXPECT_EQ(values_of(complete(c, streamed)),
+            table::build_table(AssembledLaw(c.model), c.ranges, c.options).value);
+}
+
+TEST_F(StreamedTableFile, ShardsOfTwoJobsDoNotMeetInOneFile) {
+  const Case c;
+  fs::create_directories(directory.path("t"));
+  const auto sample = [&] {
+    return table::sample_shard(AssembledLaw(c.model), c.ranges, c.options, file(), {1, 2}).chunks;
+  };
+  {
+    const table::ChunkList other(work(".chunks.2-of-2"), "another job");
+    try {
+      sample();
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(".chunks.2-of-2: error: another frictab is writing this "
+                                          "table, of another job\n  hint: "));
+    }
+  }
+  EXPECT_EQ(sample(), 2u) << "the other one has ended";
+}
+
 TEST(StoredValues, FileThatIsCutShortIsAFaultThatNamesIt) {
   const test::TemporaryDirectory directory;
   const std::string file = directory.write("v", std::string(100, 'x'));
