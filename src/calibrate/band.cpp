@@ -10,15 +10,14 @@
 
 namespace frictab::calibrate {
 
-std::vector<double> experiment_gains(std::span<const double> measured,
-                                     std::span<const double> predicted,
-                                     std::span<const std::size_t> first_row) {
+std::vector<double> experiment_gains(const data::Dataset& data, std::span<const double> predicted) {
+  const auto measured = data.values("tau_R_MPa");
   std::vector<double> gains;
-  for (std::size_t e = 0; e + 1 < first_row.size(); ++e) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     double cross = 0, square = 0;
-    for (std::size_t i = first_row[e]; i < first_row[e + 1]; ++i) {
-      cross += measured[i] * predicted[i];
-      square += predicted[i] * predicted[i];
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+      cross += data.row_weight(i) * measured[i] * predicted[i];
+      square += data.row_weight(i) * predicted[i] * predicted[i];
     }
     gains.push_back(square > 0 ? cross / square : no_value);
   }
@@ -76,10 +75,15 @@ models::Model at_quantile(const models::Model& model, double quantile, const Pla
 
 BandCheck check_band(const models::Model& model, std::span<const double> predicted,
                      const data::Dataset& data) {
+  return check_band(model, data.experiments.empty() ? std::vector<double>{}
+                                                    : experiment_gains(data, predicted));
+}
+
+BandCheck check_band(const models::Model& model, std::span<const double> gains) {
   BandCheck check{gain_at_quantile(model.experiment_gains, 0.05),
-                  gain_at_quantile(model.experiment_gains, 0.95), 0, data.experiments.size()};
+                  gain_at_quantile(model.experiment_gains, 0.95), 0, gains.size()};
   if (!check.low || !check.high) return check;
-  for (const double gain : experiment_gains(data.values("tau_R_MPa"), predicted, data.first_row))
+  for (const double gain : gains)
     if (gain >= *check.low && gain <= *check.high) ++check.inside;
   return check;
 }

@@ -15,9 +15,7 @@ namespace frictab::calibrate {
 
 // Least-squares factor of each experiment: sum(measured predicted)/sum(predicted^2). NaN where the
 // law predicts no stress at all.
-std::vector<double> experiment_gains(std::span<const double> measured,
-                                     std::span<const double> predicted,
-                                     std::span<const std::size_t> first_row);
+std::vector<double> experiment_gains(const data::Dataset& data, std::span<const double> predicted);
 
 // The factors spread about their median as far as those of new experiments lie: a fit of
 // `parameters` numbers to E experiments has drawn the law towards just these, so that their
@@ -50,5 +48,7 @@ struct BandCheck {
 };
 BandCheck check_band(const models::Model& model, std::span<const double> predicted,
                      const data::Dataset& data);
+// Of experiments with these factors of their own.
+BandCheck check_band(const models::Model& model, std::span<const double> gains);
 
 } // namespace frictab::calibrate

@@ -9,33 +9,54 @@
 
 namespace frictab::calibrate {
 
-std::vector<std::string> rows_beyond_ends(const models::Law& law,
-                                          const std::vector<std::string>& names,
-                                          const InputColumns& columns, std::size_t rows,
-                                          const std::string& data) {
-  std::vector<char> any(rows, 0);
-  std::vector<std::string> sides;
+void RowsBeyond::add(const models::Law& law, const std::vector<std::string>& names,
+                     const InputColumns& columns, const data::Dataset& data) {
+  if (law.held.empty()) return;
+  std::vector<char> outside(data.rows(), 0);
+  const auto behind = [&](std::size_t row) {
+    return static_cast<std::size_t>(data.row_weight(row));
+  };
   for (const auto& [name, ends] : law.held) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) continue;
     const auto values = columns[static_cast<std::size_t>(found - names.begin())];
-    std::size_t below = 0, above = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      below += values[row] < ends.first;
-      above += values[row] > ends.second;
-      if (values[row] < ends.first || values[row] > ends.second) any[row] = 1;
+    auto& [below, above] = sides[name];
+    for (std::size_t row = 0; row < data.rows(); ++row) {
+      const bool low = values[row]<ends.first, high = values[row]> ends.second;
+      if (low) below += behind(row);
+      if (high) above += behind(row);
+      if (low || high) outside[row] = 1;
     }
+  }
+  for (std::size_t row = 0; row < data.rows(); ++row)
+    if (outside[row]) any += behind(row);
+  rows += data.rows_behind();
+}
+
+void RowsBeyond::add(const RowsBeyond& more) {
+  for (const auto& [name, counts] : more.sides) {
+    sides[name].first += counts.first;
+    sides[name].second += counts.second;
+  }
+  any += more.any;
+  rows += more.rows;
+}
+
+std::vector<std::string> RowsBeyond::told(const models::Law& law, const std::string& data) const {
+  std::vector<std::string> said;
+  for (const auto& [name, ends] : law.held) {
+    const auto counted = sides.find(name);
+    if (counted == sides.end()) continue;
+    const auto& [below, above] = counted->second;
     if (below > 0)
-      sides.push_back(
-          fmt::format("{} below {} ({})", name, shortest(ends.first), thousands(below)));
+      said.push_back(fmt::format("{} below {} ({})", name, shortest(ends.first), thousands(below)));
     if (above > 0)
-      sides.push_back(
+      said.push_back(
           fmt::format("{} above {} ({})", name, shortest(ends.second), thousands(above)));
   }
-  if (sides.empty()) return {};
-  const auto count = static_cast<std::size_t>(std::count(any.begin(), any.end(), 1));
+  if (said.empty()) return {};
   return {fmt::format("{} of {} {} rows lie beyond the ends at which the law is held: {}",
-                      thousands(count), thousands(rows), data, join(sides, ", "))};
+                      thousands(any), thousands(rows), data, join(said, ", "))};
 }
 
 } // namespace frictab::calibrate

@@ -2,7 +2,9 @@
 // where it is a polynomial.
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrate/input_columns.h"
@@ -10,12 +12,19 @@
 
 namespace frictab::calibrate {
 
-// "12 of 4,000 training rows lie beyond the ends at which the law is held: v_rel_mm_s above 200
-// (12)"; none where no row does, and of laws that are held nowhere. `names`
-// are those of the columns, `data` what the rows are called.
-std::vector<std::string> rows_beyond_ends(const models::Law& law,
-                                          const std::vector<std::string>& names,
-                                          const InputColumns& columns, std::size_t rows,
-                                          const std::string& data);
+// Of a law, counted over one or several datasets. A block of condensed rows counts as its rows.
+struct RowsBeyond {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> sides; // below, above, by input
+  std::size_t any = 0, rows = 0;
+
+  // `names` are those of the columns.
+  void add(const models::Law& law, const std::vector<std::string>& names,
+           const InputColumns& columns, const data::Dataset& data);
+  void add(const RowsBeyond& more);
+  // "12 of 4,000 training rows lie beyond the ends at which the law is held: v_rel_mm_s above 200
+  // (12)"; none where no row does, and of laws that are held nowhere. `data`: what the rows are
+  // called.
+  std::vector<std::string> told(const models::Law& law, const std::string& data) const;
+};
 
 } // namespace frictab::calibrate

@@ -18,6 +18,7 @@
 #include "calibrate/metrics.h"
 #include "calibrate/noise_floor.h"
 #include "calibrate/refit.h"
+#include "calibrate/row_errors.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -125,20 +126,32 @@ Selection select_laws(const CalibrationInput& input, const models::Conventions& 
 
 Metrics errors_on(const Dataset& data, const std::vector<double>& predicted,
                   const CalibrationOptions& options) {
-  return metrics(data.values("tau_R_MPa"), predicted, data.first_row, options.bootstrap,
-                 options.seed);
+  return metrics(data, predicted, options.bootstrap, options.seed);
 }
 
 void tell_beyond_ends(ModelFit& fit, const models::AssembledLaw& law, const InputColumns& columns,
                       const CalibrationInput& input) {
-  const auto add = [&](const InputColumns& of, std::size_t rows, const char* data) {
-    for (std::string& remark : rows_beyond_ends(*law.model.law, law.inputs, of, rows, data))
+  const auto add = [&](const InputColumns& of, const Dataset& data, const char* called) {
+    RowsBeyond beyond;
+    beyond.add(*law.model.law, law.inputs, of, data);
+    for (std::string& remark : beyond.told(*law.model.law, called))
       fit.remarks.push_back(std::move(remark));
   };
   if (law.model.law->held.empty()) return;
-  add(columns, input.training.rows(), "training");
+  add(columns, input.training, "training");
   if (on_other_experiments(input.judged_by))
-    add(input_columns(law, law.inputs, input.validation), input.validation.rows(), "validation");
+    add(input_columns(law, law.inputs, input.validation), input.validation, "validation");
+}
+
+// On the rows that are held; of condensed data judge_on_rows does all this.
+void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& trained,
+               const CalibrationInput& input) {
+  tell_beyond_ends(fit, law, trained.columns, input);
+  fit.training = errors_on(input.training, trained.tau_MPa, input.options);
+  if (!on_other_experiments(input.judged_by)) return;
+  const std::vector<double> unseen = predict(fit.model, input.validation);
+  fit.validation = errors_on(input.validation, unseen, input.options);
+  fit.band = check_band(fit.model, unseen, input.validation);
 }
 
 ModelFit calibrated(const models::Law& law, const models::Conventions& conventions,
@@ -146,15 +159,9 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
   const auto begin = std::chrono::steady_clock::now();
   ModelFit fit = fit_law(law, conventions, input.training, input.options);
   const models::AssembledLaw assembled(fit.model);
-  const auto [columns, trained] = predict_with_columns(assembled, assembled.inputs, input.training);
-  fit.data_range = columns.ranges();
-  tell_beyond_ends(fit, assembled, columns, input);
-  fit.training = errors_on(input.training, trained, input.options);
-  if (on_other_experiments(input.judged_by)) {
-    const std::vector<double> unseen = predict(fit.model, input.validation);
-    fit.validation = errors_on(input.validation, unseen, input.options);
-    fit.band = check_band(fit.model, unseen, input.validation);
-  }
+  const Predicted trained = predict_with_columns(assembled, assembled.inputs, input.training);
+  fit.data_range = trained.columns.ranges();
+  if (!input.training.condensed) judge_fit(fit, assembled, trained, input);
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
 }
@@ -252,13 +259,17 @@ Calibration calibrate(const CalibrationInput& input) {
   if (input.judged_by == JudgedBy::leave_one_out)
     judge_by_leaving_out(calibration.fits, selection.laws, conventions, input);
   if (input.judged_by == JudgedBy::fit) judge_by_the_fit(calibration.fits, input);
+  std::vector<ModelFit*> fits;
+  for (ModelFit& fit : calibration.fits)
+    fits.push_back(&fit);
+  const ScatterWithin scatter = judge_on_rows(fits, input);
   std::stable_sort(calibration.fits.begin(), calibration.fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   add_comparisons(calibration, input);
   add_other_splits(calibration, conventions, input);
-  add_noise_floors(calibration, input);
+  add_noise_floors(calibration, input, scatter);
   add_conditional(calibration, input);
   if (input.options.deliver == Deliver::all && on_other_experiments(input.judged_by))
     refit_on_all(calibration, conventions, input);

@@ -22,6 +22,7 @@
 //     resampling        errors per experiment, whole experiments resampled
 //     metrics           MAE, RMSE, bias with intervals
 //     experiment_errors the same for single experiments
+//     row_errors        the same of condensed data, by a second look at their rows
 //     refit             laws fitted again to all experiments, to be delivered
 //     cross_validation  experiments predicted by laws fitted without them
 //     comparison        which law is better than which
@@ -62,7 +63,10 @@ struct ModelFit {
   BandCheck band; // of model.experiment_gains, on the validation experiments
   // Where each experiment was left out: its error by the law fitted without it, as filed.
   std::vector<ExperimentError> unseen;
-  std::vector<models::Model> without;         // that law, per experiment; kept out of files
+  std::vector<models::Model> without; // that law, per experiment; kept out of files
+  // Condensed data judged on other experiments: errors on the rows of all training experiments,
+  // then of all validation experiments (row_errors.h); kept out of files.
+  std::vector<ExperimentError> on_rows;
   std::optional<NetworkRecord> network;       // how a neural network was trained
   std::optional<PolynomialRecord> polynomial; // what a polynomial is made of
   // Least and largest of each input in the training data, by name; empty in files of versions that

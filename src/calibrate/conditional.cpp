@@ -34,34 +34,46 @@ Range range_of(const Dataset& data, std::size_t e) {
 }
 
 // sum measured predicted / sum predicted^2 over the rows on one side of x; 0 where there is none.
-double gain_of(Rows s, Rows measured, Rows predicted, double x_mm, bool beyond) {
+double gain_of(const TestRows& rows, double x_mm, bool beyond) {
   double product = 0, square = 0;
-  for (std::size_t i = 0; i < s.size(); ++i)
-    if ((s[i] > x_mm) == beyond) {
-      product += measured[i] * predicted[i];
-      square += predicted[i] * predicted[i];
+  for (std::size_t i = 0; i < rows.s_mm.size(); ++i)
+    if ((rows.s_mm[i] > x_mm) == beyond) {
+      product += rows.weight(i) * rows.measured[i] * rows.predicted[i];
+      square += rows.weight(i) * rows.predicted[i] * rows.predicted[i];
     }
   return square > 0 ? product / square : 0;
 }
 
 // The rows beyond x of every experiment that has some.
 struct Rest {
-  std::vector<double> measured, plain, gained;
-  std::vector<std::size_t> first_row{0};
+  std::vector<ErrorSums> plain, gained;
 };
 
+void add_row(ErrorSums& sums, const Dataset& data, std::size_t row, double predicted) {
+  const double r = data.values("tau_R_MPa")[row] - predicted;
+  add_block(sums, r, data.row_weight(row), data.condensed ? data.condensed->within_MPa2[row] : 0.0);
+}
+
+TestRows rows_of(const Dataset& data, std::size_t e, Rows predicted) {
+  const Range r = range_of(data, e);
+  const Rows weights = data.row_weights();
+  return {r.of(data.values("s_mm")), r.of(data.values("tau_R_MPa")), r.of(predicted),
+          weights.empty() ? weights : r.of(weights)};
+}
+
 Rest rest_of(const Dataset& data, Rows plain, Rows gained, double x_mm) {
-  const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
+  const Rows s = data.values("s_mm");
   Rest rest;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    ErrorSums without, with;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       if (!(s[i] > x_mm)) continue;
-      rest.measured.push_back(tau[i]);
-      rest.plain.push_back(plain[i]);
-      rest.gained.push_back(gained[i]);
+      add_row(without, data, i, plain[i]);
+      add_row(with, data, i, gained[i]);
     }
-    if (rest.measured.size() > rest.first_row.back())
-      rest.first_row.push_back(rest.measured.size());
+    if (without.rows == 0) continue;
+    rest.plain.push_back(without);
+    rest.gained.push_back(with);
   }
   return rest;
 }
@@ -85,11 +97,8 @@ void add_rests(std::vector<LawErrors>& both, const models::Model& model, const G
   const Rest rest =
       rest_of(data, plain,
               conditioned_predictions(data, plain, shear_limit(model, data), prior, x_mm), x_mm);
-  for (const auto& [law, predicted] :
-       {std::pair{&both[0], &rest.gained}, {&both[1], &rest.plain}}) {
-    const auto sums = error_sums(rest.measured, *predicted, rest.first_row);
-    law->sums.insert(law->sums.end(), sums.begin(), sums.end());
-  }
+  both[0].sums.insert(both[0].sums.end(), rest.gained.begin(), rest.gained.end());
+  both[1].sums.insert(both[1].sums.end(), rest.plain.begin(), rest.plain.end());
 }
 
 // Each experiment by the law fitted without it, and what the others say of its gain.
@@ -150,23 +159,22 @@ double GainPrior::gain(const FirstPart& first) const {
   return std::max(0.0, usual_rest + trust(first.rows) * (first.gain - usual_first));
 }
 
-FirstPart first_part(Rows s_mm, Rows measured, Rows predicted, double x_mm) {
+FirstPart first_part(const TestRows& rows, double x_mm) {
   FirstPart part;
-  part.rows = static_cast<std::size_t>(
-      std::count_if(s_mm.begin(), s_mm.end(), [&](double s) { return s <= x_mm; }));
-  const double gain = gain_of(s_mm, measured, predicted, x_mm, false);
+  for (std::size_t i = 0; i < rows.s_mm.size(); ++i)
+    if (rows.s_mm[i] <= x_mm) part.rows += static_cast<std::size_t>(rows.weight(i));
+  const double gain = gain_of(rows, x_mm, false);
   if (gain > 0) part.gain = gain;
   return part;
 }
 
 GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
-  const Rows s = training.values("s_mm"), tau = training.values("tau_R_MPa");
   GainPrior prior;
   std::vector<double> rows, firsts, rests;
   for (std::size_t e = 0; e < training.experiments.size(); ++e) {
-    const Range r = range_of(training, e);
-    const double rest = gain_of(r.of(s), r.of(tau), r.of(predicted), x_mm, true);
-    const FirstPart first = first_part(r.of(s), r.of(tau), r.of(predicted), x_mm);
+    const TestRows test = rows_of(training, e, predicted);
+    const double rest = gain_of(test, x_mm, true);
+    const FirstPart first = first_part(test, x_mm);
     if (first.rows == 0 || rest == 0) continue;
     firsts.push_back(first.gain);
     rests.push_back(rest);
@@ -189,11 +197,10 @@ GainPrior gain_prior(const Dataset& training, Rows predicted, double x_mm) {
 
 std::vector<double> conditioned_predictions(const Dataset& data, Rows predicted, Rows limit,
                                             const GainPrior& prior, double x_mm) {
-  const Rows s = data.values("s_mm"), tau = data.values("tau_R_MPa");
   std::vector<double> out(predicted.begin(), predicted.end());
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const Range r = range_of(data, e);
-    const FirstPart first = first_part(r.of(s), r.of(tau), r.of(predicted), x_mm);
+    const FirstPart first = first_part(rows_of(data, e, predicted), x_mm);
     const double gain = prior.gain(first);
     for (std::size_t i = r.first; i < r.first + r.count; ++i) {
       out[i] *= gain;

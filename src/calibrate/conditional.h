@@ -34,8 +34,12 @@ struct GainPrior {
   double gain(const FirstPart& first) const;
 };
 
-FirstPart first_part(std::span<const double> s_mm, std::span<const double> measured,
-                     std::span<const double> predicted, double x_mm);
+// Of one experiment; `weights`: how many rows each stands for, empty: one each.
+struct TestRows {
+  std::span<const double> s_mm, measured, predicted, weights = {};
+  double weight(std::size_t i) const { return weights.empty() ? 1 : weights[i]; }
+};
+FirstPart first_part(const TestRows& rows, double x_mm);
 GainPrior gain_prior(const data::Dataset& training, std::span<const double> predicted, double x_mm);
 
 // Predictions times the gain of their experiment's rest, kept to tau_R <= `limit` (per row;

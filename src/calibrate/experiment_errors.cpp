@@ -2,11 +2,13 @@
 #include "calibrate/experiment_errors.h"
 
 #include <cmath>
+#include <deque>
 
 #include <fmt/format.h>
 
 #include "calibrate/band.h"
 #include "calibrate/resampling.h"
+#include "calibrate/row_errors.h"
 #include "core/parallel.h"
 #include "io/csv.h"
 
@@ -14,10 +16,9 @@ namespace frictab::calibrate {
 
 std::vector<ExperimentError> experiment_errors(const models::Model& model,
                                                const data::Dataset& data, bool held_out) {
-  const std::span<const double> measured = data.values("tau_R_MPa");
   const std::vector<double> predicted = predict(model, data);
-  const std::vector<ErrorSums> sums = error_sums(measured, predicted, data.first_row);
-  const std::vector<double> gains = experiment_gains(measured, predicted, data.first_row);
+  const std::vector<ErrorSums> sums = error_sums(data, predicted);
+  const std::vector<double> gains = experiment_gains(data, predicted);
   std::vector<ExperimentError> errors;
   for (std::size_t e = 0; e < sums.size(); ++e)
     errors.push_back(error_of(data.experiments[e], held_out, sums[e], gains[e]));
@@ -47,18 +48,53 @@ std::vector<ErrorSums> sums_of(const std::vector<ExperimentError>& errors) {
 
 std::vector<ErrorSums> unseen_sums(const ModelFit& fit, const data::Dataset& validation) {
   if (!fit.unseen.empty()) return sums_of(fit.unseen);
-  return error_sums(validation.values("tau_R_MPa"), predict(fit.model, validation),
-                    validation.first_row);
+  if (!fit.on_rows.empty()) {
+    const auto end = fit.on_rows.end();
+    return sums_of({end - static_cast<std::ptrdiff_t>(validation.experiments.size()), end});
+  }
+  return error_sums(validation, predict(fit.model, validation));
 }
+
+namespace {
+
+// Of the laws that were not judged on the rows of condensed data, as those of an earlier run.
+void look_where_unknown(std::vector<ErrorsOfLaw>& laws, const Calibration& calibration,
+                        const data::Dataset& training, const data::Dataset& validation) {
+  std::vector<std::size_t> unknown;
+  std::deque<models::AssembledLaw> assembled;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (const ModelFit& fit = calibration.fits[i]; fit.unseen.empty() && fit.on_rows.empty()) {
+      unknown.push_back(i);
+      assembled.emplace_back(fit.model);
+    }
+  if (unknown.empty()) return;
+  const LawOfExperiment law = [&](std::size_t l, std::size_t) -> const models::AssembledLaw& {
+    return assembled[l];
+  };
+  const RowsToJudge both[] = {{&training, false, law}, {&validation, true, law}};
+  const std::vector<RowFindings> found = look_at_rows(both, unknown.size());
+  for (std::size_t l = 0; l < unknown.size(); ++l)
+    for (const RowFindings& one : found)
+      laws[unknown[l]].experiments.insert(laws[unknown[l]].experiments.end(), one.errors[l].begin(),
+                                          one.errors[l].end());
+}
+
+} // namespace
 
 std::vector<ErrorsOfLaw> errors_by_experiment(const Calibration& calibration,
                                               const data::Dataset& training,
                                               const data::Dataset& validation) {
   std::vector<ErrorsOfLaw> laws(calibration.fits.size());
+  if (training.condensed) look_where_unknown(laws, calibration, training, validation);
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
     std::vector<ExperimentError> unseen = fit.unseen;
     laws[i].law = fit.model.law->name;
+    if (!laws[i].experiments.empty()) return;
+    if (unseen.empty() && !fit.on_rows.empty()) {
+      laws[i].experiments = fit.on_rows;
+      return;
+    }
     if (unseen.empty()) {
       laws[i].experiments = experiment_errors(fit.model, training, false);
       unseen = experiment_errors(fit.model, validation, true);

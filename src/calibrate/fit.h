@@ -27,6 +27,7 @@ struct FitProblem {
   const expr::BoundProgram& law; // scalars = parameters
   std::span<const double> measured;
   std::span<const models::Parameter> parameters; // bounds, which may be infinite
+  std::span<const double> weights = {};          // of the rows in every mean; empty: all alike
 };
 
 struct FitResult {

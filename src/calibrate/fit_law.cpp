@@ -18,10 +18,28 @@ using models::Calibrated;
 
 namespace {
 
+// Sum and rows of tau over `per` in an experiment; of condensed data over the rows behind them.
+data::RatioSum ratio_in(const Dataset& data, std::size_t e, std::span<const double> per,
+                        bool over_pressure, double factor) {
+  if (data.condensed) {
+    const data::RowsOfExperiment& one = data.condensed->experiments[e];
+    data::RatioSum ratio = over_pressure ? one.over_pressure : one.over_flow;
+    ratio.sum /= factor;
+    return ratio;
+  }
+  const auto tau = data.values("tau_R_MPa");
+  data::RatioSum ratio;
+  for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
+    if (!(per[i] > 0)) continue;
+    ratio.sum += tau[i] / (factor * per[i]);
+    ++ratio.rows;
+  }
+  return ratio;
+}
+
 // The paper's calibration: the mean over all rows of mu_meas = tau/sigma_N or m_meas = tau/k, with
 // the standard error of a mean of experiments.
 void fit_means(ModelFit& fit, const Dataset& data) {
-  const auto tau = data.values("tau_R_MPa");
   for (const models::Parameter& parameter : fit.model.law->parameters) {
     const bool is_mu = parameter.name == "mu";
     const auto per = data.values(is_mu ? "sigma_n_MPa" : "sigma_f_MPa");
@@ -30,18 +48,11 @@ void fit_means(ModelFit& fit, const Dataset& data) {
     std::vector<std::pair<double, double>> parts; // per experiment: sum, rows
     std::size_t unloaded = 0;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      double part = 0, count = 0;
-      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
-        if (!(per[i] > 0)) {
-          ++unloaded;
-          continue;
-        }
-        part += tau[i] / (factor * per[i]);
-        ++count;
-      }
-      parts.emplace_back(part, count);
-      sum += part;
-      rows += count;
+      const data::RatioSum part = ratio_in(data, e, per, is_mu, factor);
+      unloaded += data.rows_behind(e) - static_cast<std::size_t>(part.rows);
+      parts.emplace_back(part.sum, part.rows);
+      sum += part.sum;
+      rows += part.rows;
     }
     const double mean = sum / rows;
     double variance = 0;
@@ -90,8 +101,8 @@ std::vector<double> settled_tau(ModelFit& fit, const Dataset& data,
   const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
   double sum = 0, load = 0;
   for (std::size_t i = 0; i < data.rows(); ++i) {
-    sum += tau[i];
-    load += pressure[i];
+    sum += data.row_weight(i) * tau[i];
+    load += data.row_weight(i) * pressure[i];
   }
   std::vector<double> own(pressure.begin(), pressure.end());
   for (double& value : own)
@@ -231,9 +242,9 @@ ModelFit fit_law(const models::Law& law, const models::Conventions& conventions,
     break;
   }
   if (!models::is_trained(law.calibrated))
-    fit.model.experiment_gains = gains_of_new_experiments(
-        experiment_gains(data.values("tau_R_MPa"), predict(fit.model, data), data.first_row),
-        law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
+    fit.model.experiment_gains =
+        gains_of_new_experiments(experiment_gains(data, predict(fit.model, data)),
+                                 law.calibrated == Calibrated::fixed ? 0 : law.parameters.size());
   return fit;
 }
 

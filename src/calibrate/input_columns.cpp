@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "data/condense.h"
 #include "data/derived.h"
 #include "effects/extended_law.h"
 #include "expr/program.h"
@@ -148,13 +149,13 @@ std::vector<std::vector<double>> InputColumns::values() const {
 std::map<std::string, std::pair<double, double>> InputColumns::ranges() const {
   std::map<std::string, std::pair<double, double>> out;
   for (std::size_t i = 0; i < names_.size(); ++i)
-    for (const double x : (*this)[i]) {
-      if (std::isnan(x)) continue;
-      auto& [low, high] = out.try_emplace(names_[i], x, x).first->second;
-      low = std::min(low, x);
-      high = std::max(high, x);
-    }
+    if (const auto span = range(i); !std::isnan(span.first)) out.emplace(names_[i], span);
   return out;
+}
+
+std::pair<double, double> InputColumns::range(std::size_t input) const {
+  const data::Column* column = recorded_column(names_[input], *data_);
+  return data::span_behind(*data_, column ? column->name : names_[input], (*this)[input]);
 }
 
 namespace {

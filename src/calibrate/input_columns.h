@@ -42,6 +42,8 @@ public:
   std::vector<std::vector<double>> values() const; // copies
   // Least and largest of each by name, empty cells left aside; none where all cells are empty.
   std::map<std::string, std::pair<double, double>> ranges() const;
+  // Of one, over the rows behind condensed data; NaN where all cells are empty.
+  std::pair<double, double> range(std::size_t input) const;
 
 private:
   const double* find(const models::Law& law, std::size_t input);

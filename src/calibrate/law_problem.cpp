@@ -151,6 +151,7 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
   Level all;
   all.columns = columns_.pointers();
   all.measured = data.values("tau_R_MPa");
+  all.weights = data.row_weights();
   all.formula.emplace(program_, data.rows(), all.columns);
   levels_.push_back(std::move(all));
 }
@@ -158,6 +159,7 @@ LawProblem::LawProblem(const models::Law& law, const models::Conventions& conven
 LawProblem::Starts LawProblem::law_starts() const {
   if (!law_.starts) return {};
   models::TrainingRows rows{{"tau_R_MPa", data_.values("tau_R_MPa")}};
+  if (data_.condensed) rows[models::row_weights] = data_.row_weights();
   for (std::size_t i = 0; i < columns_.names().size(); ++i)
     rows[columns_.names()[i]] = columns_[i];
   return law_.starts(conventions_, rows);
@@ -178,11 +180,15 @@ void LawProblem::add_thinned(std::size_t rows) {
   for (std::size_t c = 0; c < columns_.names().size(); ++c)
     level.columns.push_back(level.kept[c].data());
   level.measured = level.kept.back();
+  if (data_.condensed) {
+    keep(data_.row_weights());
+    level.weights = level.kept.back();
+  }
   level.formula.emplace(program_, rows, level.columns);
 }
 
 FitProblem LawProblem::problem(const Level& level) const {
-  return {*level.formula, level.measured, law_.parameters};
+  return {*level.formula, level.measured, law_.parameters, level.weights};
 }
 
 // Distinct minima on one level, best first. Least squares find them, `loss` ranks them; for L1

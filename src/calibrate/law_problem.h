@@ -41,9 +41,10 @@ public:
 private:
   using Starts = std::vector<std::vector<double>>;
   struct Level {
-    std::vector<std::vector<double>> kept; // of a thinned copy: columns, then tau_R
+    std::vector<std::vector<double>> kept; // of a thinned copy: columns, tau_R, weights if any
     std::vector<const double*> columns;
     std::span<const double> measured;
+    std::span<const double> weights; // empty: all alike
     std::optional<expr::BoundProgram> formula;
   };
   FitProblem problem(const Level& level) const;

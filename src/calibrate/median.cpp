@@ -13,7 +13,7 @@ namespace {
 
 struct Point {
   double at;     // the parameter that would put the law through this row
-  double weight; // |d tau/d p|
+  double weight; // |d tau/d p|, times the row's
 };
 
 // The smallest `at` below and at which lies half of the weight. Only what a pivot leaves undecided
@@ -60,7 +60,9 @@ void exact_median(const FitProblem& problem, FitResult& fit) {
     problem.law.sweep(fit.parameters, true, [&](const expr::BoundProgram::Block& b) {
       for (std::size_t k = 0; k < b.count; ++k)
         if (const double g = b.derivative[0][k]; g != 0)
-          points.push_back({p + (problem.measured[b.first + k] - b.value[k]) / g, std::abs(g)});
+          points.push_back(
+              {p + (problem.measured[b.first + k] - b.value[k]) / g,
+               std::abs(g) * (problem.weights.empty() ? 1 : problem.weights[b.first + k])});
     });
     if (points.empty()) return;
     const std::vector<double> median{

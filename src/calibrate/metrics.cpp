@@ -101,6 +101,11 @@ Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uin
   return m;
 }
 
+Metrics metrics(const data::Dataset& data, std::span<const double> predicted, std::size_t resamples,
+                std::uint64_t seed) {
+  return metrics(error_sums(data, predicted), resamples, seed);
+}
+
 Metrics metrics(std::span<const double> measured, std::span<const double> predicted,
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed) {
   return metrics(error_sums(measured, predicted, first_row), resamples, seed);

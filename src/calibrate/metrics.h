@@ -22,6 +22,8 @@ namespace frictab::calibrate {
 // only, so two laws on the same data are resampled alike (paired).
 Metrics metrics(std::span<const double> measured, std::span<const double> predicted,
                 std::span<const std::size_t> first_row, std::size_t resamples, std::uint64_t seed);
+Metrics metrics(const data::Dataset& data, std::span<const double> predicted, std::size_t resamples,
+                std::uint64_t seed);
 Metrics metrics(std::span<const ErrorSums> sums, std::size_t resamples, std::uint64_t seed);
 
 } // namespace frictab::calibrate

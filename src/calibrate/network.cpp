@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "data/condense.h"
 #include "data/quantity.h"
 
 namespace frictab::calibrate {
@@ -34,41 +35,61 @@ struct Binning {
   std::vector<std::size_t> first; // row of each bin, and the end
   std::vector<Index> first_bin;   // of each experiment, and the end
 
-  explicit Binning(const data::Dataset& data) : first_bin{0} {
+  const data::Dataset& data;
+
+  explicit Binning(const data::Dataset& of) : first_bin{0}, data(of) {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      const std::size_t from = data.first_row[e], rows = data.first_row[e + 1] - from;
-      const std::size_t bins = std::min(rows, bins_per_experiment);
-      for (std::size_t b = 0; b < bins; ++b)
-        first.push_back(from + b * rows / bins);
-      first_bin.push_back(first_bin.back() + static_cast<Index>(bins));
+      const std::vector<std::size_t> before = rows_before(e);
+      const std::size_t bins = std::min(before.size() - 1, bins_per_experiment);
+      std::size_t next = 0; // held row; a block is in one bin
+      for (std::size_t b = 0; b < bins; ++b) {
+        const auto row = std::lower_bound(before.begin() + static_cast<std::ptrdiff_t>(next),
+                                          before.end() - 1, b * before.back() / bins);
+        next = static_cast<std::size_t>(row - before.begin());
+        if (next + 1 == before.size()) break;
+        first.push_back(data.first_row[e] + next++);
+      }
+      first_bin.push_back(static_cast<Index>(first.size()));
     }
     first.push_back(data.rows());
+  }
+
+  // Rows of an experiment before each that is held, and all: those that condensed ones stand for.
+  std::vector<std::size_t> rows_before(std::size_t e) const {
+    std::vector<std::size_t> before{0};
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      before.push_back(before.back() + static_cast<std::size_t>(data.row_weight(i)));
+    return before;
   }
 
   VectorXd means(std::span<const double> column) const {
     VectorXd mean(first_bin.back());
     for (std::size_t b = 0; b + 1 < first.size(); ++b) {
-      const double rows = static_cast<double>(first[b + 1] - first[b]);
-      mean(static_cast<Index>(b)) =
-          std::accumulate(column.begin() + static_cast<std::ptrdiff_t>(first[b]),
-                          column.begin() + static_cast<std::ptrdiff_t>(first[b + 1]), 0.0) /
-          rows;
+      double sum = 0;
+      for (std::size_t i = first[b]; i < first[b + 1]; ++i)
+        sum += data.row_weight(i) * column[i];
+      mean(static_cast<Index>(b)) = sum / rows_in(b);
     }
     return mean;
+  }
+
+  double rows_in(std::size_t b) const {
+    double rows = 0;
+    for (std::size_t i = first[b]; i < first[b + 1]; ++i)
+      rows += data.row_weight(i);
+    return rows;
   }
 
   VectorXd weights() const {
     VectorXd rows(first_bin.back());
     for (std::size_t b = 0; b + 1 < first.size(); ++b)
-      rows(static_cast<Index>(b)) = static_cast<double>(first[b + 1] - first[b]);
+      rows(static_cast<Index>(b)) = rows_in(b);
     return (rows / rows.mean()).cwiseSqrt();
   }
 };
 
-models::NetworkInput scaling(const std::string& name, std::span<const double> rows,
-                             const VectorXd& bins) {
+models::NetworkInput scaling(const std::string& name, double smallest, const VectorXd& bins) {
   models::NetworkInput input{.name = name};
-  const double smallest = *std::min_element(rows.begin(), rows.end());
   const double low = bins.minCoeff(), high = bins.maxCoeff();
   // Degrees Celsius have no zero to count decades from.
   input.log =
@@ -108,7 +129,8 @@ TrainingSet prepare(const models::Law& law, const data::Dataset& data,
   bins.z.resize(bins.stress.size(), static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const VectorXd mean = binning.means(data.values(names[i]));
-    set.inputs.push_back(scaling(names[i], data.values(names[i]), mean));
+    const double smallest = data::span_behind(data, names[i], data.values(names[i])).first;
+    set.inputs.push_back(scaling(names[i], smallest, mean));
     bins.z.col(static_cast<Index>(i)) =
         mean.unaryExpr([&](double x) { return set.inputs.back().z(x); });
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -80,7 +81,12 @@ void add_differences(ErrorSums& sums, const std::vector<std::size_t>& group, std
       sum += tau[j];
       ++others;
     }
-    if (others > 0) add_residual(sums, (tau[i] - sum / others) * std::sqrt(others / (others + 1)));
+    if (others == 0) continue;
+    const double r = (tau[i] - sum / others) * std::sqrt(others / (others + 1));
+    if (data.condensed) // whose rows scatter about their means as those of the others do
+      add_block(sums, r, data.condensed->rows[i], data.condensed->within_MPa2[i]);
+    else
+      add_residual(sums, r);
   }
 }
 
@@ -106,6 +112,8 @@ struct Window {
 
 constexpr std::size_t least_window = 9;
 
+} // namespace
+
 // Rows are evenly spaced enough along the sliding distance for the row number to stand for it.
 ErrorSums scatter_within(Rows tau) {
   ErrorSums sums;
@@ -126,8 +134,6 @@ ErrorSums scatter_within(Rows tau) {
   }
   return sums;
 }
-
-} // namespace
 
 std::optional<NoiseFloor> oracle_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed) {
@@ -157,30 +163,50 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
   return floor;
 }
 
-std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
-                                       std::uint64_t seed) {
+namespace {
+
+std::vector<ErrorSums> scatter_in_tests(const data::Dataset& data) {
   const Rows tau = data.values("tau_R_MPa");
   std::vector<ErrorSums> sums;
-  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const ErrorSums one =
-        scatter_within(tau.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e]));
-    if (one.rows > 0) sums.push_back(one);
-  }
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    sums.push_back(
+        scatter_within(tau.subspan(data.first_row[e], data.first_row[e + 1] - data.first_row[e])));
+  return sums;
+}
+
+} // namespace
+
+std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
+                                       std::uint64_t seed) {
+  return within_floor(scatter_in_tests(data), resamples, seed);
+}
+
+std::optional<NoiseFloor> within_floor(std::vector<ErrorSums> sums, std::size_t resamples,
+                                       std::uint64_t seed) {
+  std::erase_if(sums, [](const ErrorSums& one) { return one.rows == 0; });
   if (sums.empty()) return {};
   NoiseFloor floor = floor_of("within_experiments", sums, resamples, seed);
   floor.lower_bound = true;
   return floor;
 }
 
-void add_noise_floors(Calibration& calibration, const CalibrationInput& input) {
+void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
+                      const ScatterWithin& known) {
   std::vector<std::pair<const data::Dataset*, const char*>> parts = {
       {&input.validation, "validation"}, {&input.training, "training"}};
   if (!on_other_experiments(input.judged_by)) parts = {{&input.training, "all"}};
-  for (auto* method : {oracle_floor, replicate_floor, within_floor}) {
+  const auto within = [&](const data::Dataset& data, std::size_t resamples, std::uint64_t seed) {
+    if (!data.condensed) return within_floor(data, resamples, seed);
+    return within_floor(&data == &input.training ? known.training : known.validation, resamples,
+                        seed);
+  };
+  using Method =
+      std::function<std::optional<NoiseFloor>(const data::Dataset&, std::size_t, std::uint64_t)>;
+  for (const Method& method : {Method(oracle_floor), Method(replicate_floor), Method(within)}) {
     std::vector<NoiseFloor> both;
-    for (const auto& [data, part] : parts)
-      if (auto floor = method(*data, input.options.bootstrap, input.options.seed)) {
-        floor->part = part;
+    for (const auto& part_and_name : parts)
+      if (auto floor = method(*part_and_name.first, input.options.bootstrap, input.options.seed)) {
+        floor->part = part_and_name.second;
         both.push_back(*floor);
       }
     std::stable_sort(both.begin(), both.end(), [](const NoiseFloor& a, const NoiseFloor& b) {

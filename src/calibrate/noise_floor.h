@@ -28,10 +28,20 @@ std::optional<NoiseFloor> replicate_floor(const data::Dataset& data, std::size_t
 // rows.
 std::optional<NoiseFloor> within_floor(const data::Dataset& data, std::size_t resamples,
                                        std::uint64_t seed);
+// From that scatter per experiment; without rows where it has too few.
+std::optional<NoiseFloor> within_floor(std::vector<ErrorSums> sums, std::size_t resamples,
+                                       std::uint64_t seed);
+ErrorSums scatter_within(std::span<const double> tau_of_experiment);
+
+// Of condensed data, per experiment, from the rows behind them.
+struct ScatterWithin {
+  std::vector<ErrorSums> training, validation;
+};
 
 // All that the data allow, for validation and training; the one to trust most comes first: the
 // oracle, then replicates (of the part with more of them), then scatter within experiments.
-void add_noise_floors(Calibration& calibration, const CalibrationInput& input);
+void add_noise_floors(Calibration& calibration, const CalibrationInput& input,
+                      const ScatterWithin& known = {});
 
 // "noise floor 8.34 MPa: ...", in one sentence without a full stop: what it is and what it is not.
 // `decimals` of the MPa.

@@ -46,7 +46,7 @@ struct Terms {
   double residual[block];
   double cost[block];
   double slope[block];     // loss'(r)
-  double curvature[block]; // not used for L2, where it is 1
+  double curvature[block]; // not used for L2 without weights, where it is 1
   double weighted[block];  // curvature times one derivative
 };
 
@@ -89,14 +89,38 @@ FRICTAB_WIDE void fill(Terms& t, const LossFunction& loss, const double* measure
   }
 }
 
+// Each row as often as its weight says.
+void weigh(Terms& t, Loss kind, const double* weight, std::size_t n, bool slopes) {
+  for (std::size_t i = 0; i < n; ++i)
+    t.cost[i] *= weight[i];
+  if (!slopes) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    t.slope[i] *= weight[i];
+    t.curvature[i] = kind == Loss::l2 ? weight[i] : t.curvature[i] * weight[i];
+  }
+}
+
+void fill_block(Terms& t, const FitProblem& problem, const LossFunction& loss,
+                const expr::BoundProgram::Block& b, bool slopes, bool for_step) {
+  fill(t, loss, problem.measured.data() + b.first, b.value, b.count, slopes, for_step);
+  if (!problem.weights.empty())
+    weigh(t, loss.kind, problem.weights.data() + b.first, b.count, slopes);
+}
+
+// What means over the rows are divided by.
+double rows_of(const FitProblem& problem) {
+  return problem.weights.empty() ? static_cast<double>(problem.law.rows())
+                                 : sum(problem.weights.data(), problem.weights.size());
+}
+
 // Adds rows from .. from+n-1 of a block to score and (lower half of) hessian.
-void add_rows(Terms& t, Loss kind, std::span<const double* const> derivative, std::size_t from,
+void add_rows(Terms& t, bool curved, std::span<const double* const> derivative, std::size_t from,
               std::size_t n, Eigen::VectorXd& score, Eigen::MatrixXd& hessian) {
   for (Eigen::Index a = 0; a < score.size(); ++a) {
     const double* ja = derivative[static_cast<std::size_t>(a)] + from;
     score(a) += dot(t.slope + from, ja, n);
     const double* weighted = ja;
-    if (kind != Loss::l2) {
+    if (curved) {
       for (std::size_t i = 0; i < n; ++i)
         t.weighted[i] = t.curvature[from + i] * ja[i];
       weighted = t.weighted;
@@ -104,6 +128,11 @@ void add_rows(Terms& t, Loss kind, std::span<const double* const> derivative, st
     for (Eigen::Index b = 0; b <= a; ++b)
       hessian(a, b) += dot(weighted, derivative[static_cast<std::size_t>(b)] + from, n);
   }
+}
+
+// Whether rows differ in curvature.
+bool is_curved(const FitProblem& problem, const LossFunction& loss) {
+  return loss.kind != Loss::l2 || !problem.weights.empty();
 }
 
 void mirror(Eigen::MatrixXd& lower) {
@@ -121,10 +150,10 @@ double mean_cost(const FitProblem& problem, const LossFunction& loss,
   double total = 0;
   Terms terms;
   problem.law.sweep(parameters, false, [&](const expr::BoundProgram::Block& b) {
-    fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, false, false);
+    fill_block(terms, problem, loss, b, false, false);
     total += sum(terms.cost, b.count);
   });
-  return finite_or_infinity(total / static_cast<double>(problem.law.rows()));
+  return finite_or_infinity(total / rows_of(problem));
 }
 
 NormalEquations normal_equations(const FitProblem& problem, const LossFunction& loss,
@@ -133,11 +162,11 @@ NormalEquations normal_equations(const FitProblem& problem, const LossFunction& 
   NormalEquations n{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   Terms terms;
   problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
-    fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, true, true);
+    fill_block(terms, problem, loss, b, true, true);
     n.cost += sum(terms.cost, b.count);
-    add_rows(terms, loss.kind, b.derivative, 0, b.count, n.descent, n.hessian);
+    add_rows(terms, is_curved(problem, loss), b.derivative, 0, b.count, n.descent, n.hessian);
   });
-  const double rows = static_cast<double>(problem.law.rows());
+  const double rows = rows_of(problem);
   mirror(n.hessian);
   n.hessian /= rows;
   n.descent /= rows;
@@ -154,13 +183,13 @@ std::vector<ExperimentSums> sums_by_experiment(const FitProblem& problem, const 
   std::size_t experiment = 0;
   Terms terms;
   problem.law.sweep(parameters, true, [&](const expr::BoundProgram::Block& b) {
-    fill(terms, loss, problem.measured.data() + b.first, b.value, b.count, true, false);
+    fill_block(terms, problem, loss, b, true, false);
     for (std::size_t from = 0; from < b.count;) {
       while (first_row[experiment + 1] <= b.first + from)
         ++experiment;
       const std::size_t end = std::min(b.count, first_row[experiment + 1] - b.first);
-      add_rows(terms, loss.kind, b.derivative, from, end - from, sums[experiment].score,
-               sums[experiment].hessian);
+      add_rows(terms, is_curved(problem, loss), b.derivative, from, end - from,
+               sums[experiment].score, sums[experiment].hessian);
       from = end;
     }
   });

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
+#include "data/condense.h"
 #include "data/quantity.h"
 
 namespace frictab::calibrate {
@@ -23,39 +25,76 @@ constexpr double least_share = 0.02;
 // How far beyond its outermost bins a state is followed, in shares of their range.
 constexpr double beyond_bins = 0.1;
 
+// What 95 % of the positive values exceed; 0 where there is none.
+double exceeded_by_most(const data::Dataset& data, std::span<const double> rows) {
+  std::vector<std::pair<double, double>> positive; // with the rows that each stands for
+  double all = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i] > 0) {
+      positive.emplace_back(rows[i], data.row_weight(i));
+      all += data.row_weight(i);
+    }
+  if (!data.condensed && !positive.empty()) { // no need to sort them
+    const auto small = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 20);
+    std::nth_element(positive.begin(), small, positive.end());
+    return small->first;
+  }
+  std::sort(positive.begin(), positive.end());
+  double below = std::floor(all / 20);
+  for (const auto& [value, weight] : positive) {
+    if (weight > below) return value;
+    below -= weight;
+  }
+  return 0;
+}
+
 // Where a state reaches (nearly) zero its logarithm is taken of x + offset, the offset being what
 // 95 % of its positive values exceed. Degrees Celsius have no zero to count decades from, and a
 // signed state has no logarithm.
-PolynomialState coordinate(const std::string& name, std::span<const double> rows) {
+PolynomialState coordinate(const std::string& name, const data::Dataset& data) {
   PolynomialState state{.name = name};
-  const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
-  state.low = *low;
-  state.high = *high;
-  if (data::find_quantity(name)->unit == "degC" || *low < 0) return state;
-  std::vector<double> positive;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(positive),
-               [](double x) { return x > 0; });
-  const auto small = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 20);
-  std::nth_element(positive.begin(), small, positive.end());
+  const auto rows = data.values(name);
+  std::tie(state.low, state.high) = data::span_behind(data, name, rows);
+  if (data::find_quantity(name)->unit == "degC" || state.low < 0) return state;
+  const double small = exceeded_by_most(data, rows);
   state.log = true;
-  if (*low < 0.1 * *small) state.offset = *small;
+  if (state.low < 0.1 * small) state.offset = small;
   return state;
 }
 
-VectorXd standardised(const PolynomialState& state, std::span<const double> rows) {
+VectorXd standardised(const PolynomialState& state, const data::Dataset& data) {
+  const auto rows = data.values(state.name);
   VectorXd u(static_cast<Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     u(static_cast<Index>(i)) = state.u(rows[i]);
-  u.array() -= u.mean();
-  const double spread = std::sqrt(u.squaredNorm() / static_cast<double>(u.size()));
+  double variance = 0;
+  if (data.condensed) {
+    const Eigen::Map<const VectorXd> weight(data.row_weights().data(), u.size());
+    u.array() -= weight.dot(u) / weight.sum();
+    variance = weight.dot(u.cwiseAbs2()) / weight.sum();
+  } else {
+    u.array() -= u.mean();
+    variance = u.squaredNorm() / static_cast<double>(u.size());
+  }
+  const double spread = std::sqrt(variance);
   return spread > 0 ? VectorXd(u / spread) : u;
+}
+
+// Rows before each row, and of all: those that condensed ones stand for.
+std::vector<double> rows_before(const data::Dataset& data) {
+  std::vector<double> before{0};
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    before.push_back(before.back() + data.row_weight(i));
+  return before;
 }
 
 // The cuts of one experiment.
 class StateTree {
 public:
-  // sums: of the standardised states over the rows before each, rows + 1 x states.
-  explicit StateTree(const MatrixXd& sums) : sums_(sums) {}
+  // sums: of the standardised states over the rows before each, rows + 1 x states; before: those
+  // rows.
+  StateTree(const MatrixXd& sums, const std::vector<double>& before)
+      : sums_(sums), before_(before) {}
 
   std::vector<Index> cuts(Index from, Index to) const {
     std::vector<Part> parts{best_cut(from, to)};
@@ -84,7 +123,7 @@ private:
   Part best_cut(Index from, Index to) const {
     Part part{from, to};
     for (Index cut = from + 1; cut < to; ++cut) {
-      const double left = static_cast<double>(cut - from), right = static_cast<double>(to - cut);
+      const double left = rows_in(from, cut), right = rows_in(cut, to);
       const double gain =
           left * right / (left + right) *
           ((sums_.row(cut) - sums_.row(from)) / left - (sums_.row(to) - sums_.row(cut)) / right)
@@ -94,13 +133,19 @@ private:
     return part;
   }
 
+  double rows_in(Index from, Index to) const {
+    return before_[static_cast<std::size_t>(to)] - before_[static_cast<std::size_t>(from)];
+  }
+
   const MatrixXd& sums_;
+  const std::vector<double>& before_;
 };
 
 struct RowColumns {
   std::span<const double> stress, tau;
   std::span<const double> flow_stress; // empty without the shear limit
   MatrixXd u;                          // rows x states
+  const data::Dataset& data;
 };
 
 struct BinOfRows {
@@ -115,11 +160,12 @@ BinOfRows bin_of(const RowColumns& columns, Index from, Index to) {
   for (Index i = from; i < to; ++i) {
     const auto row = static_cast<std::size_t>(i);
     if (!(columns.stress[row] > 0)) continue;
-    ++bin.rows;
-    bin.stress += columns.stress[row];
-    bin.tau += columns.tau[row];
-    if (!columns.flow_stress.empty()) bin.limit += columns.flow_stress[row];
-    bin.u += columns.u.row(i).transpose();
+    const double weight = columns.data.row_weight(row);
+    bin.rows += weight;
+    bin.stress += weight * columns.stress[row];
+    bin.tau += weight * columns.tau[row];
+    if (!columns.flow_stress.empty()) bin.limit += weight * columns.flow_stress[row];
+    bin.u += weight * columns.u.row(i).transpose();
   }
   const double count = std::max(bin.rows, 1.0);
   for (double* sum : {&bin.stress, &bin.tau, &bin.limit})
@@ -144,12 +190,14 @@ std::vector<std::vector<BinOfRows>> cut_experiments(const std::vector<Polynomial
                                                     const RowColumns& columns) {
   MatrixXd sums = MatrixXd::Zero(columns.u.rows() + 1, columns.u.cols());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const VectorXd u = standardised(states[i], data.values(states[i].name));
+    const VectorXd u = standardised(states[i], data);
     double sum = 0;
     for (Index row = 0; row < u.size(); ++row)
-      sums(row + 1, static_cast<Index>(i)) = sum += u(row);
+      sums(row + 1, static_cast<Index>(i)) = sum +=
+          data.row_weight(static_cast<std::size_t>(row)) * u(row);
   }
-  const StateTree tree(sums);
+  const std::vector<double> before = rows_before(data);
+  const StateTree tree(sums, before);
   std::vector<std::vector<BinOfRows>> bins(data.experiments.size());
   for (std::size_t e = 0; e < bins.size(); ++e) {
     const auto begin = static_cast<Index>(data.first_row[e]);
@@ -157,9 +205,9 @@ std::vector<std::vector<BinOfRows>> cut_experiments(const std::vector<Polynomial
     const std::vector<Index> cuts = tree.cuts(begin, end);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
       BinOfRows bin = bin_of(columns, cuts[b], cuts[b + 1]);
-      bin.position = 0.5 * static_cast<double>(cuts[b] + cuts[b + 1] - 2 * begin) /
-                         static_cast<double>(end - begin) -
-                     0.5;
+      const auto at = [&](Index row) { return before[static_cast<std::size_t>(row)]; };
+      bin.position =
+          0.5 * (at(cuts[b]) + at(cuts[b + 1]) - 2 * at(begin)) / (at(end) - at(begin)) - 0.5;
       if (bin.rows > 0) bins[e].push_back(std::move(bin));
     }
   }
@@ -226,17 +274,18 @@ void take_bins(PolynomialBins& bins, const std::vector<std::vector<BinOfRows>>& 
 PolynomialBins polynomial_bins(const std::vector<std::string>& names, const data::Dataset& data,
                                const models::Conventions& conventions) {
   PolynomialBins bins;
-  RowColumns columns{data.values("sigma_n_MPa"), data.values("tau_R_MPa"), {}, {}};
+  RowColumns columns{data.values("sigma_n_MPa"), data.values("tau_R_MPa"), {}, {}, data};
   if (conventions.shear_limit) columns.flow_stress = data.values("sigma_f_MPa");
   columns.u.resize(static_cast<Index>(data.rows()), static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto rows = data.values(names[i]);
-    bins.states.push_back(coordinate(names[i], rows));
+    bins.states.push_back(coordinate(names[i], data));
     for (std::size_t row = 0; row < rows.size(); ++row)
       columns.u(static_cast<Index>(row), static_cast<Index>(i)) = bins.states.back().u(rows[row]);
   }
-  bins.without_load = static_cast<std::size_t>(std::count_if(
-      columns.stress.begin(), columns.stress.end(), [](double p) { return !(p > 0); }));
+  for (std::size_t row = 0; row < data.rows(); ++row)
+    if (!(columns.stress[row] > 0))
+      bins.without_load += static_cast<std::size_t>(data.row_weight(row));
   const auto all = cut_experiments(bins.states, data, columns);
   take_bins(bins, all, least_share * std::max(0.0, median_coefficient(all)),
             conventions.shear_limit);

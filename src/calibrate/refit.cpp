@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "calibrate/folds.h"
 #include "calibrate/input_columns.h"
 #include "calibrate/metrics.h"
+#include "calibrate/row_errors.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -38,11 +40,11 @@ ModelFit fitted_to(const Dataset& all, const models::Law& law,
   const models::AssembledLaw assembled(fit.model);
   const auto [columns, tau] = predict_with_columns(assembled, assembled.inputs, all);
   fit.data_range = columns.ranges();
-  for (std::string& remark : rows_beyond_ends(*fit.model.law, assembled.inputs, columns, all.rows(),
-                                              "training and validation"))
+  RowsBeyond beyond;
+  beyond.add(*fit.model.law, assembled.inputs, columns, all);
+  for (std::string& remark : beyond.told(*fit.model.law, "training and validation"))
     fit.remarks.push_back(std::move(remark));
-  fit.training =
-      metrics(all.values("tau_R_MPa"), tau, all.first_row, options.bootstrap, options.seed);
+  fit.training = metrics(all, tau, options.bootstrap, options.seed);
   fit.band = check_band(fit.model, {}, all.subset({}));
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
@@ -54,6 +56,32 @@ void cross_validate_fits(std::vector<ModelFit>& fits, const CrossValidation& cro
     fits[i].validation = metrics(sums_of(cross.errors[i]), options.bootstrap, options.seed);
     fits[i].band.inside = cross.bands[i].inside;
     fits[i].band.experiments = cross.bands[i].experiments;
+  }
+}
+
+// Of condensed data, by a second look at their rows.
+void judge_on_rows(std::vector<ModelFit>& fits, const CrossValidation& cross,
+                   std::span<const std::size_t> fold_of, const Dataset& all,
+                   const CalibrationOptions& options) {
+  if (!all.condensed) return;
+  std::deque<models::AssembledLaw> own;
+  std::deque<std::deque<models::AssembledLaw>> without;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    own.emplace_back(fits[i].model);
+    without.emplace_back(cross.without[i].begin(), cross.without[i].end());
+  }
+  const LawOfExperiment fitted = [&](std::size_t l, std::size_t) -> const models::AssembledLaw& {
+    return own[l];
+  };
+  const LawOfExperiment left_out = [&](std::size_t l,
+                                       std::size_t e) -> const models::AssembledLaw& {
+    return without[l][fold_of[e]];
+  };
+  const RowsToJudge both[] = {{&all, false, fitted}, {&all, true, left_out}};
+  const std::vector<RowFindings> found = look_at_rows(both, fits.size());
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    fits[i].training = metrics(sums_of(found[0].errors[i]), options.bootstrap, options.seed);
+    fits[i].validation = metrics(sums_of(found[1].errors[i]), options.bootstrap, options.seed);
   }
 }
 
@@ -116,8 +144,9 @@ void refit_on_all(Calibration& calibration, const models::Conventions& conventio
     progress.tick();
   });
   const auto fold_of = delivery_folds(all.experiments.size(), input.options.seed);
-  cross_validate_fits(fits, cross_validate(laws, conventions, all, input.options, fold_of),
-                      input.options);
+  const CrossValidation cross = cross_validate(laws, conventions, all, input.options, fold_of);
+  cross_validate_fits(fits, cross, input.options);
+  judge_on_rows(fits, cross, fold_of, all, input.options);
   calibration.delivery_folds = *std::max_element(fold_of.begin(), fold_of.end()) + 1;
   for (std::size_t i = 0; i < fits.size(); ++i)
     calibration.fits[i].on_all = std::make_shared<const ModelFit>(std::move(fits[i]));

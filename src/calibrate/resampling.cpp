@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 
@@ -20,6 +21,30 @@ std::vector<ErrorSums> error_sums(std::span<const double> measured,
       sums[e].residual += r;
       ++sums[e].rows;
     }
+  return sums;
+}
+
+void add_block(ErrorSums& sums, double r, double rows, double within_MPa2) {
+  const double variance = within_MPa2 / rows, s = std::sqrt(variance);
+  // The mean of a folded normal distribution (Leone, Nelson and Nottingham 1961).
+  const double absolute =
+      s > 0 ? s * std::sqrt(2 / std::numbers::pi) * std::exp(-r * r / (2 * variance)) +
+                  r * std::erf(r / (s * std::numbers::sqrt2))
+            : std::abs(r);
+  sums.absolute += rows * absolute;
+  sums.square += rows * r * r + within_MPa2;
+  sums.residual += rows * r;
+  sums.rows += rows;
+}
+
+std::vector<ErrorSums> error_sums(const data::Dataset& data, std::span<const double> predicted) {
+  const auto measured = data.values("tau_R_MPa");
+  if (!data.condensed) return error_sums(measured, predicted, data.first_row);
+  std::vector<ErrorSums> sums(data.experiments.size());
+  for (std::size_t e = 0; e < sums.size(); ++e)
+    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+      add_block(sums[e], measured[i] - predicted[i], data.condensed->rows[i],
+                data.condensed->within_MPa2[i]);
   return sums;
 }
 

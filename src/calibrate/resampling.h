@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "data/dataset.h"
+
 namespace frictab::calibrate {
 
 // Sums over the rows of one experiment; residual r = measured - predicted in MPa.
@@ -19,6 +21,13 @@ struct ErrorSums {
 std::vector<ErrorSums> error_sums(std::span<const double> measured,
                                   std::span<const double> predicted,
                                   std::span<const std::size_t> first_row);
+
+// Of the data's tau_R_MPa. A block of condensed rows counts as its rows: their squares and sums are
+// those of the rows to second order; |r| is taken for normal scatter about the block's residual.
+std::vector<ErrorSums> error_sums(const data::Dataset& data, std::span<const double> predicted);
+
+// Adds `rows` rows that scatter with the sum of squares `within` about the residual r.
+void add_block(ErrorSums& sums, double r, double rows, double within_MPa2);
 
 // How often each experiment (one entry of `times` each) is in resample number `index`, drawn with
 // replacement. The same seed, index and number of experiments give the same counts: laws on the

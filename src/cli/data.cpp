@@ -30,7 +30,8 @@ std::vector<std::string> texts_of(const FaultList& faults) {
 
 // Everything is shown and written, also where most rows are implausible: then that is the error.
 int run(const Options& options, const CommonOptions& common) {
-  const job::Job job = read_job(job_file(options.job), common);
+  job::Job job = read_job(job_file(options.job), common);
+  if (!options.write.empty()) job.data.condense = {0}; // what is written are rows
   FaultList implausible;
   const run::JobData data = run::load_job_data(job, implausible);
   io::OutputFiles files(job.directory);

@@ -11,8 +11,15 @@ namespace frictab {
 
 // The remedy where rows need the memory.
 inline constexpr const char* fewer_rows =
-    "every row is held in memory: means over some rows of each test say as much of slow friction "
-    "as all of them; or name fewer bystanders";
+    "every row is held in memory: data.condense = 500 holds means over blocks of each test "
+    "instead, "
+    "which say as much of slow friction as all rows; or name fewer bystanders";
+
+// Where they are read one experiment at a time.
+inline constexpr const char* one_experiment_at_a_time =
+    "data that are condensed are read one experiment at a time: the largest one does not find "
+    "room; "
+    "a file per test, or shorter tests; fewer threads (-j) hold fewer at once";
 
 // Instead of the std::bad_alloc of `large_work`; `what()` is "out of memory ...".
 class OutOfMemory : public std::bad_alloc {

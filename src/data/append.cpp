@@ -10,6 +10,28 @@
 
 namespace frictab::data {
 
+namespace {
+
+void append_values(std::vector<double>& to, const std::vector<double>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Of two condensed datasets, with the histories that both have.
+void append_condensed(Condensed& to, const Condensed& from) {
+  append_values(to.rows, from.rows);
+  append_values(to.within_MPa2, from.within_MPa2);
+  std::erase_if(to.histories, [&](Column& history) {
+    const auto same = std::find_if(from.histories.begin(), from.histories.end(),
+                                   [&](const Column& other) { return other.name == history.name; });
+    if (same == from.histories.end()) return true;
+    append_values(history.values, same->values);
+    return false;
+  });
+  to.experiments.insert(to.experiments.end(), from.experiments.begin(), from.experiments.end());
+}
+
+} // namespace
+
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults) {
   for (const std::string& name : more.experiments)
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
@@ -57,6 +79,7 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
       column.values.push_back(recode(*other, value));
     column.levels = std::move(levels);
   }
+  if (all.condensed && more.condensed) append_condensed(*all.condensed, *more.condensed);
   const std::size_t offset = all.first_row.back();
   all.experiments.insert(all.experiments.end(), more.experiments.begin(), more.experiments.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)

@@ -28,6 +28,42 @@ std::span<const double> Dataset::values(std::string_view name) const {
   return column->values;
 }
 
+std::size_t Dataset::rows_behind() const {
+  std::size_t all = 0;
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    all += rows_behind(e);
+  return all;
+}
+
+std::size_t Dataset::rows_behind(std::size_t experiment) const {
+  return condensed ? condensed->experiments[experiment].rows
+                   : first_row[experiment + 1] - first_row[experiment];
+}
+
+std::span<const double> Dataset::row_weights() const {
+  return condensed ? std::span<const double>(condensed->rows) : std::span<const double>();
+}
+
+namespace {
+
+void append_rows(std::vector<double>& to, const std::vector<double>& from, std::size_t first,
+                 std::size_t end) {
+  to.insert(to.end(), from.begin() + static_cast<long>(first),
+            from.begin() + static_cast<long>(end));
+}
+
+void append_experiment(Condensed& to, const Dataset& data, std::size_t e) {
+  const Condensed& from = *data.condensed;
+  const std::size_t first = data.first_row[e], end = data.first_row[e + 1];
+  append_rows(to.rows, from.rows, first, end);
+  append_rows(to.within_MPa2, from.within_MPa2, first, end);
+  for (std::size_t h = 0; h < from.histories.size(); ++h)
+    append_rows(to.histories[h].values, from.histories[h].values, first, end);
+  to.experiments.push_back(from.experiments[e]);
+}
+
+} // namespace
+
 Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   Dataset part;
   part.sources = sources;
@@ -35,10 +71,16 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   part.notes = notes;
   for (const Column& column : columns)
     part.columns.push_back({column.name, column.unit, {}, column.levels});
+  if (condensed) {
+    part.condensed.emplace();
+    for (const Column& history : condensed->histories)
+      part.condensed->histories.push_back({history.name, history.unit, {}, {}});
+  }
   for (const std::size_t e : keep) {
     part.experiments.push_back(experiments[e]);
     std::copy_if(clocks.begin(), clocks.end(), std::back_inserter(part.clocks),
                  [&](const ClockOffset& clock) { return clock.experiment == experiments[e]; });
+    if (condensed) append_experiment(*part.condensed, *this, e);
     const auto first = static_cast<long>(first_row[e]), end = static_cast<long>(first_row[e + 1]);
     part.first_row.push_back(part.first_row.back() + first_row[e + 1] - first_row[e]);
     if (!oracle_MPa.empty())
@@ -68,6 +110,9 @@ void fingerprint(Dataset& data) {
     add_text(name);
   for (const std::size_t row : data.first_row)
     add(&row, sizeof row);
+  if (data.condensed)
+    for (const auto* values : {&data.condensed->rows, &data.condensed->within_MPa2})
+      add(values->data(), values->size() * sizeof(double));
   data.hash = hash;
 }
 

@@ -2,9 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frictab::data {
@@ -22,6 +27,51 @@ struct ClockOffset {
   double offset = 0;      // added to the second clock it gives the first
   double std_error = 0;   // from pieces of the common span, and from every other row of the second
   double correlation = 0; // of the two series at this offset
+};
+
+class Dataset;
+
+// Files whose rows were held as means over blocks, and can be read once more.
+class RowSource {
+public:
+  virtual ~RowSource() = default;
+  // Calls take() for each experiment by itself, all of its rows at once, in any order and on any
+  // thread. Throws InputError where the files have changed so that they cannot be read.
+  virtual void read(const std::function<void(const Dataset& one)>& take) const = 0;
+};
+
+// Sum of a ratio over the rows of an experiment where what stands below is positive.
+struct RatioSum {
+  double sum = 0, rows = 0;
+};
+
+// What one experiment was before its rows became blocks: of all of its rows.
+struct RowsOfExperiment {
+  std::shared_ptr<const RowSource> source;
+  std::string name; // as its source calls it
+  std::size_t rows = 0;
+  // Least and largest value of each column that holds numbers, and of each history, by name.
+  std::map<std::string, std::pair<double, double>> spans;
+  RatioSum over_pressure; // tau_R_MPa/sigma_n_MPa
+  RatioSum over_flow;     // tau_R_MPa/sigma_f_MPa
+};
+
+// What a rig cannot have measured, or hardly (data/plausibility.h).
+struct Implausible {
+  std::string check; // its name, for data.allow_implausible
+  std::size_t rows = 0, of = 0;
+  std::string what; // "mu_meas is outside 0.001 to 1"
+  std::string hint; // what it may be, and how to mend it
+  bool most() const { return 2 * rows > of; }
+};
+
+// Rows held as means over blocks of neighbours (data/condense.h).
+struct Condensed {
+  std::vector<double> rows;        // per block: how many rows it stands for
+  std::vector<double> within_MPa2; // per block: sum of squares of tau_R_MPa about its mean
+  std::vector<Column> histories;   // per block: means of histories taken row by row (derived.h)
+  std::vector<RowsOfExperiment> experiments;
+  std::vector<Implausible> implausible; // counted over the rows, before check_plausibility
 };
 
 // Rows of one experiment are contiguous and in time order; an experiment is never split.
@@ -44,8 +94,16 @@ public:
   // Synthetic data only: the noise-free tau_R per row; empty where it is not known. Not a column,
   // so that nothing can be fitted to it, and not part of the fingerprint.
   std::vector<double> oracle_MPa;
+  // Set: a row is the mean over a block of rows. What counts rows asks rows_behind(), what sums
+  // over them row_weights().
+  std::optional<Condensed> condensed;
 
-  std::size_t rows() const { return first_row.back(); }
+  std::size_t rows() const { return first_row.back(); } // that are held
+  std::size_t rows_behind() const;                      // that were read
+  std::size_t rows_behind(std::size_t experiment) const;
+  // Per row how many it stands for; empty: one each.
+  std::span<const double> row_weights() const;
+  double row_weight(std::size_t row) const { return condensed ? condensed->rows[row] : 1; }
   const Column* find(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
   // Throws std::logic_error where the column is absent: ask has() first.

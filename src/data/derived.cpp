@@ -376,6 +376,9 @@ const DerivedQuantity* find_derived(std::string_view name) {
 
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
                            std::span<const double> tau) {
+  if (data.condensed)
+    for (const Column& history : data.condensed->histories)
+      if (history.name == quantity.name) return history.values;
   std::vector<Rows> inputs;
   for (const std::string& need : quantity.needs) {
     const auto column = std::find_if(data.columns.begin(), data.columns.end(),

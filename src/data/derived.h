@@ -75,7 +75,9 @@ derived_quantities(); // without slip states, of which there is no end
 const DerivedQuantity* find_derived(std::string_view name); // nullptr where there is none
 
 // One value per row; integrals by the trapezoidal rule, starting at 0 in every experiment. `tau` is
-// the model's shear stress per row (unused by most). The data must have what `needs` lists.
+// the model's shear stress per row (unused by most). The data must have what `needs` lists. Of
+// condensed data the means of what was derived row by row; what follows tau, and the states of
+// rate-and-state friction, is derived along the means.
 std::vector<double> derive(const DerivedQuantity& quantity, const Dataset& data,
                            std::span<const double> tau);
 

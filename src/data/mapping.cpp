@@ -58,6 +58,26 @@ public:
     return std::move(out_);
   }
 
+  std::vector<ExperimentRun> runs() {
+    std::vector<ExperimentRun> out;
+    const CsvColumn* column = options_.experiment == "interval" ? nullptr : experiment_source();
+    if (!column) return {{0, ""}};
+    std::size_t text = 0;
+    const std::string* last = nullptr; // of the row before, where it is text
+    for (std::size_t i = 0; i < raw_.rows(); ++i) {
+      while (text < column->texts.size() && column->texts[text].row < i)
+        ++text;
+      const bool is_text = text < column->texts.size() && column->texts[text].row == i;
+      const std::string* const name = is_text ? &column->texts[text].text : nullptr;
+      const bool same = i > 0 && (name && last   ? *name == *last
+                                  : name || last ? false
+                                                 : column->numbers[i] == column->numbers[i - 1]);
+      if (!same) out.push_back({i, name ? *name : shortest(column->numbers[i])});
+      last = name;
+    }
+    return out;
+  }
+
 private:
   Place header() const { return {raw_.file, raw_.header_line, 0}; }
 
@@ -204,10 +224,10 @@ private:
     if (const auto& numbers = numbers_of(quantity.name); !numbers.empty()) {
       const CsvColumn& own = raw_.columns[numbers.front() - 1];
       used_.insert(&own);
-      out_.notes.push_back(fmt::format("{} is {} in all {} rows, as the job says: the file's own "
-                                       "column '{}' is not read",
-                                       quantity.name, shortest(value), thousands(raw_.rows()),
-                                       own.name));
+      note_counted(fmt::format("{} is {} in all ROWS rows, as the job says: the file's own column "
+                               "'{}' is not read",
+                               quantity.name, shortest(value), own.name),
+                   raw_.rows());
     }
   }
 
@@ -369,8 +389,12 @@ private:
   }
 
   void tell_empty(const std::string& name, std::size_t rows, const char* then) {
-    out_.notes.push_back(fmt::format("{}: {} of {} rows without a value{}", name, thousands(rows),
-                                     thousands(raw_.rows()), then));
+    note_counted(fmt::format("{}: ROWS of OF rows without a value{}", name, then), rows);
+  }
+
+  void note_counted(std::string words, std::size_t rows) {
+    out_.counted_notes.push_back({out_.notes.size(), std::move(words), rows, raw_.rows()});
+    out_.notes.push_back(out_.counted_notes.back().text());
   }
 
   // What the job says of the whole file: constants that are no quantities, and labels.
@@ -420,9 +444,22 @@ private:
 
 } // namespace
 
+std::string MappedFile::CountedNote::text() const {
+  std::string said = words;
+  for (const auto& [sign, count] : {std::pair("ROWS ", rows), std::pair("OF ", of)})
+    if (const std::size_t at = said.find(sign); at != said.npos)
+      said.replace(at, std::string(sign).size(), thousands(count) + " ");
+  return said;
+}
+
 MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
                        const std::string& label, FaultList& faults) {
   return Mapper(raw, options, label, faults).map();
+}
+
+std::vector<ExperimentRun> experiment_runs(const io::CsvTable& raw, const DataOptions& options,
+                                           FaultList& faults) {
+  return Mapper(raw, options, "", faults).runs();
 }
 
 } // namespace frictab::data

@@ -19,11 +19,27 @@ struct MappedFile {
     bool missing = false; // the cell is empty: DataOptions::missing
   };
   std::vector<CellFault> cell_faults;
+  struct CountedNote { // one of `notes` that counts rows: those of parts of a file are one
+    std::size_t note;  // its number
+    std::string words; // with ROWS and OF for the counts
+    std::size_t rows, of;
+    std::string text() const;
+  };
+  std::vector<CountedNote> counted_notes;
 };
 
 // Adds every fault of the file's columns to `faults`; those of cells are in the result. `label` is
 // the file's part in the names of its experiments.
 MappedFile map_columns(const io::CsvTable& raw, const DataOptions& options,
                        const std::string& label, FaultList& faults);
+
+// Rows of one experiment that follow each other.
+struct ExperimentRun {
+  std::size_t first; // row
+  std::string name;  // as the file calls it; empty where the file is one
+};
+// In the order of the rows. `faults`: as map_columns adds them.
+std::vector<ExperimentRun> experiment_runs(const io::CsvTable& raw, const DataOptions& options,
+                                           FaultList& faults);
 
 } // namespace frictab::data

@@ -94,8 +94,12 @@ struct DataOptions {
   std::string wide; // a regular expression: which columns are one test each (data/wide.h)
   Place wide_place;
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
-  std::string base;                                   // directory that relative paths start from
-  Place place;                                        // of [data] or of data.training
+  // Blocks of an experiment where rows are held as means over blocks (data/condense.h): a number, 0
+  // = rows are held; none: usual_blocks above many_rows.
+  AutoNumber condense;
+  std::size_t piece_bytes = std::size_t{4} << 20; // of a file that is read in pieces; no job key
+  std::string base;                               // directory that relative paths start from
+  Place place;                                    // of [data] or of data.training
   Place oracle_place;
 };
 

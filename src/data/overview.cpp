@@ -33,11 +33,30 @@ double mean_ratio(std::span<const double> above, std::span<const double> below) 
   return n > 0 ? sum / n : no_value;
 }
 
+double mean_of_ratio(const RatioSum& ratio) {
+  return ratio.rows > 0 ? ratio.sum / ratio.rows : no_value;
+}
+
+// From what was kept of its rows.
+TestOverview overview_behind(const Dataset& data, const std::string& name,
+                             const RowsOfExperiment& rows) {
+  TestOverview test{name, rows.rows, {}, mean_of_ratio(rows.over_pressure), {}};
+  for (const Quantity& quantity : quantities())
+    if (data.has(quantity.name))
+      test.spans.emplace_back(quantity.name, rows.spans.at(quantity.name));
+  if (data.has("sigma_f_MPa")) test.mean_of_k = std::numbers::sqrt3 * mean_of_ratio(rows.over_flow);
+  return test;
+}
+
 } // namespace
 
 std::vector<TestOverview> overview(const Dataset& data) {
   std::vector<TestOverview> tests;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    if (data.condensed) {
+      tests.push_back(overview_behind(data, data.experiments[e], data.condensed->experiments[e]));
+      continue;
+    }
     const std::size_t first = data.first_row[e], rows = data.first_row[e + 1] - first;
     const auto of = [&](const std::string& name) { return data.values(name).subspan(first, rows); };
     TestOverview test{data.experiments[e], rows, {}, no_value, {}};

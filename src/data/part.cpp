@@ -53,6 +53,7 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
   }
   data.notes = std::move(mapped.notes);
   part.cell_faults = std::move(mapped.cell_faults);
+  part.counted_notes = std::move(mapped.counted_notes);
 }
 
 void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
@@ -68,7 +69,7 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
     first.push_back(kept.size());
   }
   if (kept.size() == part.row.size()) return;
-  if (kept.empty() && if_none && part.faults.empty())
+  if (kept.empty() && if_none && part.whole_file && part.faults.empty())
     part.faults.add({part.raw.file, 0, 0}, if_none);
   for (Column& column : data.columns) {
     std::vector<double> values;

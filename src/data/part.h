@@ -13,8 +13,10 @@ struct Part {
   io::CsvTable raw;
   std::vector<std::size_t> row; // raw row
   bool measured_tau = true;
+  bool whole_file = true; // or some experiments of it
   FaultList faults;
-  std::vector<MappedFile::CellFault> cell_faults; // not told yet
+  std::vector<MappedFile::CellFault> cell_faults;     // not told yet
+  std::vector<MappedFile::CountedNote> counted_notes; // of data.notes
 
   Column* find(std::string_view name);
   Place header() const { return {raw.file, raw.header_line, 0}; }

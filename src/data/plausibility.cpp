@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/condense.h"
 
 namespace frictab::data {
 
@@ -83,7 +84,8 @@ bool nothing_rubs(const Dataset& data) {
 
 Implausible no_friction(const Dataset& data) {
   if (!nothing_rubs(data)) return {};
-  return {"", data.rows(), data.rows(), "tau_R_MPa is 0 in every row: nothing was measured",
+  return {"", data.rows_behind(), data.rows_behind(),
+          "tau_R_MPa is 0 in every row: nothing was measured",
           "a channel that was not connected, or another column that holds the friction: map it in "
           "[data.columns]"};
 }
@@ -113,7 +115,6 @@ Implausible forces(const Dataset& data) {
 }
 
 Implausible friction_coefficient(const Dataset& data) {
-  if (nothing_rubs(data)) return {}; // told already
   const std::vector<double> mu = coefficients(data, 0, data.rows());
   const double typical = median(mu);
   return {"", count(mu, [](double x) { return !(x >= least_mu && x <= largest_mu); }), mu.size(),
@@ -143,12 +144,12 @@ Implausible temperature(const Dataset& data) {
   Implausible worst;
   for (const char* name : {"T_contact_C", "T_tool_C"}) {
     if (!data.has(name)) continue;
-    const auto values = data.values(name);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    if (*low > kelvin_low && *low < room_in_kelvin)
+    const auto [low, high] = span_behind(data, name, data.values(name));
+    const std::size_t rows = data.rows_behind();
+    if (low > kelvin_low && low < room_in_kelvin)
       worst = {
-          "", values.size(), values.size(),
-          fmt::format("{} is {:.4g} to {:.4g}, and never below {}", name, *low, *high, kelvin_low),
+          "", rows, rows,
+          fmt::format("{} is {:.4g} to {:.4g}, and never below {}", name, low, high, kelvin_low),
           "a temperature in K? unit = \"K\" where it is mapped"};
   }
   return worst;
@@ -478,7 +479,7 @@ Implausible test_apart(const Dataset& data) {
   const auto told = [&](const auto& test, const char* than, double other) {
     const std::size_t e = test.second;
     return Implausible{
-        "", data.first_row[e + 1] - data.first_row[e], data.rows(),
+        "", data.rows_behind(e), data.rows_behind(),
         fmt::format("test '{}' stands apart: coefficient {:.3g} in its middle, {} of all others "
                     "is {:.3g}",
                     data.experiments[e], test.first, than, other),
@@ -492,24 +493,37 @@ Implausible test_apart(const Dataset& data) {
   return {};
 }
 
+// What a check needs to see at once: rows that have what it looks at, whole tests of which it
+// counts all rows, or a whole campaign.
+enum class Sees { rows, tests, campaign };
+
 struct Check {
   const char* name;
   Implausible (*find)(const Dataset& data);
+  Sees sees;
 };
 
-constexpr Check checks[] = {{"no_friction", no_friction},
-                            {"pressure", pressure},
-                            {"friction_coefficient", friction_coefficient},
-                            {"shear_yield", shear_yield},
-                            {"temperature", temperature},
-                            {"speed", speed},
-                            {"path", path},
-                            {"surface_expansion", surface_expansion},
-                            {"clipped_channel", clipped_channel},
-                            {"stuck_channel", stuck_channel},
-                            {"force_offset", force_offset},
-                            {"forces", forces},
-                            {"test_apart", test_apart}};
+constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
+                            {"pressure", pressure, Sees::rows},
+                            {"friction_coefficient", friction_coefficient, Sees::rows},
+                            {"shear_yield", shear_yield, Sees::rows},
+                            {"temperature", temperature, Sees::campaign},
+                            {"speed", speed, Sees::rows},
+                            {"path", path, Sees::tests},
+                            {"surface_expansion", surface_expansion, Sees::rows},
+                            {"clipped_channel", clipped_channel, Sees::tests},
+                            {"stuck_channel", stuck_channel, Sees::tests},
+                            {"force_offset", force_offset, Sees::tests},
+                            {"forces", forces, Sees::rows},
+                            {"test_apart", test_apart, Sees::campaign}};
+
+// Of a condensed campaign, what was counted before its rows went.
+Implausible found_by(const Check& check, const Dataset& data) {
+  if (!data.condensed || check.sees == Sees::campaign) return check.find(data);
+  for (const Implausible& one : data.condensed->implausible)
+    if (one.check == check.name) return one;
+  return {};
+}
 
 } // namespace
 
@@ -522,13 +536,45 @@ std::vector<std::string> plausibility_checks() {
 
 std::vector<Implausible> find_implausible(const Dataset& data) {
   std::vector<Implausible> found;
+  bool rubs = true;
   for (const Check& check : checks) {
-    Implausible one = check.find(data);
+    if (check.find == friction_coefficient && !rubs) continue; // told already
+    Implausible one = found_by(check, data);
     if (one.rows == 0) continue;
+    if (check.find == no_friction) rubs = false;
     one.check = check.name;
     found.push_back(std::move(one));
   }
   return found;
+}
+
+void count_implausible(const Dataset& rows, std::vector<Implausible>& counted) {
+  std::vector<Implausible> here;
+  for (const Check& check : checks) {
+    if (check.sees == Sees::campaign || rows.rows() == 0) continue;
+    here.push_back(check.find(rows));
+    here.back().check = check.name;
+    if (check.sees == Sees::tests) here.back().of = rows.rows();
+  }
+  merge_implausible(here, counted);
+}
+
+void merge_implausible(const std::vector<Implausible>& more, std::vector<Implausible>& counted) {
+  for (const Implausible& one : more) {
+    const auto known = std::find_if(counted.begin(), counted.end(), [&](const Implausible& other) {
+      return other.check == one.check;
+    });
+    if (known == counted.end()) {
+      counted.push_back(one);
+      continue;
+    }
+    if (one.rows > known->rows) { // than of all so far
+      known->what = one.what;
+      known->hint = one.hint;
+    }
+    known->rows += one.rows;
+    known->of += one.of;
+  }
 }
 
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,

@@ -11,19 +11,21 @@
 
 namespace frictab::data {
 
-struct Implausible {
-  std::string check; // its name, for data.allow_implausible
-  std::size_t rows = 0, of = 0;
-  std::string what; // "mu_meas is outside 0.001 to 1"
-  std::string hint; // what it may be, and how to mend it
-  bool most() const { return 2 * rows > of; }
-};
-
 // Their names.
 std::vector<std::string> plausibility_checks();
 
-// What is implausible in a campaign, in the order of the checks.
+// What is implausible in a campaign, in the order of the checks. Of a condensed one: as it was
+// counted over its rows; what only all tests together say (no friction at all, one test apart from
+// all others, a lowest temperature) of its blocks and spans.
 std::vector<Implausible> find_implausible(const Dataset& data);
+
+// Adds what is implausible in some rows of a larger campaign to what was found in others. What a
+// check compares within a campaign (the end of an amplifier, a usual load) it compares within these
+// rows. The words are those of the first rows that fail, or of rows of which more fail than of all
+// before.
+void count_implausible(const Dataset& rows, std::vector<Implausible>& counted);
+// The same of what was counted.
+void merge_implausible(const std::vector<Implausible>& more, std::vector<Implausible>& counted);
 
 // Sets data.implausible to what some rows fail, or what is allowed; the rest is added to `faults`.
 void check_plausibility(Dataset& data, const std::vector<std::string>& allowed, const Place& place,

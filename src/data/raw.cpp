@@ -189,9 +189,7 @@ Place row_place(const io::CsvTable& table, std::size_t row, std::size_t column) 
   return {table.file, table.line[row], column};
 }
 
-io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
-                      FaultList& faults) {
-  if (io::looks_like_hdf5(path)) return Hdf5Columns(path, named, faults).read();
+io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
   io::CsvFormat format;
   format.delimiter = options.delimiter;
   format.decimal = options.decimal;
@@ -215,7 +213,14 @@ io::CsvTable read_raw(const std::string& path, const std::string& named, const D
     format.decimal = '.';
     format.thousands = 0;
   }
-  return io::parse_csv(raw_text(path, named, options.sheet), named, format, faults);
+  return format;
+}
+
+io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
+                      FaultList& faults) {
+  if (io::looks_like_hdf5(path)) return Hdf5Columns(path, named, faults).read();
+  return io::parse_csv(raw_text(path, named, options.sheet), named, csv_format(path, options),
+                       faults);
 }
 
 } // namespace frictab::data

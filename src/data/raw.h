@@ -22,4 +22,7 @@ bool is_workbook(const std::string& path);
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults);
 
+// How read_raw reads text. `path`: a workbook has a format of its own.
+io::CsvFormat csv_format(const std::string& path, const DataOptions& options);
+
 } // namespace frictab::data

@@ -10,6 +10,7 @@
 #include <iconv.h>
 
 #include "core/no_value.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "io/number.h"
@@ -86,7 +87,8 @@ bool has_lone_return(std::string_view text) {
 // Walks over the text cell by cell.
 class Scanner {
 public:
-  Scanner(std::string_view text, char delimiter) : text_(text), delimiter_(delimiter) {}
+  Scanner(std::string_view text, char delimiter, std::size_t first_line = 1)
+      : text_(text), delimiter_(delimiter), line_(first_line) {}
 
   bool at_end() const { return at_ >= text_.size(); }
   std::size_t line() const { return line_; }
@@ -402,15 +404,22 @@ void read_rows(CsvTable& table, Scanner& scanner, std::string_view text,
   tell();
   tell_ragged(ragged, table, faults);
   settle_nameless(table, named);
-  if (again > 0) table.notes.push_back(fmt::format("the header line comes again {} times", again));
-  if (in_front > 0)
-    table.notes.push_back(fmt::format("{} lines in front of it are no rows", in_front));
-  if (delimiters_alone > 0)
-    table.notes.push_back(
-        fmt::format("{} lines hold delimiters alone: they are no rows", delimiters_alone));
+  table.passed_over = {again, in_front, delimiters_alone};
   if (scanner.unclosed_line() > 0)
     faults.add({table.file, scanner.unclosed_line(), 0},
                "a quotation mark opens here and is never closed");
+}
+
+std::vector<std::string> notes_of(const CsvPassedOver& lines) {
+  std::vector<std::string> notes;
+  if (lines.headers > 0)
+    notes.push_back(fmt::format("the header line comes again {} times", lines.headers));
+  if (lines.in_front > 0)
+    notes.push_back(fmt::format("{} lines in front of it are no rows", lines.in_front));
+  if (lines.delimiters_alone > 0)
+    notes.push_back(
+        fmt::format("{} lines hold delimiters alone: they are no rows", lines.delimiters_alone));
+  return notes;
 }
 
 // The header of the table, checked; moves `scanner` behind it.
@@ -492,6 +501,57 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
   lines = best;
 }
 
+// A text of which lines end with \n; `storage` holds it where they ended with CR alone.
+std::string_view with_unix_lines(std::string_view text, std::string& storage) {
+  if (!has_lone_return(text)) return text;
+  storage = text;
+  for (std::size_t i = 0; i < storage.size(); ++i)
+    if (is_lone_return(storage, i)) storage[i] = '\n';
+  return storage;
+}
+
+// What stands in front of the first row.
+struct Head {
+  std::string_view header; // its line
+  char delimiter = ',';
+  std::size_t end = 0, end_line = 1; // of the first line below header and units
+};
+
+// Reads columns and units into the table.
+Head read_head(CsvTable& table, std::string_view text, const CsvFormat& format, FaultList& faults) {
+  Head head;
+  Scanner lines(text, '\n');
+  find_header(lines, text, table.file, format);
+  table.header_line = lines.line();
+  const std::size_t header = lines.position();
+  head.header = lines.take_line();
+  if (format.units_row) {
+    skip_blank_lines(lines, text);
+    lines.take_line();
+  }
+  head.delimiter = format.delimiter ? format.delimiter
+                                    : find_delimiter(head.header, line_at(text, lines.position()),
+                                                     format.decimal);
+  Scanner scanner(text, head.delimiter);
+  while (scanner.position() < header)
+    scanner.take_line();
+  read_header(table, scanner, format);
+  if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
+  head.end = scanner.position();
+  head.end_line = scanner.line();
+  return head;
+}
+
+// A row has a sign per column at least, whatever its first line looks like.
+void reserve_rows(CsvTable& table, std::string_view rows_text, std::size_t whole_bytes) {
+  const std::size_t estimate = std::min(whole_bytes / (line_at(rows_text, 0).size() + 1),
+                                        whole_bytes / table.columns.size()) +
+                               16;
+  for (CsvColumn& column : table.columns)
+    column.numbers.reserve(estimate);
+  table.line.reserve(estimate);
+}
+
 } // namespace
 
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
@@ -504,40 +564,223 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   if (without_footer(text, 0).empty()) throw InputError({file, 0, 0}, "the file is empty");
   if (text.find('\0') != std::string_view::npos)
     throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
-  std::string unix_lines; // of a file in which lines end with CR alone
-  if (has_lone_return(text)) {
-    unix_lines = text;
-    for (std::size_t i = 0; i < unix_lines.size(); ++i)
-      if (is_lone_return(unix_lines, i)) unix_lines[i] = '\n';
-    text = unix_lines;
-  }
-  text = without_footer(text, format.skip_footer);
-  Scanner lines(text, '\n');
-  find_header(lines, text, file, format);
-  table.header_line = lines.line();
-  const std::size_t header = lines.position();
-  const std::string_view header_text = lines.take_line();
-  if (format.units_row) {
-    skip_blank_lines(lines, text);
-    lines.take_line();
-  }
-  const std::string_view below = line_at(text, lines.position());
-  Scanner scanner(text, format.delimiter ? format.delimiter
-                                         : find_delimiter(header_text, below, format.decimal));
-  while (scanner.position() < header)
-    scanner.take_line();
-  read_header(table, scanner, format);
-  if (format.units_row && !scanner.at_end()) read_units(table, scanner, text, faults);
-  // A row has a sign per column at least, whatever the line below the header looks like.
-  const std::size_t estimate =
-      std::min(text.size() / (below.size() + 1), text.size() / table.columns.size()) + 16;
-  for (CsvColumn& column : table.columns)
-    column.numbers.reserve(estimate);
-  table.line.reserve(estimate);
-  read_rows(table, scanner, text, header_text, format, faults);
+  std::string unix_lines;
+  text = without_footer(with_unix_lines(text, unix_lines), format.skip_footer);
+  const Head head = read_head(table, text, format, faults);
+  reserve_rows(table, text.substr(std::min(head.end, text.size())), text.size());
+  Scanner scanner(text.substr(std::min(head.end, text.size())), head.delimiter, head.end_line);
+  read_rows(table, scanner, text.substr(std::min(head.end, text.size())), head.header, format,
+            faults);
+  table.notes = notes_of(table.passed_over);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
   return table;
+}
+
+// ---- pieces ----
+
+namespace {
+
+constexpr std::size_t pieces_at_once = 8;                // on so many cores
+constexpr std::size_t head_bytes = std::size_t{1} << 20; // holds a header and the row below it
+
+// The end of the last line that ends outside quotes; npos where there is none. A piece starts
+// outside quotes.
+std::size_t last_line_end(std::string_view text) {
+  if (text.find('"') == text.npos) {
+    const std::size_t end = text.rfind('\n');
+    return end == text.npos ? text.npos : end + 1;
+  }
+  std::size_t end = text.npos;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '\n' && !quoted) end = i + 1;
+  }
+  return end;
+}
+
+std::size_t lines_in(std::string_view text) {
+  std::size_t lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
+    lines += is_lone_return(text, at);
+  return lines;
+}
+
+void check_text(std::string_view text, const std::string& file) {
+  if (text.find('\0') != text.npos)
+    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+}
+
+} // namespace
+
+struct CsvPieces::Data {
+  std::unique_ptr<std::istream> in;
+  CsvFormat format;
+  std::size_t piece_bytes = 0;
+  CsvTable header;
+  std::string header_line;
+  char delimiter = ',';
+  std::string rest; // read and not yet in a piece
+  std::size_t line = 1, intervals = 0;
+  CsvPassedOver passed_over;
+  std::string whole_because;
+  bool rows = false, ended = false;
+
+  // The text of the next piece; empty at the end.
+  std::string piece() {
+    for (std::size_t wanted = piece_bytes;; wanted *= 2) { // until a line ends in it
+      if (rest.size() < wanted) read_more(wanted - rest.size());
+      const bool is_last = !*in && rest.size() <= wanted;
+      const std::size_t end =
+          is_last ? rest.size() : last_line_end(std::string_view(rest).substr(0, wanted));
+      if (end == rest.npos) continue;
+      std::string text = rest.substr(0, end);
+      rest.erase(0, end);
+      check_text(text, header.file);
+      return text;
+    }
+  }
+
+  void read_more(std::size_t bytes) {
+    const std::size_t had = rest.size();
+    rest.resize(had + bytes);
+    in->read(rest.data() + had, static_cast<std::streamsize>(bytes));
+    rest.resize(had + static_cast<std::size_t>(in->gcount()));
+  }
+
+  CsvTable parsed(std::string_view piece, std::size_t first_line, FaultList& faults) const {
+    CsvTable table = header;
+    std::string unix_lines;
+    const std::string_view text = with_unix_lines(piece, unix_lines);
+    reserve_rows(table, text, text.size());
+    Scanner scanner(text, delimiter, first_line);
+    read_rows(table, scanner, text, header_line, format, faults);
+    return table;
+  }
+
+  // Intervals and lines passed over go on from piece to piece.
+  void number(CsvTable& table) {
+    for (std::size_t& interval : table.interval)
+      interval += passed_over.headers;
+    passed_over.headers += table.passed_over.headers;
+    passed_over.in_front += table.passed_over.in_front;
+    passed_over.delimiters_alone += table.passed_over.delimiters_alone;
+    rows = rows || table.rows() > 0;
+  }
+};
+
+CsvPieces::CsvPieces(std::unique_ptr<std::istream> in, const std::string& named,
+                     const CsvFormat& format, std::size_t piece_bytes)
+    : data_(std::make_unique<Data>()) {
+  Data& d = *data_;
+  d.in = std::move(in);
+  d.format = format;
+  d.piece_bytes = piece_bytes;
+  d.header.file = named;
+  d.read_more(std::max(head_bytes, piece_bytes));
+  if (d.rest.starts_with("\xFF\xFE") || d.rest.starts_with("\xFE\xFF"))
+    d.whole_because = "it is in UTF-16";
+  else if (format.skip_footer > 0)
+    d.whole_because = "skip_footer counts from its end";
+  else if (*d.in && d.rest.find('\n') == std::string::npos)
+    d.whole_because = "its lines end with CR alone";
+  if (!d.whole_because.empty()) return;
+  if (d.rest.starts_with("\xEF\xBB\xBF")) d.rest.erase(0, 3);
+  if (without_footer(d.rest, 0).empty()) throw InputError({named, 0, 0}, "the file is empty");
+  check_text(d.rest, named);
+  std::string unix_lines;
+  FaultList faults;
+  const Head head = read_head(d.header, with_unix_lines(d.rest, unix_lines), format, faults);
+  faults.throw_if_any();
+  d.header_line = head.header;
+  d.delimiter = head.delimiter;
+  d.line = head.end_line;
+  d.rest.erase(0, head.end);
+}
+
+CsvPieces::~CsvPieces() = default;
+
+const std::string& CsvPieces::whole_because() const {
+  return data_->whole_because;
+}
+
+const CsvTable& CsvPieces::header() const {
+  return data_->header;
+}
+
+std::vector<CsvTable> CsvPieces::next(FaultList& faults) {
+  Data& d = *data_;
+  std::vector<std::string> texts;
+  std::vector<std::size_t> first_line;
+  while (texts.size() < pieces_at_once && !d.ended) {
+    texts.push_back(d.piece());
+    first_line.push_back(d.line);
+    d.line += lines_in(texts.back());
+    d.ended = !*d.in && d.rest.empty();
+  }
+  std::vector<CsvTable> tables(texts.size());
+  std::vector<FaultList> told(texts.size());
+  parallel_for(texts.size(), [&](std::size_t i) {
+    tables[i] = d.parsed(texts[i], first_line[i], told[i]);
+    std::string().swap(texts[i]);
+  });
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    d.number(tables[i]);
+    for (const Fault& fault : told[i].all())
+      faults.add(fault.place, fault.what, fault.hint);
+  }
+  if (!tables.empty() && d.ended) tables.back().notes = notes_of(d.passed_over);
+  if (d.ended && !d.rows && faults.empty())
+    throw InputError({d.header.file, d.header.header_line, 0},
+                     "there are no rows below the header");
+  return tables;
+}
+
+void append(CsvTable& to, CsvTable&& more) {
+  const std::size_t rows = to.rows();
+  if (to.columns.size() < more.columns.size()) // that have no name, and held nothing so far
+    for (std::size_t c = to.columns.size(); c < more.columns.size(); ++c) {
+      to.columns.push_back({more.columns[c].name, more.columns[c].unit, {}, {}});
+      pad(to.columns.back(), rows);
+    }
+  for (std::size_t c = 0; c < more.columns.size(); ++c) {
+    CsvColumn &column = to.columns[c], &other = more.columns[c];
+    column.numbers.insert(column.numbers.end(), other.numbers.begin(), other.numbers.end());
+    for (CsvColumn::Text& text : other.texts)
+      column.texts.push_back({rows + text.row, std::move(text.text), text.column});
+  }
+  to.line.insert(to.line.end(), more.line.begin(), more.line.end());
+  to.interval.insert(to.interval.end(), more.interval.begin(), more.interval.end());
+  for (std::size_t c = more.columns.size(); c < to.columns.size(); ++c)
+    pad(to.columns[c], to.rows());
+  to.notes.insert(to.notes.end(), more.notes.begin(), more.notes.end());
+}
+
+CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
+  CsvTable part;
+  part.file = table.file;
+  part.header_line = table.header_line;
+  part.notes = table.notes;
+  const auto cut = [&](const auto& from, auto& to) {
+    if (!from.empty())
+      to.assign(from.begin() + static_cast<std::ptrdiff_t>(first),
+                from.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  for (const CsvColumn& column : table.columns) {
+    CsvColumn& own = part.columns.emplace_back();
+    own.name = column.name;
+    own.unit = column.unit;
+    cut(column.numbers, own.numbers);
+    const auto before = [](const CsvColumn::Text& text, std::size_t row) { return text.row < row; };
+    const auto from = std::lower_bound(column.texts.begin(), column.texts.end(), first, before);
+    const auto to = std::lower_bound(from, column.texts.end(), end, before);
+    for (auto text = from; text != to; ++text)
+      own.texts.push_back({text->row - first, text->text, text->column});
+  }
+  cut(table.line, part.line);
+  cut(table.interval, part.interval);
+  return part;
 }
 
 HeaderName read_header_name(const std::string& text) {

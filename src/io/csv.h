@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <istream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,13 +41,21 @@ struct CsvColumn {
   std::vector<Text> texts; // ascending rows
 };
 
+// Lines that are no rows and no faults.
+struct CsvPassedOver {
+  std::size_t headers = 0;  // the header line again
+  std::size_t in_front = 0; // lines in front of it
+  std::size_t delimiters_alone = 0;
+};
+
 struct CsvTable {
   std::string file; // as messages call it
   std::size_t header_line = 0;
   std::vector<CsvColumn> columns;
   std::vector<std::size_t> line;     // physical line of each row
   std::vector<std::size_t> interval; // of each row: how many header lines came again before it
-  std::vector<std::string> notes;    // what was passed over: "the header line comes again 3 times"
+  CsvPassedOver passed_over;
+  std::vector<std::string> notes; // what was passed over: "the header line comes again 3 times"
   std::size_t rows() const { return line.size(); }
 };
 
@@ -58,6 +68,35 @@ struct CsvTable {
 // result (the caller throws). Throws InputError where there is no header or no row.
 CsvTable parse_csv(std::string_view text, const std::string& file, const CsvFormat& format,
                    FaultList& faults);
+
+// A CSV file too large to be held, a few megabytes at a time: each piece ends with a line and is
+// read below the file's own header. What a piece holds does not depend on the number of threads.
+class CsvPieces {
+public:
+  // Throws InputError as parse_csv does of the header and of what is no text.
+  CsvPieces(std::unique_ptr<std::istream> in, const std::string& named, const CsvFormat& format,
+            std::size_t piece_bytes);
+  ~CsvPieces();
+  CsvPieces(const CsvPieces&) = delete;
+  CsvPieces& operator=(const CsvPieces&) = delete;
+
+  // Why the file can only be read as a whole; empty: it can be read in pieces. UTF-16, a footer.
+  const std::string& whole_because() const;
+  // The next few pieces, parsed on all cores; empty behind the last one. Rows are numbered from 0
+  // in each; lines are those of the file. `notes` are told with the last one, of all.
+  std::vector<CsvTable> next(FaultList& faults);
+  // A table without rows: the columns and their units.
+  const CsvTable& header() const;
+
+private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+// Adds the rows of `more`, of the same file.
+void append(CsvTable& to, CsvTable&& more);
+// Rows first .. end-1.
+CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end);
 
 // "Normal force [kN]", "F_R (N)", "T / degC", "Speed, mm/s" as name and unit; the whole name and no
 // unit where what stands there is none that is known (core/units.h).

@@ -1,8 +1,6 @@
 // Block by block, so that a disk image is not read to its end before it is refused.
 #include "io/text_file.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -15,17 +13,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
-
-std::ifstream open_file(const fs::path& file, const std::string& named) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw InputError({named, 0, 0}, "is a directory, a file is needed");
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({named, 0, 0}, "cannot be read",
-                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
-  return in;
-}
 
 std::string bytes_text(std::uint64_t bytes) {
   return human_bytes(static_cast<double>(bytes));
@@ -63,9 +50,20 @@ private:
 
 } // namespace
 
+std::ifstream open_text_file(const fs::path& file, const std::string& named) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw InputError({named, 0, 0}, "is a directory, a file is needed");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({named, 0, 0}, "cannot be read",
+                     fs::exists(file, error) ? "check its permissions" : "there is no such file");
+  return in;
+}
+
 std::string read_text_file(const fs::path& file, const std::string& named,
                            const TextLimits& limits) {
-  std::ifstream in = open_file(file, named);
+  std::ifstream in = open_text_file(file, named);
   Judge judge(named, limits);
   std::error_code error;
   std::uint64_t expected = 0;

@@ -1,5 +1,6 @@
 // The keys of [data]: where rows come from and how a rig's file is read.
 #include <array>
+#include <cmath>
 
 #include "data/plausibility.h"
 #include "data/quantity.h"
@@ -15,6 +16,14 @@ Problem constant_problem(const std::string& name, const KeyValue& value) {
   if (!quantity || number >= quantity->lowest) return {};
   return {"must be a number >= " + shortest(quantity->lowest) + ", not " + shortest(number),
           quantity->meaning};
+}
+
+// Blocks are counted.
+Problem blocks_problem(const std::string&, const KeyValue& value) {
+  const auto* number = std::get_if<double>(&value);
+  if (!number || *number == std::floor(*number)) return {};
+  return {"must be a whole number or \"auto\", not " + shortest(*number),
+          "blocks per experiment; 0: rows are held"};
 }
 
 // "1.sigma_n_MPa" of the first [[data.files]]; "sigma_n_MPa" of all files.
@@ -182,6 +191,13 @@ std::vector<KeyRule> file_keys() {
           "what an experiment is: \"file\", \"interval\" (from one header line of a file to the "
           "next), a column of the file, or both: \"file+COLUMN\"",
           "the column experiment where there is one, else the file", "\"file\""),
+      key<data::AutoNumber>(
+          "data.condense", [](Job & job) -> auto& { return job.data.condense; },
+          "blocks of neighbouring rows per experiment that are held instead of its rows, which are "
+          "read one experiment at a time, and once more for the errors of laws; 0: rows are held; "
+          "\"auto\": above ten million rows up to "
+          "3520, fewer where there are many experiments") |
+          at_least(0) | blocks_problem,
       key<std::optional<std::vector<std::string>>>(
           "data.bystanders", [](Job & job) -> auto& { return job.data.bystanders; },
           "columns to keep that no law uses", "all other columns are kept", "[\"room_C\"]"),

@@ -38,6 +38,8 @@ struct Parameter {
 
 // Columns by canonical name, with tau_R_MPa.
 using TrainingRows = std::map<std::string, std::span<const double>>;
+// Among them, where they are means over blocks: how many rows each stands for.
+inline constexpr const char* row_weights = "row_weights";
 
 // tau_R = combine(value, state, parameters), value = value(state, parameters).
 // `value` is the smooth piece that is tabulated; kinks belong into `combine`, which is evaluated

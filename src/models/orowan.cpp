@@ -20,7 +20,10 @@ std::vector<std::vector<double>> starts(const Conventions& conventions, const Tr
   for (double& x : k)
     x *= conventions.k_over_sigma_f;
   std::vector<std::vector<double>> points;
-  for (const auto& [mu, m] : orowan_optimum({rows.at("sigma_n_MPa"), k, rows.at("tau_R_MPa")}, 12))
+  OrowanRows of{rows.at("sigma_n_MPa"), k, rows.at("tau_R_MPa")};
+  if (const auto weights = rows.find(row_weights); weights != rows.end())
+    of.weights = weights->second;
+  for (const auto& [mu, m] : orowan_optimum(of, 12))
     points.push_back({mu, m});
   return points;
 }

@@ -37,9 +37,9 @@ std::vector<std::uint32_t> in_order(const std::vector<double>& ratio) {
 // Sum of (tau - p g)^2 as a function of p, less the sum of tau^2.
 struct Quadratic {
   double gg = 0, gt = 0;
-  void add(double g, double t) {
-    gg += g * g;
-    gt += g * t;
+  void add(double g, double t, double weight) {
+    gg += weight * g * g;
+    gt += weight * g * t;
   }
   double at(double p) const { return p * (p * gg - 2 * gt); }
   double lowest() const { return gg > 0 ? std::clamp(gt / gg, 0.0, 1.0) : 0; }
@@ -75,9 +75,10 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
   const std::size_t count = rows.tau.size();
   std::vector<double> ratio(count);
   Quadratic coulomb, shear;
+  const auto weight = [&](std::size_t i) { return rows.weights.empty() ? 1.0 : rows.weights[i]; };
   for (std::size_t i = 0; i < count; ++i) {
     ratio[i] = rows.sigma_n[i] / std::max(rows.k[i], 1e-300);
-    shear.add(rows.k[i], rows.tau[i]);
+    shear.add(rows.k[i], rows.tau[i], weight(i));
   }
   const auto order = in_order(ratio);
   Best best;
@@ -94,9 +95,8 @@ std::vector<OrowanPoint> orowan_optimum(const OrowanRows& rows, std::size_t brea
       offer_border(coulomb, shear, ratio[row], here);
       points.push_back(here.point);
     }
-    coulomb.add(rows.sigma_n[row], rows.tau[row]);
-    shear.gg -= rows.k[row] * rows.k[row];
-    shear.gt -= rows.k[row] * rows.tau[row];
+    coulomb.add(rows.sigma_n[row], rows.tau[row], weight(row));
+    shear.add(rows.k[row], rows.tau[row], -weight(row));
     last = ratio[row];
   }
   // Without shear friction m is anything; as good as a kink at the last row, and preferred to it.

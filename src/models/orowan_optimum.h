@@ -11,6 +11,7 @@ struct OrowanRows {
   std::span<const double> sigma_n;
   std::span<const double> k;
   std::span<const double> tau;
+  std::span<const double> weights = {}; // in the sum of squares; empty: all alike
 };
 
 struct OrowanPoint {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/condense.h"
 #include "data/quantity.h"
 #include "report/data_lines.h"
 #include "report/judged.h"
@@ -47,15 +48,9 @@ std::vector<std::string> bystanders_of(const data::Dataset& data) {
 }
 
 std::string range_of(const data::Dataset& data, const std::string& name) {
-  const data::Column* column = data.find(name);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  if (column)
-    for (const double value : column->values)
-      if (std::isfinite(value)) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-  if (low > high) return "\u2013";
+  if (!data.has(name)) return "\u2013";
+  const auto [low, high] = data::span_behind(data, name, data.values(name));
+  if (!(low <= high)) return "\u2013";
   return low == high ? short_figures(low) : short_figures(low) + " to " + short_figures(high);
 }
 
@@ -75,7 +70,10 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   add("Files", lines(files_of(t)), none.empty() ? lines(files_of(v)) : none);
   add("Experiments", thousands(t.experiments.size()),
       of_validation(thousands(v.experiments.size())));
-  add("Rows", thousands(t.rows()), of_validation(thousands(v.rows())));
+  add("Rows", thousands(t.rows_behind()), of_validation(thousands(v.rows_behind())));
+  if (t.condensed)
+    add("Held as means over blocks of rows", thousands(t.rows()),
+        of_validation(thousands(v.rows())));
   add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
   add("Derived", lines(t.notes), lines(v.notes));
   add("Implausible", lines(t.implausible), lines(v.implausible));

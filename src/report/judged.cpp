@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "report/numbers.h"
 
 namespace frictab::report {
@@ -32,7 +33,8 @@ JudgedWords judged_words(JudgedBy judged_by) {
 std::string size_text(JudgedBy judged_by, const data::Dataset& training,
                       const data::Dataset& validation) {
   const auto describe = [](const data::Dataset& data) {
-    return count_of(data.rows(), "row") + " of " + count_of(data.experiments.size(), "experiment");
+    return count_of(data.rows_behind(), "row") + " of " +
+           count_of(data.experiments.size(), "experiment");
   };
   switch (judged_by) {
   case JudgedBy::leave_one_out:
@@ -44,6 +46,17 @@ std::string size_text(JudgedBy judged_by, const data::Dataset& training,
     break;
   }
   return describe(training) + " to train, " + describe(validation) + " to validate";
+}
+
+std::string condensed_text(const data::Dataset& training, const data::Dataset& validation) {
+  if (!training.condensed) return "";
+  return fmt::format("held as {} means over blocks of rows (data.condense): laws are fitted to "
+                     "these; their errors, ranges and counts are of all rows; of blocks are {}",
+                     thousands(training.rows() + validation.rows()), join(from_blocks(), ", "));
+}
+
+std::vector<std::string> from_blocks() {
+  return {"repeated tests", "other splits of the tests", "known sliding distances", "traces"};
 }
 
 std::string judged_text(const calibrate::Calibration& c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibrate/calibration.h"
 #include "data/dataset.h"
@@ -21,6 +22,12 @@ JudgedWords judged_words(calibrate::JudgedBy judged_by);
 // "82,500 rows of 150 experiments to train, 16,500 rows of 30 experiments to validate".
 std::string size_text(calibrate::JudgedBy judged_by, const data::Dataset& training,
                       const data::Dataset& validation);
+
+// Of condensed data, which figures are of all rows and which of blocks, without a full stop; empty
+// where rows are held.
+std::string condensed_text(const data::Dataset& training, const data::Dataset& validation);
+// Those of blocks.
+std::vector<std::string> from_blocks();
 
 // What validation is, in a sentence without a full stop.
 std::string judged_text(const calibrate::Calibration& calibration);

@@ -101,6 +101,8 @@ std::string report_md(const ReportInput& input) {
   std::string out = "# Friction report: " + markdown_cell(input.title) + "\n";
   if (calibration.synthetic) out += "\n**Synthetic data: nothing here was measured.**\n";
   out += "\nData: " + size_text(calibration.judged_by, input.training, input.validation) + ".\n";
+  if (const std::string how = condensed_text(input.training, input.validation); !how.empty())
+    out += "Rows are " + how + ".\n";
   add_md_ranking(out, calibration);
   add_md_drift(out, input.verification);
   add_md_reach(out, input.tables);

@@ -142,6 +142,8 @@ std::string data_text(const JobData& data) {
     names.resize(names.size() - more);
     out += "other columns: " + join(names, ", ") + and_more(more, "column") + "\n";
   }
+  if (const std::string how = report::condensed_text(data.training, data.validation); !how.empty())
+    out += "rows are " + how + "\n";
   return out + report::size_text(data.judged_by, data.training, data.validation) +
          (calibrate::is_synthetic(data.training) ? " - SYNTHETIC data\n" : "\n");
 }

@@ -14,6 +14,7 @@
 #include "data/derived.h"
 #include "data/file_list.h"
 #include "data/load.h"
+#include "data/load_condensed.h"
 #include "data/oracle.h"
 #include "data/plausibility.h"
 #include "data/quantity.h"
@@ -29,6 +30,11 @@ constexpr double usual_share = 0.25;
 
 void add_oracle(const data::DataOptions& options, JobData& data) {
   if (options.oracle.empty()) return;
+  if (data.training.condensed) {
+    data.training.notes.push_back(
+        "data.oracle is not read: it is of rows, and these are condensed");
+    return;
+  }
   if (!calibrate::is_synthetic(data.training))
     throw InputError(options.oracle_place,
                      "data.oracle is for synthetic data: measured data have no known truth",
@@ -68,10 +74,17 @@ std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Data
   return both;
 }
 
+// Rows, or blocks of them where data.condense asks for these.
+data::Dataset load(const std::vector<std::string>& files, const data::DataOptions& options) {
+  const std::size_t blocks = data::blocks_to_condense(options);
+  return blocks > 0 ? data::load_condensed(files, options, blocks)
+                    : data::load_dataset(files, options);
+}
+
 JobData with_validation_files(const data::DataOptions& options, FaultList& implausible) {
   JobData data;
-  data.training = data::load_dataset(options.training, options);
-  data.validation = data::load_dataset(options.validation, options);
+  data.training = load(options.training, options);
+  data.validation = load(options.validation, options);
   for (data::Dataset* part : {&data.training, &data.validation})
     data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
   data.training.unused = unused_by_both(data.training, data.validation);
@@ -109,7 +122,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
 // The key holds out of few tests as well: someone may want a share that nothing has seen.
 JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
                                  FaultList& implausible) {
-  data::Dataset all = data::load_dataset(options.training, options);
+  data::Dataset all = load(options.training, options);
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   if (!options.holdout && all.experiments.size() < few_experiments)
     return without_others(std::move(all));

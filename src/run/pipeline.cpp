@@ -11,6 +11,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
+#include "calibrate/row_errors.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -298,6 +299,11 @@ in_order_of(const std::vector<std::string>& names,
 
 void Pipeline::add_traced_laws() {
   std::vector<ModelFit> nested; // judged on other tests than the laws they came from
+  std::vector<ModelFit*> by_validation;
+  for (trace::Trace& trace : traces_)
+    if (trace.extended.model.law && trace.extended.unseen.empty() && trace.unseen == "validation")
+      by_validation.push_back(&trace.extended);
+  calibrate::judge_on_rows(by_validation, data_->calibration_input(job_));
   for (const trace::Trace& trace : traces_) {
     if (!trace.extended.model.law) continue;
     ModelFit fit = trace.extended;

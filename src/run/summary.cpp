@@ -34,6 +34,8 @@ std::string data_text(const Pipeline& p) {
   if (p.data()->judged_by == calibrate::JudgedBy::fit)
     out +=
         "  if they are of several tests, data.experiment names the column that tells them apart\n";
+  if (const std::string how = report::condensed_text(training, validation); !how.empty())
+    out += "  " + how + "\n";
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);

@@ -4,6 +4,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/noise_floor.h"
 #include "io/json.h"
+#include "report/judged.h"
 #include "run/summary.h"
 #include "table/beyond_data.h"
 #include "trace/trace_file.h"
@@ -38,11 +39,18 @@ nlohmann::ordered_json table_json(const table::Table& table) {
   return j;
 }
 
+nlohmann::ordered_json condensed_json(const JobData& data) {
+  return {{"rows", data.training.rows_behind() + data.validation.rows_behind()},
+          {"blocks", data.training.rows() + data.validation.rows()},
+          {"from_blocks", report::from_blocks()}};
+}
+
 } // namespace
 
 std::string summary_json(const Pipeline& p) {
   nlohmann::ordered_json j = {{"schema", "frictab/summary/1"}, {"job", p.job().file}};
   if (p.data()) j["synthetic_data"] = calibrate::is_synthetic(p.data()->training);
+  if (p.data() && p.data()->training.condensed) j["condensed"] = condensed_json(*p.data());
   if (p.calibration())
     j["calibration"] =
         io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");

@@ -6,6 +6,7 @@
 
 #include "calibrate/input_columns.h"
 #include "core/error.h"
+#include "data/condense.h"
 #include "data/meaning.h"
 #include "data/quantity.h"
 #include "table/build.h"
@@ -14,9 +15,10 @@ namespace frictab::table {
 
 namespace {
 
-StateRange data_range(const std::string& name, std::span<const double> values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {name, *low, *high, "training data", {{*low, *high}}};
+using Span = std::pair<double, double>;
+
+StateRange data_range(const std::string& name, const Span& span) {
+  return {name, span.first, span.second, "training data", span};
 }
 
 void widen_one_value(StateRange& range, double lowest) { // a grid needs two nodes
@@ -42,9 +44,9 @@ void join_table_1(StateRange& range, const data::Quantity& quantity) {
   range.why = "Table 1 and training data";
 }
 
-StateRange default_range(const data::Quantity& quantity, std::span<const double> values,
+StateRange default_range(const data::Quantity& quantity, const Span& span,
                          const TableOptions& options) {
-  StateRange range = data_range(quantity.name, values);
+  StateRange range = data_range(quantity.name, span);
   if (quantity.name == "sigma_f_MPa") { // an FE run hardens and softens beyond the tribometer
     range.low *= 0.5;
     range.high *= 2;
@@ -57,9 +59,8 @@ StateRange default_range(const data::Quantity& quantity, std::span<const double>
 }
 
 // What an effect brought in: where it was learned, and no further.
-StateRange further_range(const models::Law& law, const std::string& name,
-                         std::span<const double> values) {
-  StateRange range = data_range(name, values);
+StateRange further_range(const models::Law& law, const std::string& name, const Span& span) {
+  StateRange range = data_range(name, span);
   if (const auto levels = law.levels.find(name); levels != law.levels.end()) {
     range.low = 0;
     range.high = static_cast<double>(levels->second.size() - 1);
@@ -70,15 +71,14 @@ StateRange further_range(const models::Law& law, const std::string& name,
   return range;
 }
 
-StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis,
-                       std::span<const double> values) {
+StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis, const Span& span) {
   const auto [low, high] = *axis.range;
   if (low < quantity.lowest)
     throw InputError(
         axis.place,
         fmt::format("the range of {} starts at {}, below {}", quantity.name, low, quantity.lowest),
         "a " + quantity.meaning + " cannot be smaller");
-  return {quantity.name, low, high, "job file", data_range(quantity.name, values).data};
+  return {quantity.name, low, high, "job file", data_range(quantity.name, span).data};
 }
 
 } // namespace
@@ -92,11 +92,11 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
     const data::Quantity* quantity = data::find_quantity(name);
     const auto found = options.axes.find(name);
     if (quantity && found != options.axes.end() && found->second.range)
-      ranges.push_back(asked_range(*quantity, found->second, columns[i]));
+      ranges.push_back(asked_range(*quantity, found->second, columns.range(i)));
     else if (quantity && quantity->state)
-      ranges.push_back(default_range(*quantity, columns[i], options));
+      ranges.push_back(default_range(*quantity, columns.range(i), options));
     else
-      ranges.push_back(further_range(*law.model.law, name, columns[i]));
+      ranges.push_back(further_range(*law.model.law, name, columns.range(i)));
   }
   return ranges;
 }
@@ -113,7 +113,7 @@ std::vector<StateRange> table_ranges(const Table& table, const data::Dataset* da
     else if (input.low && input.high && *input.low <= *input.high)
       ranges.push_back({name, *input.low, *input.high, "attribute"});
     else if (data && data->has(name))
-      ranges.push_back(data_range(name, data->values(name)));
+      ranges.push_back(data_range(name, data::span_behind(*data, name, data->values(name))));
     else
       throw InputError({file, 0, 0},
                        "the range of " + name +

@@ -2,6 +2,7 @@
 #include "trace/blocks.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace frictab::trace {
 
@@ -12,11 +13,11 @@ using Eigen::Index;
 constexpr std::size_t most_blocks = 40;
 
 double median_rows(const Blocks& blocks) {
-  std::vector<std::size_t> all;
+  std::vector<double> all;
   for (std::size_t b = 0; b < blocks.count(); ++b)
     all.push_back(blocks.rows(b));
   std::nth_element(all.begin(), all.begin() + static_cast<long>(all.size() / 2), all.end());
-  return static_cast<double>(all[all.size() / 2]);
+  return all[all.size() / 2];
 }
 
 Eigen::VectorXd block_positions(const Blocks& blocks) {
@@ -35,13 +36,20 @@ Eigen::VectorXd block_positions(const Blocks& blocks) {
 
 } // namespace
 
+double Blocks::rows(std::size_t block) const {
+  const auto begin = static_cast<long>(first_row[block]),
+             end = static_cast<long>(first_row[block + 1]);
+  if (weights.empty()) return static_cast<double>(end - begin);
+  return std::accumulate(weights.begin() + begin, weights.begin() + end, 0.0);
+}
+
 Eigen::VectorXd Blocks::mean(std::span<const double> per_row) const {
   Eigen::VectorXd means(static_cast<Index>(count()));
   for (std::size_t b = 0; b < count(); ++b) {
     double sum = 0;
     for (std::size_t i = first_row[b]; i < first_row[b + 1]; ++i)
-      sum += per_row[i];
-    means(static_cast<Index>(b)) = sum / static_cast<double>(rows(b));
+      sum += weights.empty() ? per_row[i] : weights[i] * per_row[i];
+    means(static_cast<Index>(b)) = sum / rows(b);
   }
   return means;
 }
@@ -68,6 +76,8 @@ Blocks make_blocks(const data::Dataset& data) {
     blocks.first.push_back(blocks.first_row.size());
   }
   blocks.first_row.push_back(data.rows());
+  const auto weights = data.row_weights();
+  blocks.weights.assign(weights.begin(), weights.end());
   blocks.position = block_positions(blocks);
   blocks.usual_rows = median_rows(blocks);
   return blocks;

@@ -20,7 +20,8 @@ struct Blocks {
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
-  std::size_t rows(std::size_t block) const { return first_row[block + 1] - first_row[block]; }
+  std::vector<double> weights; // per row how many it stands for; empty: one each
+  double rows(std::size_t block) const;
   // Per block, the mean of its rows.
   Eigen::VectorXd mean(std::span<const double> per_row) const;
   // Per experiment, the mean of its blocks.

@@ -73,9 +73,8 @@ private:
   }
 
   calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
-    return calibrate::metrics(data.values("tau_R_MPa"),
-                              calibrate::predict(s_.model_of(rival), data), data.first_row,
-                              in_.bootstrap, in_.seed);
+    return calibrate::metrics(data, calibrate::predict(s_.model_of(rival), data), in_.bootstrap,
+                              in_.seed);
   }
 
   bool by_validation() const { return in_.validation.experiments.size() >= enough_validation; }
@@ -84,9 +83,8 @@ private:
   bool no_validation() const { return in_.validation.experiments.empty(); }
 
   std::vector<calibrate::ErrorSums> on_validation(const Rival& rival) const {
-    return calibrate::error_sums(in_.validation.values("tau_R_MPa"),
-                                 calibrate::predict(s_.model_of(rival), in_.validation),
-                                 in_.validation.first_row);
+    return calibrate::error_sums(in_.validation,
+                                 calibrate::predict(s_.model_of(rival), in_.validation));
   }
 
   // What `with` gains against `without` on the same tests.
@@ -165,10 +163,9 @@ private:
   // Against the law as the calibration stage handed it on: effects must also make up for what the
   // weights of the trace may have made worse.
   Difference against_calibrated() const {
-    return gained(on_validation(d_.rival),
-                  calibrate::error_sums(in_.validation.values("tau_R_MPa"),
-                                        calibrate::predict(in_.fit.model, in_.validation),
-                                        in_.validation.first_row));
+    return gained(
+        on_validation(d_.rival),
+        calibrate::error_sums(in_.validation, calibrate::predict(in_.fit.model, in_.validation)));
   }
 
   // The same effects with all rows alike.

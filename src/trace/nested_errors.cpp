@@ -74,8 +74,7 @@ FoldErrors fold_errors(const Search& all, const data::Dataset& training,
   FoldErrors errors;
   const auto evaluate = [&](const Rival& rival, std::size_t weights) {
     const std::vector<double> predicted = calibrate::predict(search->model_of(rival), left_out);
-    errors.sums[weights].push_back(
-        calibrate::error_sums(left_out.values("tau_R_MPa"), predicted, left_out.first_row));
+    errors.sums[weights].push_back(calibrate::error_sums(left_out, predicted));
     errors.relative[weights].push_back(relative_errors(left_out, predicted));
     errors.score[weights].push_back(
         scores(left_out, predicted, rival.noise, search->blocks.usual_rows));

@@ -59,7 +59,7 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
   VectorXd white(tau.size());
   const double usual = blocks.usual_rows, white2 = noise.white * noise.white;
   for (Index b = 0; b < white.size(); ++b)
-    white(b) = white2 * usual / static_cast<double>(blocks.rows(static_cast<std::size_t>(b)));
+    white(b) = white2 * usual / blocks.rows(static_cast<std::size_t>(b));
   MatrixXd effects(tau.size(), 2);
   effects.col(0) = noise.gain * tau;
   effects.col(1) = noise.slope * tau.cwiseProduct(blocks.position);

@@ -44,8 +44,7 @@ public:
     log_d_ = d.log().sum();
     share_.resize(data.residual.size());
     for (Index b = 0; b < share_.size(); ++b)
-      share_(b) =
-          blocks_.usual_rows / static_cast<double>(blocks_.rows(static_cast<std::size_t>(b)));
+      share_(b) = blocks_.usual_rows / blocks_.rows(static_cast<std::size_t>(b));
   }
 
   double operator()(const NoiseModel& noise) const {

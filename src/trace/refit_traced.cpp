@@ -81,8 +81,7 @@ std::vector<calibrate::ErrorSums> cross_validated(const Refitter& refitter, cons
     progress.tick();
     if (!model) return;
     const Dataset left_out = all.subset(out);
-    const auto sums = calibrate::error_sums(
-        left_out.values("tau_R_MPa"), calibrate::predict(*model, left_out), left_out.first_row);
+    const auto sums = calibrate::error_sums(left_out, calibrate::predict(*model, left_out));
     for (std::size_t i = 0; i < out.size(); ++i)
       errors[out[i]] = sums[i];
     done[fold] = 1;
@@ -109,17 +108,16 @@ refit_traced(const Search& search, const Delivery& delivery, const Dataset& all)
   if (errors.empty()) return nullptr;
   const models::AssembledLaw law(fit.model);
   const auto [columns, tau] = calibrate::predict_with_columns(law, law.inputs, all);
-  const auto measured = all.values("tau_R_MPa");
   fit.data_range = columns.ranges();
   fit.fitted_to_all = true;
   fit.std_error_method = "cluster sandwich by experiment";
   fit.termination = "the effects of the trace, fitted again to all experiments";
   fit.remarks.push_back("its effects were chosen by tests that are left out in turn here: the "
                         "error on new tests is a little larger");
-  fit.training = calibrate::metrics(measured, tau, all.first_row, in.bootstrap, in.seed);
+  fit.training = calibrate::metrics(all, tau, in.bootstrap, in.seed);
   fit.validation = calibrate::metrics(errors, in.bootstrap, in.seed);
   fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-      calibrate::experiment_gains(measured, tau, all.first_row), fit.model.parameters.size());
+      calibrate::experiment_gains(all, tau), fit.model.parameters.size());
   fit.band = calibrate::check_band(fit.model, {}, all.subset({}));
   return std::make_shared<const calibrate::ModelFit>(std::move(fit));
 }

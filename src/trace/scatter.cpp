@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <gsl/gsl_cdf.h>
 
@@ -40,6 +41,12 @@ double within_blocks(const data::Dataset& training, const Blocks& blocks) {
     // Of two rows a line would leave nothing: their mean is taken instead.
     sum += end - begin == 2 ? yy : std::max(yy - xy * xy / xx, 0.0) * (n - 1) / (n - 2);
   }
+  if (training.condensed) // the means' own scatter is below a row's, and holds none of this
+    return (std::accumulate(training.condensed->within_MPa2.begin(),
+                            training.condensed->within_MPa2.end(), 0.0) +
+            sum * static_cast<double>(training.rows_behind()) /
+                static_cast<double>(training.rows())) /
+           static_cast<double>(training.rows_behind());
   return sum / static_cast<double>(training.rows());
 }
 
@@ -77,7 +84,7 @@ void add_floor(Trace& trace, const Search& search, const Rival& last) {
   trace.noise_floor.part = "training";
   trace.noise_floor.rmse_MPa = rmse;
   trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
-  trace.noise_floor.n_rows = training.rows();
+  trace.noise_floor.n_rows = training.rows_behind();
   trace.noise_floor.n_experiments = training.experiments.size();
 }
 

@@ -77,7 +77,7 @@ models::Law with_piece_as_column(const Model& model, const Blocks& blocks,
 }
 
 std::size_t in_rows(const data::Dataset& data, std::size_t experiment) {
-  return data.first_row[experiment + 1] - data.first_row[experiment];
+  return data.rows_behind(experiment);
 }
 
 } // namespace

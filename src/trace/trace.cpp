@@ -76,8 +76,7 @@ private:
   }
 
   calibrate::Metrics errors(const data::Dataset& data, const std::vector<double>& predicted) const {
-    return calibrate::metrics(data.values("tau_R_MPa"), predicted, data.first_row, in_.bootstrap,
-                              in_.seed);
+    return calibrate::metrics(data, predicted, in_.bootstrap, in_.seed);
   }
 
   // On the validation tests; where there are none, on training tests left out in turn.
@@ -116,9 +115,7 @@ private:
     fit.data_range = columns.ranges();
     fit.training = errors(in_.training, trained);
     fit.model.experiment_gains = calibrate::gains_of_new_experiments(
-        calibrate::experiment_gains(in_.training.values("tau_R_MPa"), trained,
-                                    in_.training.first_row),
-        fit.model.parameters.size());
+        calibrate::experiment_gains(in_.training, trained), fit.model.parameters.size());
     judge(trace);
     trace.extended_model = fit.model.name();
     if (rival.effects.empty()) trace.after = {fit.training, fit.validation};

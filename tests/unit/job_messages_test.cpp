@@ -48,7 +48,7 @@ TEST(JobMessages, NameTheNearestKnownKey) {
       "job.toml:3:1: error: unknown key 'zzzzzzzz' in [data]\n"
       "  hint: known: drop, columns, constants, files, wide, join, training, validation, oracle, "
       "holdout, delimiter, decimal, thousands, sheet, tests, skip_rows, skip_footer, units_row, "
-      "missing, allow_implausible, experiment, bystanders");
+      "missing, allow_implausible, experiment, condense, bystanders");
 }
 
 TEST(JobMessages, NameTheRuleOfSomeFiles) {

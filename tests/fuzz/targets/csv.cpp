@@ -1,5 +1,7 @@
 // Delimited text. The first byte says how it is written: a fuzzer finds decimal commas by itself.
 #include <cmath>
+#include <memory>
+#include <sstream>
 
 #include "fuzz/target.h"
 #include "io/csv.h"
@@ -37,6 +39,27 @@ void check(const io::CsvTable& table) {
   }
 }
 
+// The same file a few bytes at a time: other faults, but no other table.
+void check_pieces(std::string_view text, const io::CsvFormat& format, const io::CsvTable& whole) {
+  io::CsvPieces pieces(std::make_unique<std::istringstream>(std::string(text)), "a.csv", format,
+                       16);
+  if (!pieces.whole_because().empty()) return;
+  FaultList faults;
+  io::CsvTable all = pieces.header();
+  for (auto next = pieces.next(faults); !next.empty(); next = pieces.next(faults))
+    for (io::CsvTable& piece : next)
+      io::append(all, std::move(piece));
+  if (!faults.empty()) return;
+  check(all);
+  promise(all.line == whole.line && all.interval == whole.interval, "pieces have the same rows");
+  promise(all.columns.size() == whole.columns.size(), "pieces have the same columns");
+  for (std::size_t c = 0; c < all.columns.size(); ++c)
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+      const double a = all.columns[c].numbers[i], b = whole.columns[c].numbers[i];
+      promise(a == b || (std::isnan(a) && std::isnan(b)), "pieces have the same cells");
+    }
+}
+
 void read(std::string_view bytes) {
   if (bytes.empty()) return;
   FaultList faults;
@@ -44,6 +67,7 @@ void read(std::string_view bytes) {
   const io::CsvTable table = io::parse_csv(bytes.substr(1), "a.csv", format_of(bits), faults);
   faults.throw_if_any();
   check(table);
+  check_pieces(bytes.substr(1), format_of(bits), table);
 }
 
 const Registered<Target> registered([] { return Target{"csv", read}; });

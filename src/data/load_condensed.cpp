@@ -1,0 +1,339 @@
+// Reads parts of files, condenses them, and reads them again where their rows are asked for.
+#include "data/load_condensed.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+
+#include "core/large_work.h"
+#include "core/parallel.h"
+#include "data/append.h"
+#include "data/condense.h"
+#include "data/file_list.h"
+#include "data/join.h"
+#include "data/load_part.h"
+#include "data/plausibility.h"
+#include "data/raw_parts.h"
+#include "io/hdf5.h"
+
+namespace frictab::data {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files that are read side by side hold no more than this together: what one takes in memory is a
+// few times its size.
+constexpr std::uint64_t bytes_side_by_side = std::uint64_t{128} << 20;
+
+std::uint64_t size_of(const fs::path& path) {
+  std::error_code unknown;
+  const auto bytes = fs::file_size(path, unknown);
+  return unknown ? 0 : bytes;
+}
+
+// Where a part stands in the campaign.
+struct PartNumber {
+  std::size_t file, part;
+  bool operator<(const PartNumber& other) const {
+    return std::pair(file, part) < std::pair(other.file, other.part);
+  }
+};
+
+// The files of a campaign, read part by part as often as it takes.
+class Campaign : public RowSource {
+public:
+  Campaign(const std::vector<std::string>& named, const DataOptions& options)
+      : options_(options), beside_(load_beside(options_)),
+        files_(find_files(named, options_.base, options_.place)),
+        plans_(plan_files(files_, options_)) {}
+
+  const std::vector<std::string>& files() const { return files_; }
+  const std::vector<std::string>& notes() const { return plans_.notes; }
+  const Beside& beside() const { return beside_; }
+
+  // take(number, part) on any thread; faults of the files that have no part, by file.
+  using Take = std::function<void(PartNumber number, Part&& part)>;
+  std::vector<FaultList> read_parts(const Take& take) const {
+    std::vector<FaultList> faults(files_.size());
+    for (std::size_t first = 0; first < files_.size();) {
+      const std::size_t end = behind_side_by_side(first);
+      parallel_for(end - first,
+                   [&](std::size_t i) { read_file(first + i, faults[first + i], take); });
+      first = end;
+    }
+    return faults;
+  }
+
+  void read(const std::function<void(const Dataset& one)>& take) const override {
+    const std::vector<FaultList> faults = read_parts([&](PartNumber, Part&& part) {
+      part.faults.throw_if_any();
+      const Dataset& data = part.data;
+      for (std::size_t e = 0; e < data.experiments.size(); ++e)
+        if (data.experiments.size() == 1)
+          take(data);
+        else
+          take(data.subset(std::array{e}));
+    });
+    throw_faults(faults);
+  }
+
+private:
+  std::size_t behind_side_by_side(std::size_t first) const {
+    std::uint64_t bytes = 0;
+    std::size_t end = first;
+    while (end < files_.size()) {
+      bytes += size_of(path_of(plans_.files[end]));
+      if (end > first && bytes > bytes_side_by_side) break;
+      ++end;
+    }
+    return end;
+  }
+
+  void read_file(std::size_t file, FaultList& faults, const Take& take) const {
+    const FilePlan& plan = plans_.files[file];
+    std::size_t before = 0;
+    try {
+      large_work(reading_words(plan), 0, one_experiment_at_a_time, [&] {
+        read_raw_parts(path_of(plan).string(), plan.file, plan.options, faults,
+                       [&](std::vector<io::CsvTable>&& parts) {
+                         parallel_for(parts.size(), [&](std::size_t i) {
+                           take({file, before + i}, load_part(std::move(parts[i]), plan, beside_));
+                         });
+                         before += parts.size();
+                       });
+      });
+    } catch (const InputError& error) {
+      faults.add(error);
+    }
+  }
+
+  DataOptions options_; // without what stands in the table of tests
+  Beside beside_;
+  std::vector<std::string> files_;
+  FilePlans plans_;
+};
+
+// What the first look at a campaign has found so far.
+class FirstLook {
+public:
+  FirstLook(const DataOptions& options, std::size_t blocks,
+            std::shared_ptr<const Campaign> campaign)
+      : options_(options), blocks_(blocks), campaign_(std::move(campaign)),
+        faults_(campaign_->files().size()) {
+    while (is_auto() && campaign_->files().size() * blocks_ > most_blocks && blocks_ > coarse_blocks)
+      blocks_ = fewer(); // each file has an experiment at least
+  }
+
+  Dataset held() {
+    std::vector<FaultList> of_files;
+    while (!all_read(of_files)) // experiments so far had too many blocks
+      blocks_ = fewer();
+    for (auto& [number, found] : parts_)
+      for (const Fault& fault : found.faults)
+        faults_[number.file].add(fault.place, fault.what, fault.hint);
+    for (std::size_t f = 0; f < faults_.size(); ++f)
+      for (const Fault& fault : of_files[f].all())
+        faults_[f].add(fault.place, fault.what, fault.hint);
+    tell_empty_files();
+    throw_faults(faults_);
+    return appended();
+  }
+
+private:
+  struct TooManyBlocks {};
+
+  bool is_auto() const { return !options_.condense.value; }
+  std::size_t fewer() const { return std::max(blocks_ / 2, coarse_blocks); }
+
+  bool all_read(std::vector<FaultList>& of_files) {
+    parts_.clear();
+    held_ = 0;
+    try {
+      of_files = campaign_->read_parts([&](PartNumber number, Part&& part) { take(number, part); });
+    } catch (const TooManyBlocks&) {
+      return false;
+    }
+    return true;
+  }
+
+  struct Found { // in one part
+    Dataset blocks;
+    std::vector<Fault> faults;
+    std::vector<Implausible> implausible;
+    std::vector<MappedFile::CountedNote> counted_notes;
+  };
+
+  void take(PartNumber number, Part& part) {
+    Found found;
+    found.faults = part.faults.all();
+    found.counted_notes = std::move(part.counted_notes);
+    for (auto note = found.counted_notes.rbegin(); note != found.counted_notes.rend(); ++note)
+      part.data.notes.erase(part.data.notes.begin() + static_cast<std::ptrdiff_t>(note->note));
+    part.raw = {};
+    part.row = {};
+    if (found.faults.empty()) {
+      count_implausible(part.data, found.implausible);
+      found.blocks = condense(part.data, blocks_, campaign_);
+    }
+    const std::lock_guard lock(mutex_);
+    held_ += found.blocks.rows();
+    if (held_ > most_blocks && blocks_ > coarse_blocks && is_auto())
+      throw TooManyBlocks();
+    parts_.emplace(number, std::move(found));
+  }
+
+  // data.drop may leave no row of some experiments, but of no file.
+  void tell_empty_files() {
+    std::vector<std::size_t> rows(faults_.size(), 0);
+    for (const auto& [number, found] : parts_)
+      rows[number.file] += found.blocks.rows();
+    for (std::size_t f = 0; f < faults_.size(); ++f)
+      if (rows[f] == 0 && faults_[f].empty() && options_.join.files.empty())
+        faults_[f].add({campaign_->files()[f], 0, 0},
+                       "data.drop and data.missing leave no row of this file");
+  }
+
+  Dataset appended() {
+    Dataset all;
+    bool first = true;
+    for (auto& [number, found] : parts_) {
+      const std::string& file = campaign_->files()[number.file];
+      add_counts(std::move(found));
+      if (found.blocks.rows() == 0) {
+        add_dropped(found.blocks);
+        continue;
+      }
+      if (first) {
+        all = std::move(found.blocks);
+        all.sources = {campaign_->files().front()}; // what a fault of the others says
+        first = false;
+        continue;
+      }
+      FaultList faults;
+      append(all, std::move(found.blocks), file, faults);
+      faults.throw_if_any();
+    }
+    all.sources = campaign_->files();
+    finish(all);
+    return all;
+  }
+
+  // Of a part of which nothing is left.
+  void add_dropped(const Dataset& none) {
+    dropped_.insert(dropped_.end(), none.dropped.begin(), none.dropped.end());
+  }
+
+  void add_counts(Found&& found) {
+    for (MappedFile::CountedNote& note : found.counted_notes) {
+      const auto same = std::find_if(notes_.begin(), notes_.end(),
+                                     [&](const auto& other) { return other.words == note.words; });
+      if (same == notes_.end()) {
+        notes_.push_back(std::move(note));
+        continue;
+      }
+      same->rows += note.rows;
+      same->of += note.of;
+    }
+    merge_implausible(found.implausible, implausible_);
+  }
+
+  void finish(Dataset& all) {
+    for (const Dataset::Dropped& dropped : dropped_) {
+      const auto same =
+          std::find_if(all.dropped.begin(), all.dropped.end(),
+                       [&](const Dataset::Dropped& other) { return other.rule == dropped.rule; });
+      if (same == all.dropped.end())
+        all.dropped.push_back(dropped);
+      else
+        same->rows += dropped.rows;
+    }
+    for (const MappedFile::CountedNote& note : notes_)
+      all.notes.push_back(note.text());
+    all.notes.insert(all.notes.begin(), campaign_->notes().begin(), campaign_->notes().end());
+    if (all.condensed) all.condensed->implausible = std::move(implausible_);
+  }
+
+  const DataOptions& options_;
+  std::size_t blocks_; // of an experiment
+  std::shared_ptr<const Campaign> campaign_;
+  std::mutex mutex_;
+  std::size_t held_ = 0; // blocks so far
+  std::map<PartNumber, Found> parts_;
+  std::vector<FaultList> faults_;              // by file
+  std::vector<MappedFile::CountedNote> notes_; // of all parts
+  std::vector<Implausible> implausible_;
+  std::vector<Dataset::Dropped> dropped_;
+};
+
+// ---- how many rows there are ----
+
+// A file's bytes over those of its lines, of which the first few thousand are read.
+double rows_of_text(const fs::path& path, std::uint64_t bytes) {
+  std::ifstream in(path, std::ios::binary);
+  std::string start(std::size_t{1} << 18, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  const auto lines = std::count(start.begin(), start.end(), '\n');
+  return lines == 0 ? 0
+                    : static_cast<double>(bytes) * static_cast<double>(lines) /
+                          static_cast<double>(start.size());
+}
+
+double rows_of_hdf5(const fs::path& path) {
+  const io::Hdf5Reader in(path, path.string());
+  double rows = 0;
+  std::vector<std::string> groups = in.groups();
+  if (!in.datasets().empty()) groups = {""};
+  for (const std::string& group : groups) {
+    const std::vector<std::string> names = in.datasets(group.empty() ? "/" : group);
+    if (names.empty()) continue;
+    const auto shape = in.shape((group.empty() ? "" : group + "/") + names.front());
+    if (shape.size() == 1) rows += static_cast<double>(shape[0]);
+  }
+  return rows;
+}
+
+double estimated_rows(const fs::path& path, std::uint64_t bytes) {
+  return io::looks_like_hdf5(path) ? rows_of_hdf5(path) : rows_of_text(path, bytes);
+}
+
+} // namespace
+
+std::size_t blocks_to_condense(const DataOptions& options) {
+  if (options.condense.value) return static_cast<std::size_t>(*options.condense.value);
+  constexpr std::uint64_t least_bytes_of_a_row = 4; // "1,2" and the end of its line
+  std::vector<fs::path> paths;
+  std::uint64_t bytes = 0;
+  for (const auto& files : {options.training, options.validation})
+    for (const std::string& file : find_files(files, options.base, options.place)) {
+      paths.push_back(fs::path(options.base) / file);
+      bytes += size_of(paths.back());
+    }
+  if (bytes < many_rows * least_bytes_of_a_row) return 0;
+  double rows = 0;
+  for (const fs::path& path : paths)
+    rows += estimated_rows(path, size_of(path));
+  return rows > static_cast<double>(many_rows) ? fine_blocks : 0;
+}
+
+Dataset load_condensed(const std::vector<std::string>& files, const DataOptions& options,
+                       std::size_t blocks) {
+  const auto campaign = std::make_shared<const Campaign>(files, options);
+  Dataset all = FirstLook(options, blocks, campaign).held();
+  if (all.rows() == 0)
+    throw InputError(options.join.place,
+                     "data.join leaves no row: no test has a partner at the same time",
+                     "tests are known by their names, as the files are called or from_name says; "
+                     "offset is added to the clock of data.join");
+  if (std::string text = clocks_text(all.clocks, options.join); !text.empty())
+    all.notes.push_back(std::move(text));
+  all.unused = unused_tests(all, campaign->beside());
+  fingerprint(all);
+  return all;
+}
+
+} // namespace frictab::data

@@ -1,0 +1,188 @@
+// Map, gather experiments, join, compute, leave out, check; append.
+#include "data/load_part.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/large_work.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "data/append.h"
+#include "data/checks.h"
+#include "data/computed.h"
+#include "data/join.h"
+#include "data/leave_out.h"
+#include "data/wide.h"
+
+namespace frictab::data {
+
+std::filesystem::path path_of(const FilePlan& plan) {
+  return std::filesystem::path(plan.options.base) / plan.file;
+}
+
+std::string reading_words(const FilePlan& plan) {
+  std::error_code unknown; // what is no file is told by who reads it
+  const auto bytes = std::filesystem::file_size(path_of(plan), unknown);
+  if (unknown) return "reading " + plan.file;
+  return fmt::format("reading {} ({})", plan.file, human_bytes(static_cast<double>(bytes)));
+}
+
+namespace {
+
+// A file's own rows and columns, by experiment, from part.raw.
+void map_part(Part& part, const FilePlan& plan) {
+  gather_experiments(part, map_columns(part.raw, plan.options, plan.label, part.faults),
+                     plan.label);
+  take_slopes(part, plan.options);
+}
+
+void read_part(Part& part, const FilePlan& plan) {
+  const DataOptions& options = plan.options;
+  large_work(reading_words(plan), 0, fewer_rows, [&] {
+    part.raw = read_raw(path_of(plan).string(), plan.file, options, part.faults);
+    if (!options.wide.empty()) part.raw = from_wide(part.raw, options.wide, options.wide_place);
+    map_part(part, plan);
+  });
+}
+
+void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
+  if (beside.tests) add_test_columns(part, *beside.tests);
+  if (beside.second) join_clocks(part, *beside.second, options.join);
+  compute_formulas(part, options);
+  multiply_coefficients(part, options);
+  check_needed(part, options);
+  derive_shear_stress(part, options);
+  drop_missing(part, options);
+  drop_rows(part, options);
+  tell_cells(part);
+  check_values(part);
+  check_experiments(part, options);
+  integrate_distance(part);
+  check_computed(part);
+}
+
+// What `load` makes of a part; its fault where it throws one.
+template <class Load> Part loaded(const Load& load) {
+  Part part;
+  try {
+    load(part);
+  } catch (const InputError& error) {
+    part.faults.add(error);
+  }
+  return part;
+}
+
+// Of the second set: what its files hold.
+Part load_second_part(const FilePlan& plan) {
+  return loaded([&](Part& part) {
+    read_part(part, plan);
+    compute_formulas(part, plan.options);
+    multiply_coefficients(part, plan.options);
+    drop_missing(part, plan.options);
+    tell_cells(part);
+    check_values(part);
+    check_computed(part);
+  });
+}
+
+// The files of data.join, read with its own keys.
+Dataset load_second(const DataOptions& options) {
+  DataOptions own;
+  own.base = options.base;
+  own.place = options.join.place;
+  own.missing = options.missing;
+  own.files = {options.join.how};
+  own.files.front().match = "*";
+  return load_all(options.join.files, own, load_second_part);
+}
+
+} // namespace
+
+Part load_part(const FilePlan& plan, const Beside& beside) {
+  return loaded([&](Part& part) {
+    read_part(part, plan);
+    finish_part(part, plan.options, beside);
+  });
+}
+
+Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside) {
+  return loaded([&](Part& part) {
+    part.raw = std::move(raw);
+    part.whole_file = false;
+    map_part(part, plan);
+    finish_part(part, plan.options, beside);
+  });
+}
+
+Beside load_beside(DataOptions& options) {
+  Beside beside;
+  if (!options.tests.empty()) beside.tests = read_test_table(options);
+  if (!options.join.files.empty()) beside.second = load_second(options);
+  return beside;
+}
+
+std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside) {
+  std::vector<std::string> unused;
+  const auto add = [&](const std::string& where, const std::string& name) {
+    const auto& used = data.experiments;
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      unused.push_back(where + ": " + name);
+  };
+  if (beside.tests)
+    for (const auto& [name, row] : beside.tests->row)
+      add(beside.tests->file, name);
+  if (beside.second)
+    for (const std::string& name : beside.second->experiments)
+      add("data.join", name);
+  return unused;
+}
+
+void throw_faults(const std::vector<FaultList>& of_files) {
+  FaultsByCause causes;
+  for (const FaultList& one : of_files) {
+    std::vector<Fault> sorted = one.all();
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+      return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+    });
+    for (const Fault& fault : sorted)
+      causes.add(fault.what + fault.hint, fault);
+  }
+  FaultList faults;
+  causes.tell(faults, of_files.size() > 1 ? "place" : "row");
+  faults.throw_if_any();
+}
+
+namespace {
+
+Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& files) {
+  FaultList faults;
+  Dataset all = std::move(parts.front().data);
+  all.sources = {files.front()};
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    append(all, std::move(parts[i].data), files[i], faults);
+    faults.throw_if_any();
+    all.sources.push_back(files[i]);
+  }
+  return all;
+}
+
+} // namespace
+
+Dataset load_all(const std::vector<std::string>& named, const DataOptions& options,
+                 const std::function<Part(const FilePlan&)>& load) {
+  const std::vector<std::string> files = find_files(named, options.base, options.place);
+  const FilePlans plans = plan_files(files, options);
+  std::vector<Part> parts(files.size());
+  parallel_for(files.size(), [&](std::size_t i) { parts[i] = load(plans.files[i]); });
+  std::vector<FaultList> faults;
+  for (Part& part : parts)
+    faults.push_back(std::move(part.faults));
+  throw_faults(faults);
+  Dataset all = one_campaign(parts, files);
+  all.notes.insert(all.notes.begin(), plans.notes.begin(), plans.notes.end());
+  return all;
+}
+
+} // namespace frictab::data

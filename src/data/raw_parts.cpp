@@ -1,0 +1,125 @@
+// Cuts what was read where an experiment ends.
+#include "data/raw_parts.h"
+
+#include <fstream>
+#include <memory>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "data/mapping.h"
+#include "data/wide.h"
+#include "io/hdf5.h"
+#include "io/text_file.h"
+
+namespace frictab::data {
+
+namespace {
+
+// Enough rows to be worth a thread, few enough to be held many times over.
+constexpr std::size_t rows_of_a_part = 50'000;
+
+class Cutter {
+public:
+  explicit Cutter(const DataOptions& options) : options_(options) {}
+
+  void add(io::CsvTable&& more, FaultList& faults) {
+    if (more.rows() == 0) {
+      pending_.notes.insert(pending_.notes.end(), more.notes.begin(), more.notes.end());
+      return;
+    }
+    const std::size_t before = pending_.rows();
+    for (ExperimentRun& run : experiment_runs(more, options_, faults)) {
+      if (!runs_.empty() && runs_.back().name == run.name) continue;
+      if (!seen_.insert(run.name).second) refuse(more, run);
+      runs_.push_back({before + run.first, std::move(run.name)});
+    }
+    if (before == 0 && pending_.columns.empty())
+      pending_ = std::move(more);
+    else
+      io::append(pending_, std::move(more));
+  }
+
+  // All experiments but the last, which may go on; at the end of the file that one as well.
+  std::vector<io::CsvTable> whole(bool at_end) {
+    std::vector<io::CsvTable> parts;
+    const std::size_t end = at_end || runs_.empty() ? pending_.rows() : runs_.back().first;
+    std::size_t from = 0;
+    for (std::size_t r = 1; r <= runs_.size(); ++r) {
+      const std::size_t to = r < runs_.size() ? runs_[r].first : pending_.rows();
+      if (to > end) break;
+      if (to - from < rows_of_a_part && to != end) continue;
+      if (from == 0 && to == pending_.rows()) // no copy of a large experiment
+        parts.push_back(std::move(pending_));
+      else
+        parts.push_back(io::rows_of(pending_, from, to));
+      from = to;
+    }
+    if (from > 0) forget(from, at_end);
+    return parts;
+  }
+
+private:
+  void forget(std::size_t rows, bool at_end) {
+    if (at_end) {
+      pending_ = {};
+      runs_.clear();
+      return;
+    }
+    pending_ = io::rows_of(pending_, rows, pending_.rows());
+    pending_.notes.clear();
+    runs_ = {{0, std::move(runs_.back().name)}};
+  }
+
+  [[noreturn]] static void refuse(const io::CsvTable& table, const ExperimentRun& run) {
+    const std::string row =
+        table.header_line > 0 ? "" : fmt::format(" in row {}", table.line[run.first]);
+    throw InputError(
+        row_place(table, run.first),
+        fmt::format("experiment '{}' comes again{}, behind rows of another one", run.name, row),
+        "data that are condensed are read one experiment at a time: sort the file by "
+        "experiment, or data.condense = 0 where all rows find room in memory");
+  }
+
+  const DataOptions& options_;
+  io::CsvTable pending_;
+  std::vector<ExperimentRun> runs_; // of the pending rows
+  std::unordered_set<std::string> seen_;
+};
+
+void read_whole(const std::string& path, const std::string& named, const DataOptions& options,
+                FaultList& faults, const TakeParts& take) {
+  io::CsvTable raw = read_raw(path, named, options, faults);
+  if (!options.wide.empty()) {
+    std::vector<io::CsvTable> one;
+    one.push_back(from_wide(raw, options.wide, options.wide_place));
+    return take(std::move(one));
+  }
+  Cutter cutter(options);
+  cutter.add(std::move(raw), faults);
+  take(cutter.whole(true));
+}
+
+} // namespace
+
+void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
+                    FaultList& faults, const TakeParts& take) {
+  const bool held = is_workbook(path) || io::looks_like_hdf5(path) || !options.wide.empty() ||
+                    !options.join.files.empty() || options.experiment == "interval";
+  if (held) return read_whole(path, named, options, faults, take);
+  io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
+                       csv_format(path, options), options.piece_bytes);
+  if (!pieces.whole_because().empty()) return read_whole(path, named, options, faults, take);
+  Cutter cutter(options);
+  for (bool more = true; more;) {
+    std::vector<io::CsvTable> next = pieces.next(faults);
+    more = !next.empty();
+    for (io::CsvTable& piece : next)
+      if (faults.empty()) cutter.add(std::move(piece), faults);
+    if (!faults.empty()) return;
+    std::vector<io::CsvTable> parts = cutter.whole(!more);
+    if (!parts.empty()) take(std::move(parts));
+  }
+}
+
+} // namespace frictab::data
