@@ -10,7 +10,14 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t most_blocks = 40;
+constexpr std::size_t most_blocks = 40;        // of an experiment
+constexpr std::size_t block_budget = 40 * 200; // of all
+constexpr std::size_t least_most = 8;          // of an experiment that has so many rows
+
+std::size_t blocks_each(const data::Dataset& data) {
+  const std::size_t tests = std::max<std::size_t>(data.experiments.size(), 1);
+  return std::clamp(block_budget / tests, least_most, most_blocks);
+}
 
 double median_rows(const Blocks& blocks) {
   std::vector<double> all;
@@ -66,11 +73,16 @@ Eigen::MatrixXd Blocks::experiment_means(const Eigen::MatrixXd& per_block) const
 }
 
 Blocks make_blocks(const data::Dataset& data) {
+  return make_blocks(data, blocks_each(data));
+}
+
+Blocks make_blocks(const data::Dataset& data, std::size_t most) {
   Blocks blocks;
+  blocks.most = most;
   blocks.first.push_back(0);
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const std::size_t begin = data.first_row[e], rows = data.first_row[e + 1] - begin;
-    const std::size_t count = std::min(rows, most_blocks);
+    const std::size_t count = std::min(rows, most);
     for (std::size_t b = 0; b < count; ++b)
       blocks.first_row.push_back(begin + b * rows / count);
     blocks.first.push_back(blocks.first_row.size());

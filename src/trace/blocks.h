@@ -17,6 +17,7 @@ struct Blocks {
   // Per block, where its middle lies in its experiment: -1/2 first row, 1/2 last row.
   Eigen::VectorXd position;
   double usual_rows = 1; // median of a block: what the noise model's white part belongs to
+  std::size_t most = 40; // blocks of an experiment
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
@@ -28,8 +29,13 @@ struct Blocks {
   Eigen::MatrixXd experiment_means(const Eigen::MatrixXd& per_block) const;
 };
 
-// At most 40 blocks per experiment, all of about the same number of rows within it; an experiment
-// with fewer rows has a block for each.
+// At most `most` blocks per experiment, all of about the same number of rows within it; an
+// experiment with fewer rows has a block for each.
+Blocks make_blocks(const data::Dataset& data, std::size_t most);
+
+// The same with 40, which one long experiment needs. Above 200 experiments the blocks of all share
+// a budget of 40 x 200, and an experiment keeps at least 8: what many experiments have in common
+// shows in the sum over them (docs/tracing.md).
 Blocks make_blocks(const data::Dataset& data);
 
 } // namespace frictab::trace

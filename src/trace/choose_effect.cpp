@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/parallel.h"
@@ -29,13 +30,13 @@ constexpr std::size_t fitted_rivals = 6; // of which a set is made
 constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
 // Of penalised log likelihood: where the data cannot tell sites apart, an effect acts on mu.
 constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
-constexpr std::size_t forms_tried = 6; // at each site
+constexpr std::size_t forms_tried = 6;  // at each site
+constexpr std::size_t forms_on_all = 3; // of those, where they were fitted to selected tests first
 
 // One way to explain the residual, linear in its coefficients.
 struct Option {
   Cause cause;
   PlacedEffect effect;
-  MatrixXd basis; // per block, not whitened
   MatrixXd penalty;
   SmoothFit fit;
   double criterion = 0;
@@ -101,18 +102,21 @@ std::vector<Cause> with_partners(const Search& search, const std::vector<Cause>&
   return more;
 }
 
+// Per block and amplitude, what tau_R changes; not whitened. (Made where it is used: of all options
+// together it would fill the memory.)
+MatrixXd basis_of(const Search& search, const PlacedEffect& effect) {
+  return search.sensitivities()[site_of(effect)].asDiagonal() *
+         amplitude_basis(effect, search.candidates.by_symbol);
+}
+
 MatrixXd ridge(Index count) {
   return 1e-3 * MatrixXd::Identity(count, count);
 }
 
-Option option_of(const Search& search, const Cause& cause, PlacedEffect effect) {
-  const VectorXd& sensitivity = search.sensitivities()[site_of(effect)];
-  Option option{cause, std::move(effect), {}, {}, {}, 0};
-  option.basis =
-      sensitivity.asDiagonal() * amplitude_basis(option.effect, search.candidates.by_symbol);
-  option.penalty =
-      option.effect.form->penalty ? roughness_of(option.effect) : ridge(option.basis.cols());
-  return option;
+Option option_of(const Cause& cause, PlacedEffect effect) {
+  const auto count = static_cast<Index>(effects::amplitudes_of(effect));
+  const MatrixXd penalty = effect.form->penalty ? roughness_of(effect) : ridge(count);
+  return {cause, std::move(effect), penalty, {}, 0};
 }
 
 // Per cause and site a smooth, and the shape that the screening liked best: some shapes, as a short
@@ -127,13 +131,13 @@ Options all_options(const Search& search, const ScreenResult& screened,
       const auto found = best.find({cause, p});
       if (p > 0 && found == best.end()) continue;
       if (cause.columns.size() < 3) // (three of them have one closed form)
-        options.push_back(option_of(search, cause, smooth_effect(search, cause, sites[p])));
+        options.push_back(option_of(cause, smooth_effect(search, cause, sites[p])));
       if (found == best.end() || !is_numeric(cause, search.candidates)) continue;
       const Direction& d = *found->second;
       PlacedEffect shape = search.shapes[d.cause][d.shape].effect;
       shape.acts_on = sites[p];
       shape.tau_scale_MPa = search.tau_scale_MPa;
-      options.push_back(option_of(search, cause, std::move(shape)));
+      options.push_back(option_of(cause, std::move(shape)));
     }
   return options;
 }
@@ -150,7 +154,7 @@ void fit_options(const Search& search, const NoiseModel& noise, Options& options
   whitener.apply(residual);
   parallel_for(options.size(), [&](std::size_t i) {
     Option& option = options[i];
-    MatrixXd basis = option.basis;
+    MatrixXd basis = basis_of(search, option.effect);
     whitener.apply(basis);
     option.fit = fit_smooth(residual.col(0), basis, option.penalty, known);
     option.criterion =
@@ -320,10 +324,11 @@ private:
 
   // With the stiffness that the residual asks for.
   void add_smooth(std::size_t site, std::vector<Start>& starts) const {
-    Option option = option_of(s_, cause_, smooth_effect(s_, cause_, sites[site]));
+    Option option = option_of(cause_, smooth_effect(s_, cause_, sites[site]));
     if (!option.effect.form->penalty) return; // a text column has one form
-    whitener_.apply(option.basis);
-    const SmoothFit fit = fit_smooth(target_, option.basis, option.penalty, known_);
+    MatrixXd basis = basis_of(s_, option.effect);
+    whitener_.apply(basis);
+    const SmoothFit fit = fit_smooth(target_, basis, option.penalty, known_);
     Start start{std::move(option.effect), fit.without - fit.criterion};
     start.effect.stiffness = fit.stiffness;
     effects::set_fitted(start.effect,
@@ -340,22 +345,56 @@ private:
 
 } // namespace
 
-std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
-  std::vector<Start> starts = FormStarts(search, winner, index).run();
-  std::map<effects::ActsOn, std::size_t> tried;
-  std::erase_if(starts,
-                [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
+namespace {
+
+std::vector<Rival> fit_forms(const Campaign& campaign, const Rival& winner, std::size_t index,
+                             const std::vector<Start>& starts) {
   std::vector<Rival> rivals(starts.size());
   const Progress progress("fitting forms", starts.size());
   parallel_for(starts.size(), [&](std::size_t i) {
     std::vector<PlacedEffect> effects = winner.effects;
     effects[index] = starts[i].effect;
-    rivals[i] = fit_rival(search.campaign(), winner, std::move(effects), winner.causes,
-                          winner.noise, NoiseSearch::kept);
+    rivals[i] = fit_rival(campaign, winner, std::move(effects), winner.causes, winner.noise,
+                          NoiseSearch::kept);
     if (starts[i].effect.form->penalty) rivals[i].penalised -= smooth_margin;
     rivals[i].penalised -= site_margins[site_of(starts[i].effect)];
     progress.tick();
   });
+  return rivals;
+}
+
+// Leaves the starts whose fits to the selected tests promise most on all: the log likelihood grows
+// with the number of tests, what parameters cost does not. They start from those fits.
+void keep_promising(double share, std::size_t index, std::vector<Start>& starts,
+                    const std::vector<Rival>& fits) {
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto promise = [&](std::size_t i) {
+    return fits[i].penalised + (1 / share - 1) * fits[i].total;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return promise(a) > promise(b); });
+  if (order.size() > forms_on_all) order.resize(forms_on_all);
+  std::vector<Start> kept;
+  for (const std::size_t i : order) {
+    kept.push_back(starts[i]);
+    kept.back().effect = fits[i].effects[index];
+  }
+  starts = std::move(kept);
+}
+
+} // namespace
+
+std::vector<Rival> choose_form(const Search& search, const Rival& winner, std::size_t index) {
+  std::vector<Start> starts = FormStarts(search, winner, index).run();
+  std::map<effects::ActsOn, std::size_t> tried;
+  std::erase_if(starts,
+                [&](const Start& start) { return tried[start.effect.acts_on]++ >= forms_tried; });
+  std::vector<Rival> rivals = fit_forms(selected(search.campaign()), winner, index, starts);
+  if (search.campaign().selection) {
+    keep_promising(search.campaign().selection->share, index, starts, rivals);
+    rivals = fit_forms(search.campaign(), winner, index, starts);
+  }
   rivals.push_back(winner);
   rivals.back().penalised -= site_margins[site_of(winner.effects[index])];
   std::stable_sort(rivals.begin(), rivals.end(),

@@ -38,7 +38,7 @@ public:
 
   // Information of each test about all of them, in that order.
   std::vector<MatrixXd> information(const data::Dataset& data) const {
-    const Blocks blocks = make_blocks(data);
+    const Blocks blocks = make_blocks(data, search_.blocks.most);
     const Rival& first = *rivals_[0];
     const models::Model model = search_.model_of(first);
     const std::vector<double> tau = calibrate::predict(model, data);

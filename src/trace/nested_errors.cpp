@@ -15,7 +15,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t all_alone = 40, many_folds = 20;
+// Each test alone up to 40 of them, then 20 folds. A search on three quarters of a thousand tests
+// chooses as one on all: of so many there are fewer folds, with as many tests for each as 20 folds
+// of 400 leave to it at most (20 x 400 / tests), and never fewer than 4.
+constexpr std::size_t all_alone = 40, many_folds = 20, least_folds = 4;
+constexpr std::size_t tests_searched = many_folds * 400; // over all folds
+
+std::size_t count_of_folds(std::size_t tests) {
+  return tests <= all_alone ? tests : std::clamp(tests_searched / tests, least_folds, many_folds);
+}
 constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
 constexpr double score_freedom = 5; // of Student's t
 
@@ -37,9 +45,9 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
 // Log density per test, but for a constant: Student's t over the test as a whole, so that one test
 // for which a fold's noise model is too sure of itself does not outweigh all others.
 VectorXd scores(const data::Dataset& data, const std::vector<double>& predicted,
-                const NoiseModel& noise, double usual_rows) {
-  Blocks blocks = make_blocks(data);
-  blocks.usual_rows = usual_rows; // what the noise model's white part belongs to
+                const NoiseModel& noise, const Blocks& fitted) {
+  Blocks blocks = make_blocks(data, fitted.most);
+  blocks.usual_rows = fitted.usual_rows; // what the noise model's white part belongs to
   const VectorXd measured = blocks.mean(data.values("tau_R_MPa"));
   const VectorXd law = blocks.mean(predicted).cwiseMax(measured.cwiseAbs() / farthest);
   MatrixXd residual = measured - law;
@@ -76,8 +84,7 @@ FoldErrors fold_errors(const Search& all, const data::Dataset& training,
     const std::vector<double> predicted = calibrate::predict(search->model_of(rival), left_out);
     errors.sums[weights].push_back(calibrate::error_sums(left_out, predicted));
     errors.relative[weights].push_back(relative_errors(left_out, predicted));
-    errors.score[weights].push_back(
-        scores(left_out, predicted, rival.noise, search->blocks.usual_rows));
+    errors.score[weights].push_back(scores(left_out, predicted, rival.noise, search->blocks));
   };
   for (std::size_t k = 0; k <= most; ++k) {
     const std::size_t have = std::min(k, search->findings.size());
@@ -135,7 +142,7 @@ NestedErrors nested_errors(const Search& search) {
   const TraceInput& input = search.input;
   const std::size_t most = search.findings.size();
   const std::size_t tests = input.training.experiments.size();
-  const std::size_t folds = tests <= all_alone ? tests : many_folds;
+  const std::size_t folds = count_of_folds(tests);
   const auto fold = calibrate::experiment_folds(tests, folds, input.seed, 0);
   std::vector<FoldErrors> parts(folds);
   std::vector<std::vector<std::size_t>> out(folds);

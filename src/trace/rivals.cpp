@@ -144,6 +144,14 @@ models::Law bounded_law(const Campaign& campaign, const Rival& rival) {
 
 namespace {
 
+// Values of the law's own parameters to start from, and behind them m_limit.
+std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) {
+  const auto own = static_cast<long>(campaign.law.parameters.size());
+  std::vector<double> start(from.parameters.begin(), from.parameters.begin() + own);
+  if (on_limit(from.effects)) start.push_back(from.parameters.back());
+  return start;
+}
+
 // Share of the cost below which a step's gain ends a fit. Loose where a search is repeated for
 // every fold, tight where the result is handed on.
 double fit_tolerance(const Campaign& campaign, NoiseSearch search) {
@@ -151,11 +159,11 @@ double fit_tolerance(const Campaign& campaign, NoiseSearch search) {
   return search == NoiseSearch::kept ? 1e-8 : 1e-11;
 }
 
-} // namespace
-
-Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
-                std::vector<Cause> causes, std::span<const double> parameters,
-                const NoiseModel& noise, NoiseSearch search) {
+// On the blocks of this campaign. `from_selection`: from where a fit to selected tests has ended,
+// under its noise.
+Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                    std::vector<Cause> causes, std::span<const double> parameters,
+                    const NoiseModel& noise, NoiseSearch search, bool from_selection = false) {
   const std::size_t own = campaign.law.parameters.size();
   Rival rival;
   rival.own = own;
@@ -178,7 +186,8 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
     rival.predicted = std::move(fit.predicted);
     rival.jacobian = std::move(fit.jacobian);
   };
-  if (on_limit(
+  if (!from_selection &&
+      on_limit(
           rival.effects)) { // first with the limit rounded off, or rows below it would not feel it
     const double usual = campaign.measured.cwiseAbs().mean();
     for (const double width : {0.15 * usual, 0.05 * usual})
@@ -186,7 +195,7 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
   }
   refit(law);
   for (const bool first : {true, false}) {
-    if (search != NoiseSearch::again) break;
+    if (search != NoiseSearch::again || from_selection) break;
     const VectorXd residual = campaign.measured - rival.predicted;
     const NoiseData data{residual, rival.predicted, campaign.blocks, rival.jacobian,
                          campaign.nuisance};
@@ -204,17 +213,61 @@ Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
   return rival;
 }
 
+} // namespace
+
+Rival fit_rival(const Campaign& campaign, std::vector<PlacedEffect> effects,
+                std::vector<Cause> causes, std::span<const double> parameters,
+                const NoiseModel& noise, NoiseSearch search) {
+  if (!campaign.selection)
+    return fit_on_blocks(campaign, std::move(effects), std::move(causes), parameters, noise,
+                         search);
+  const Rival part = fit_on_blocks(selected(campaign), std::move(effects), std::move(causes),
+                                   parameters, noise, search);
+  return fit_on_blocks(campaign, part.effects, part.causes, own_parameters(campaign, part),
+                       part.noise, search, true);
+}
+
 Rival fit_rival(const Campaign& campaign, const Rival& from, std::vector<PlacedEffect> effects,
                 std::vector<Cause> causes, const NoiseModel& noise, NoiseSearch search) {
-  std::vector<double> start(from.parameters.begin(),
-                            from.parameters.begin() +
-                                static_cast<long>(campaign.law.parameters.size()));
-  if (on_limit(from.effects)) start.push_back(from.parameters.back());
-  return fit_rival(campaign, std::move(effects), std::move(causes), start, noise, search);
+  return fit_rival(campaign, std::move(effects), std::move(causes), own_parameters(campaign, from),
+                   noise, search);
+}
+
+namespace {
+
+// Of the selected tests, where there are any.
+template <class Fit>
+NoiseModel noise_by(const Campaign& campaign, const NoiseData& data, const Fit& fit) {
+  if (!campaign.selection) return fit(data).noise;
+  const auto& rows = campaign.selection->rows;
+  const auto some = [&](const MatrixXd& all) {
+    return all.cols() == 0 ? MatrixXd{} : MatrixXd(all(rows, Eigen::all));
+  };
+  const VectorXd residual = data.residual(rows), tau = data.tau(rows);
+  const MatrixXd fitted = some(data.fitted), nuisance = some(data.nuisance);
+  return fit({residual, tau, campaign.selection->blocks, fitted, nuisance, data.slope}).noise;
+}
+
+} // namespace
+
+NoiseModel fit_noise(const Campaign& campaign, const NoiseData& data) {
+  return noise_by(campaign, data, [](const NoiseData& part) { return fit_noise(part); });
 }
 
 NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier) {
-  return (campaign.quick ? refit_noise_coarsely(data, earlier) : refit_noise(data, earlier)).noise;
+  return noise_by(campaign, data, [&](const NoiseData& part) {
+    return campaign.quick ? refit_noise_coarsely(part, earlier) : refit_noise(part, earlier);
+  });
+}
+
+Campaign selected(const Campaign& campaign) {
+  if (!campaign.selection) return campaign;
+  const Selection& some = *campaign.selection;
+  Campaign part{campaign.law,    campaign.conventions,         some.blocks,
+                some.candidates, campaign.measured(some.rows), {},
+                campaign.quick};
+  if (campaign.nuisance.cols() > 0) part.nuisance = campaign.nuisance(some.rows, Eigen::all);
+  return part;
 }
 
 NoiseModel rows_alike(const NoiseModel& noise) {

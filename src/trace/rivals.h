@@ -8,6 +8,7 @@
 #include "trace/law_on_blocks.h"
 #include "trace/noise_fit.h"
 #include "trace/screen.h"
+#include "trace/selection.h"
 
 namespace frictab::trace {
 
@@ -20,7 +21,11 @@ struct Campaign {
   Eigen::VectorXd measured; // per block; minus what averaging over a block does to the law
   Eigen::MatrixXd nuisance; // per block: what may not explain anything
   bool quick = false;       // noise is fitted no closer than weights can show
+  // Of more than 200 tests: where fits start, and what the noise is fitted to.
+  std::shared_ptr<const Selection> selection = nullptr;
 };
+// The campaign of its selected tests; itself where there are none.
+Campaign selected(const Campaign& campaign);
 
 // The law with some effects, fitted together with the noise.
 struct Rival {
@@ -45,7 +50,8 @@ struct Rival {
 enum class NoiseSearch { kept, again };
 
 // All parameters by generalised least squares. `parameters`: start of the law's own (and m_limit,
-// if any, behind them).
+// if any, behind them). Of a campaign with a selection, parameters and noise are fitted to that
+// first; from there the parameters, under that noise, to all tests.
 Rival fit_rival(const Campaign& campaign, std::vector<effects::PlacedEffect> effects,
                 std::vector<Cause> causes, std::span<const double> parameters,
                 const NoiseModel& noise, NoiseSearch search);
@@ -55,7 +61,9 @@ Rival fit_rival(const Campaign& campaign, const Rival& from,
                 std::vector<effects::PlacedEffect> effects, std::vector<Cause> causes,
                 const NoiseModel& noise, NoiseSearch search);
 
-// Noise of a residual that has changed, from an earlier fit.
+// Noise of a residual of the campaign's law, fitted to the selected tests where there are any: from
+// scratch, and of a residual that has changed, from an earlier fit.
+NoiseModel fit_noise(const Campaign& campaign, const NoiseData& data);
 NoiseModel refit_noise(const Campaign& campaign, const NoiseData& data, const NoiseModel& earlier);
 
 // Of the smooth effects, over all parameters: what a fit adds to its normal equations. Empty where

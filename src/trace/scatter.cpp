@@ -63,8 +63,8 @@ double modelled_variance(const Search& search, const Rival& last) {
   const VectorXd residual = search.campaign().measured - last.predicted;
   const MatrixXd& nuisance = search.campaign().nuisance;
   const NoiseModel noise =
-      refit_noise({residual, last.predicted, search.blocks, last.jacobian, nuisance}, last.noise)
-          .noise;
+      refit_noise(search.campaign(),
+                  {residual, last.predicted, search.blocks, last.jacobian, nuisance}, last.noise);
   return Whitener(noise, last.predicted, search.blocks).variance().mean() +
          within_blocks(search.input.training, search.blocks);
 }

@@ -120,7 +120,8 @@ void Search::make_campaign() {
                                                   candidates,
                                                   blocks.mean(input.training.values("tau_R_MPa")),
                                                   {},
-                                                  effort.earlier != nullptr});
+                                                  effort.earlier != nullptr,
+                                                  select_tests(blocks, candidates, input.seed)});
   // The law at a block's mean state is not the mean of the law over the block where it is curved:
   // that difference is taken off the measured means, once, as the calibrated law has it.
   const LawOnBlocks law(surrogate_, model.conventions, candidates.by_symbol);
@@ -139,7 +140,7 @@ void Search::fit_base() {
                                   candidates.by_symbol, predicted);
   const VectorXd residual = campaign_->measured - predicted;
   const NoiseData data{residual, predicted, blocks, jacobian, trained_};
-  const NoiseModel noise = effort.earlier ? *effort.earlier : fit_noise(data).noise;
+  const NoiseModel noise = effort.earlier ? *effort.earlier : fit_noise(*campaign_, data);
   base = fit_rival(*campaign_, {}, {}, model.parameters, noise, NoiseSearch::again);
   move_to(base);
 }

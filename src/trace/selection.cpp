@@ -1,0 +1,63 @@
+// Draws tests, and takes their blocks out of all.
+#include "trace/selection.h"
+
+#include <numeric>
+
+#include "core/random.h"
+
+namespace frictab::trace {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr std::uint64_t selection_stream = 91;
+
+std::vector<std::size_t> draw(std::size_t tests, std::uint64_t seed) {
+  Random random(seed, selection_stream);
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < selected_tests; ++i) {
+    const std::size_t begin = i * tests / selected_tests, end = (i + 1) * tests / selected_tests;
+    const auto step = static_cast<std::size_t>(random.uniform() * static_cast<double>(end - begin));
+    drawn.push_back(std::min(begin + step, end - 1));
+  }
+  return drawn;
+}
+
+Blocks blocks_of(const Blocks& all, const std::vector<std::size_t>& tests) {
+  Blocks some;
+  some.most = all.most;
+  some.usual_rows = all.usual_rows;
+  some.first = {0};
+  some.first_row = {0};
+  for (const std::size_t e : tests) {
+    for (std::size_t b = all.first[e]; b < all.first[e + 1]; ++b)
+      some.first_row.push_back(some.first_row.back() + all.rows(b));
+    some.first.push_back(some.first_row.size() - 1);
+  }
+  return some;
+}
+
+} // namespace
+
+std::shared_ptr<const Selection> select_tests(const Blocks& blocks, const Candidates& candidates,
+                                              std::uint64_t seed) {
+  if (blocks.experiments() <= selected_tests) return nullptr;
+  const std::vector<std::size_t> tests = draw(blocks.experiments(), seed);
+  auto some = std::make_shared<Selection>();
+  some->blocks = blocks_of(blocks, tests);
+  for (const std::size_t e : tests)
+    for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b)
+      some->rows.push_back(static_cast<Index>(b));
+  some->blocks.position = blocks.position(some->rows);
+  some->share = static_cast<double>(some->rows.size()) / static_cast<double>(blocks.count());
+  some->candidates.lowest_pressure_MPa = candidates.lowest_pressure_MPa;
+  some->candidates.columns = candidates.columns;
+  for (CandidateColumn& column : some->candidates.columns)
+    column.values.resize(0);
+  for (const auto& [symbol, values] : candidates.by_symbol)
+    some->candidates.by_symbol[symbol] = values(some->rows);
+  return some;
+}
+
+} // namespace frictab::trace
