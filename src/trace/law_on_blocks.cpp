@@ -9,6 +9,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "trace/gram.h"
+
 namespace frictab::trace {
 
 using expr::Expr;
@@ -93,6 +95,9 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 namespace {
 
 constexpr int most_iterations = 60;
+// Above so many blocks normal equations are summed by gram(), below them by Eigen: where a fit
+// takes milliseconds, nothing is worth other last digits than earlier results have.
+constexpr Index many_blocks = 8000;
 
 class BlockSolver {
 public:
@@ -103,42 +108,51 @@ public:
 
   BlockFit run(std::vector<double> start) {
     positive_ = law_.predict(start).array() > 0;
-    BlockFit here = evaluate(std::move(start));
+    Point here = evaluate(std::move(start));
+    prepare(here);
     double damping = 1e-3;
     for (int i = 0; i < most_iterations && damping < 1e8; ++i) {
-      const BlockFit there = evaluate(step(here, damping));
+      Point there = evaluate(step(here, damping));
       if (there.cost < here.cost) {
         const bool done = here.cost - there.cost < enough_ * here.cost;
-        here = there;
+        here = std::move(there);
         damping = std::max(0.2 * damping, 1e-10);
         if (done) break;
+        prepare(here);
       } else {
         damping *= 8;
       }
     }
-    here.jacobian = raw_;
-    here.predicted = law_.predict(here.parameters, here.jacobian);
-    return here;
+    BlockFit fit{std::move(here.parameters), {}, {}, here.cost};
+    fit.predicted = law_.predict(fit.parameters, fit.jacobian);
+    return fit;
   }
 
 private:
-  static Eigen::Map<const VectorXd> at(const BlockFit& fit) {
+  // Where a fit stands: whitened residual, then whitened derivatives, and what a step from there
+  // solves.
+  struct Point {
+    std::vector<double> parameters;
+    double cost = 0;
+    MatrixXd all;
+    MatrixXd normal;
+    VectorXd gradient;
+  };
+
+  static Eigen::Map<const VectorXd> at(const Point& fit) {
     return {fit.parameters.data(), static_cast<Index>(fit.parameters.size())};
   }
 
-  // jacobian and predicted hold whitened derivatives and the whitened residual while it runs.
-  BlockFit evaluate(std::vector<double> parameters) {
-    BlockFit fit;
+  Point evaluate(std::vector<double> parameters) {
+    Point fit;
     fit.parameters = std::move(parameters);
     const VectorXd tau = law_.predict(fit.parameters, raw_);
-    MatrixXd all(tau.size(), raw_.cols() + 1);
-    all.col(0) = measured_ - tau;
-    all.rightCols(raw_.cols()) = raw_;
-    whitener_.apply(all);
-    if (weight_.size() > 0) all = weight_.asDiagonal() * all;
-    fit.predicted = all.col(0);
-    fit.jacobian = all.rightCols(raw_.cols());
-    fit.cost = fit.predicted.squaredNorm();
+    fit.all.resize(tau.size(), raw_.cols() + 1);
+    fit.all.col(0) = measured_ - tau;
+    fit.all.rightCols(raw_.cols()) = raw_;
+    whitener_.apply(fit.all);
+    if (weight_.size() > 0) fit.all = weight_.asDiagonal() * fit.all;
+    fit.cost = fit.all.col(0).squaredNorm();
     if (penalty_.size() > 0) fit.cost += at(fit).dot(penalty_ * at(fit));
     if (!std::isfinite(fit.cost) || loses_friction(tau))
       fit.cost = std::numeric_limits<double>::infinity();
@@ -148,13 +162,23 @@ private:
   // Whether a block that had friction at the start has none: such a step is refused.
   bool loses_friction(const VectorXd& tau) const { return (positive_ && tau.array() <= 0).any(); }
 
-  std::vector<double> step(const BlockFit& from, double damping) const {
-    MatrixXd normal = from.jacobian.transpose() * from.jacobian;
-    VectorXd gradient = from.jacobian.transpose() * from.predicted;
+  // What steps of any damping share.
+  void prepare(Point& here) const {
+    const auto jacobian = here.all.rightCols(here.all.cols() - 1);
+    if (jacobian.rows() > many_blocks)
+      here.normal = gram(jacobian);
+    else
+      here.normal = jacobian.transpose() * jacobian;
+    here.gradient = jacobian.transpose() * here.all.col(0);
     if (penalty_.size() > 0) {
-      normal += penalty_;
-      gradient -= penalty_ * at(from);
+      here.normal += penalty_;
+      here.gradient -= penalty_ * at(here);
     }
+  }
+
+  std::vector<double> step(const Point& from, double damping) const {
+    MatrixXd normal = from.normal;
+    VectorXd gradient = from.gradient;
     const auto& bounds = law_.parameters();
     for (std::size_t p = 0; p < bounds.size(); ++p) { // a bound that the step would cross holds it
       const auto i = static_cast<Index>(p);

@@ -156,6 +156,9 @@ std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) 
 // every fold, tight where the result is handed on.
 double fit_tolerance(const Campaign& campaign, NoiseSearch search) {
   if (campaign.quick) return 1e-5;
+  // Of many tests the cost is large: a millionth of it is still far less than a unit of log
+  // likelihood, by which rivals are chosen.
+  if (campaign.selection || campaign.of_selected) return search == NoiseSearch::kept ? 1e-6 : 1e-9;
   return search == NoiseSearch::kept ? 1e-8 : 1e-11;
 }
 
@@ -266,6 +269,7 @@ Campaign selected(const Campaign& campaign) {
   Campaign part{campaign.law,    campaign.conventions,         some.blocks,
                 some.candidates, campaign.measured(some.rows), {},
                 campaign.quick};
+  part.of_selected = true;
   if (campaign.nuisance.cols() > 0) part.nuisance = campaign.nuisance(some.rows, Eigen::all);
   return part;
 }

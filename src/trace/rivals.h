@@ -23,6 +23,7 @@ struct Campaign {
   bool quick = false;       // noise is fitted no closer than weights can show
   // Of more than 200 tests: where fits start, and what the noise is fitted to.
   std::shared_ptr<const Selection> selection = nullptr;
+  bool of_selected = false; // this one is of selected tests
 };
 // The campaign of its selected tests; itself where there are none.
 Campaign selected(const Campaign& campaign);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
@@ -26,7 +27,20 @@ constexpr double least_left = 0.002; // of a direction, behind what fitted param
 constexpr std::uint64_t flip_stream = 71;
 constexpr float least_variance_share = 1e-3f; // of the sum of squared scores, as a variance
 constexpr Index least_experiments = 7;        // that carry a direction, ...
-constexpr float share_of_most = 0.05f; // ... each at least so much of what the first of them does
+constexpr float share_of_most = 0.05f;   // ... each at least so much of what the first of them does
+constexpr std::size_t most_groups = 400; // whose signs are flipped
+constexpr std::uint64_t group_stream = 72;
+constexpr Index slab_values = 1 << 23; // of directions that are whitened together: 32 MiB
+
+constexpr double most_leverage = 0.98; // that is undone
+
+// (I - H)^-1/2 r, H = Q Q'.
+VectorXd without_leverage(const MatrixXd& q, const VectorXd& r) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(q * q.transpose());
+  const Eigen::ArrayXd l = solver.eigenvalues().array().max(0.0).min(most_leverage);
+  const VectorXd along = solver.eigenvectors().transpose() * r;
+  return solver.eigenvectors() * ((1 - l).sqrt().inverse() * along.array()).matrix();
+}
 
 // A fit follows each experiment a little, which makes the residuals of experiments with leverage
 // too small. (I - H_ee)^-1/2 r, H_ee = Q_e Q_e', undoes that (CR2: Bell and McCaffrey 2002).
@@ -36,10 +50,14 @@ void undo_leverage(const MatrixXd& q, std::span<const std::size_t> first, Vector
     const auto begin = static_cast<Index>(first[e]);
     const auto count = static_cast<Index>(first[e + 1]) - begin;
     const MatrixXd own = q.middleRows(begin, count);
+    if (count < own.cols()) { // of few rows H_ee itself is the smaller matrix
+      residual.segment(begin, count) = without_leverage(own, residual.segment(begin, count));
+      continue;
+    }
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(own.transpose() * own);
     VectorXd factor = solver.eigenvalues();
     for (Index i = 0; i < factor.size(); ++i) {
-      const double l = std::clamp(factor(i), 0.0, 0.98);
+      const double l = std::clamp(factor(i), 0.0, most_leverage);
       factor(i) = l < 1e-9 ? 0.5 : (1 / std::sqrt(1 - l) - 1) / l;
     }
     const VectorXd along =
@@ -50,6 +68,20 @@ void undo_leverage(const MatrixXd& q, std::span<const std::size_t> first, Vector
 
 std::size_t count_of(std::span<const std::size_t> units) {
   return *std::max_element(units.begin(), units.end()) + 1;
+}
+
+// Per experiment the group whose sums are flipped as one: itself, or one of 400.
+std::vector<std::size_t> groups_of(std::span<const std::size_t> units, std::uint64_t seed) {
+  std::vector<std::size_t> group(units.size());
+  std::iota(group.begin(), group.end(), 0);
+  if (units.size() <= most_groups) return group;
+  std::vector<std::size_t> of_unit(count_of(units));
+  for (std::size_t u = 0; u < of_unit.size(); ++u)
+    of_unit[u] = u % most_groups;
+  Random(seed, group_stream).shuffle(std::span(of_unit));
+  for (std::size_t e = 0; e < units.size(); ++e)
+    group[e] = of_unit[units[e]];
+  return group;
 }
 
 MatrixXf signs(std::size_t flips, std::span<const std::size_t> units, std::uint64_t seed) {
@@ -67,8 +99,8 @@ MatrixXf signs(std::size_t flips, std::span<const std::size_t> units, std::uint6
 
 struct CauseScores {
   std::vector<Direction> directions;
-  MatrixXf scores; // experiments x directions
-  MatrixXf shares; // of each experiment in a direction's squared size
+  MatrixXf scores; // groups x directions
+  MatrixXf shares; // of each group in a direction's squared size
   VectorXf maxima; // per flip
   bool absorbed = false;
 };
@@ -85,14 +117,31 @@ public:
     undo_leverage(q, in_.first, r);
     q_ = q.cast<float>();
     residual_ = r.cast<float>();
-    signs_ = signs(in_.flips, in_.units, in_.seed);
+    group_ = groups_of(in_.units, in_.seed);
+    group_count_ = static_cast<Index>(count_of(group_));
+    signs_ = signs(in_.flips, units_of_groups(), in_.seed);
     for (std::size_t p = 0; p < sites.size(); ++p)
       sensitivity_[p] = in_.sensitivities[p].cast<float>();
   }
 
+  Index groups() const { return group_count_; }
+
+  // In parts of shapes, so that a cause of many shapes does not fill the memory.
   CauseScores run(std::size_t cause) const {
+    const auto shapes = static_cast<Index>(in_.shapes[cause].size());
+    const auto sites_each = static_cast<Index>(sites.size());
+    const Index each =
+        std::max<Index>(1, slab_values / std::max<Index>(1, in_.residual.size() * sites_each));
+    CauseScores found = run(cause, 0, std::min(each, shapes));
+    for (Index begin = each; begin < shapes; begin += each)
+      append(run(cause, begin, std::min(begin + each, shapes)), found);
+    return found;
+  }
+
+private:
+  CauseScores run(std::size_t cause, Index begin, Index end) const {
     CauseScores found;
-    MatrixXf x = columns(cause, found.directions);
+    MatrixXf x = columns(cause, begin, end, found.directions);
     found.absorbed = x.cols() == 0;
     if (x.cols() == 0) return found;
     in_.whitener.apply(x);
@@ -109,12 +158,34 @@ public:
     return found;
   }
 
-private:
-  MatrixXf columns(std::size_t cause, std::vector<Direction>& directions) const {
+  static void append(const CauseScores& more, CauseScores& to) {
+    if (more.absorbed) return;
+    if (to.absorbed) {
+      to = more;
+      return;
+    }
+    to.directions.insert(to.directions.end(), more.directions.begin(), more.directions.end());
+    const Index before = to.scores.cols();
+    to.scores.conservativeResize(Eigen::NoChange, before + more.scores.cols());
+    to.scores.rightCols(more.scores.cols()) = more.scores;
+    to.maxima = to.maxima.cwiseMax(more.maxima);
+  }
+
+  // Experiments that are groups of their own may still have to change sign together; groups of
+  // several never split what does.
+  std::vector<std::size_t> units_of_groups() const {
+    if (in_.units.size() <= most_groups) return {in_.units.begin(), in_.units.end()};
+    std::vector<std::size_t> own(static_cast<std::size_t>(group_count_));
+    std::iota(own.begin(), own.end(), 0);
+    return own;
+  }
+
+  MatrixXf columns(std::size_t cause, Index begin, Index end,
+                   std::vector<Direction>& directions) const {
     const auto& shapes = in_.shapes[cause];
-    MatrixXf x(in_.residual.size(), static_cast<Index>(shapes.size() * sites.size()));
+    MatrixXf x(in_.residual.size(), (end - begin) * static_cast<Index>(sites.size()));
     Index next = 0;
-    for (std::size_t s = 0; s < shapes.size(); ++s)
+    for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s)
       for (std::size_t p = 0; p < sites.size(); ++p) {
         const bool several = shapes[s].effect.inputs.size() > 1;
         if (sensitivity_[p].size() == 0 || (several && p != on_mu && p != on_both)) continue;
@@ -136,14 +207,21 @@ private:
     return s;
   }
 
+  // Of experiments, into `to`: per group.
+  template <class Column, class To> void sum_groups(const Column& from, To to) const {
+    to.setZero();
+    for (Index e = 0; e < from.size(); ++e)
+      to(static_cast<Index>(group_[static_cast<std::size_t>(e)])) += from(e);
+  }
+
   // Scores are divided by the direction's size (statistics in units of their standard deviation
   // under the noise model) and kept where enough is left of the direction.
   void keep_identifiable(const VectorXf& before, const MatrixXf& squares, const MatrixXf& scores,
                          CauseScores& found) const {
     std::vector<Direction> kept;
     const VectorXf size = squares.colwise().sum().cwiseSqrt();
-    found.scores.resize(scores.rows(), scores.cols());
-    found.shares.resize(scores.rows(), scores.cols());
+    found.scores.resize(group_count_, scores.cols());
+    found.shares.resize(group_count_, scores.cols());
     for (Index c = 0; c < scores.cols(); ++c) {
       if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
         continue;
@@ -156,8 +234,8 @@ private:
       Direction direction = found.directions[static_cast<std::size_t>(c)];
       direction.size = size(c);
       const auto next = static_cast<Index>(kept.size());
-      found.scores.col(next) = scores.col(c) / size(c);
-      found.shares.col(next) = squares.col(c) / (size(c) * size(c));
+      sum_groups(scores.col(c) / size(c), found.scores.col(next));
+      sum_groups(squares.col(c) / (size(c) * size(c)), found.shares.col(next));
       kept.push_back(direction);
     }
     found.scores.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
@@ -169,6 +247,8 @@ private:
 
   const ScreenInput& in_;
   MatrixXf q_, signs_;
+  std::vector<std::size_t> group_; // per experiment
+  Index group_count_ = 0;
   VectorXf residual_;
   std::array<VectorXf, sites.size()> sensitivity_;
 };
@@ -241,7 +321,7 @@ ScreenResult screen(const ScreenInput& input) {
                              parts[s].directions.end());
   }
   if (input.keep_scores) {
-    result.scores.resize(static_cast<Index>(input.first.size() - 1), columns);
+    result.scores.resize(screening.groups(), columns);
     Index next = 0;
     for (const CauseScores& part : parts) {
       if (part.absorbed) continue;
