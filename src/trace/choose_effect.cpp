@@ -27,6 +27,7 @@ constexpr std::size_t short_list = 8;    // causes
 constexpr float least_of_best = 0.6f;    // statistic
 constexpr std::size_t most_joined = 3;   // of them, tried together with other columns
 constexpr std::size_t fitted_rivals = 6; // of which a set is made
+constexpr double told_apart = 3;         // standard errors, by selected tests alone
 constexpr double per_complexity = 3;     // of -2 log likelihood, for a step from what is recorded
 // Of penalised log likelihood: where the data cannot tell sites apart, an effect acts on mu.
 constexpr std::array<double, sites.size()> site_margins = {0.0, 0.5, 1.5, 0.25};
@@ -167,7 +168,8 @@ void sort_options(Options& options) {
                    [](const Option& a, const Option& b) { return a.criterion < b.criterion; });
 }
 
-Rival rival_of(const Search& search, const Option& option, const NoiseModel& noise) {
+Rival rival_of(const Search& search, const Campaign& campaign, const Option& option,
+               const NoiseModel& noise) {
   std::vector<PlacedEffect> effects = search.last().effects;
   std::vector<Cause> causes = search.last().causes;
   PlacedEffect effect = option.effect;
@@ -179,8 +181,39 @@ Rival rival_of(const Search& search, const Option& option, const NoiseModel& noi
     effect.parameters[0] = std::clamp(option.fit.coefficients(0), -0.5, 0.5);
   effects.push_back(std::move(effect));
   causes.push_back(option.cause);
-  return fit_rival(search.campaign(), search.last(), std::move(effects), std::move(causes), noise,
+  return fit_rival(campaign, search.last(), std::move(effects), std::move(causes), noise,
                    NoiseSearch::kept);
+}
+
+std::vector<Rival> rivals_of(const Search& search, const Campaign& campaign, const Options& options,
+                             const NoiseModel& noise) {
+  std::vector<Rival> rivals(options.size());
+  const Progress progress("fitting causes", options.size());
+  parallel_for(options.size(), [&](std::size_t i) {
+    rivals[i] = rival_of(search, campaign, options[i], noise);
+    progress.tick();
+  });
+  return rivals;
+}
+
+// By how many standard errors over tests the first is likelier (Vuong 1989).
+double sureness(const Rival& first, const Rival& other) {
+  const VectorXd difference = first.log_likelihood - other.log_likelihood;
+  const auto n = static_cast<double>(difference.size());
+  const double scatter = (difference.array() - difference.mean()).matrix().norm();
+  return difference.sum() / std::max(scatter * std::sqrt(n / (n - 1)), 1e-300);
+}
+
+// Leaves the first and what the selected tests cannot tell from it: what a few hundred tests tell
+// apart this clearly, all of them tell apart all the more, and no set would hold it.
+void drop_told_apart(const Search& search, const NoiseModel& noise, Options& options) {
+  if (options.size() < 2) return;
+  const std::vector<Rival> fits = rivals_of(search, selected(search.campaign()), options, noise);
+  Options kept;
+  for (std::size_t i = 0; i < options.size(); ++i)
+    if (i == 0 || !(sureness(fits.front(), fits[i]) > told_apart))
+      kept.push_back(std::move(options[i]));
+  options = std::move(kept);
 }
 
 } // namespace
@@ -234,12 +267,8 @@ std::vector<Rival> choose_cause(const Search& search, const ScreenResult& screen
                      [&](const Option& o) { return o.cause == option.cause; }) &&
         best.size() < (search.campaign().quick ? 1 : fitted_rivals))
       best.push_back(std::move(option));
-  std::vector<Rival> rivals(best.size());
-  const Progress progress("fitting causes", best.size());
-  parallel_for(best.size(), [&](std::size_t i) {
-    rivals[i] = rival_of(search, best[i], noise);
-    progress.tick();
-  });
+  if (search.campaign().selection) drop_told_apart(search, noise, best);
+  std::vector<Rival> rivals = rivals_of(search, search.campaign(), best, noise);
   for (std::size_t i = 0; i < best.size(); ++i)
     rivals[i].criterion = best[i].criterion;
   return rivals;

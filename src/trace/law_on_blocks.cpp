@@ -94,7 +94,6 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 
 namespace {
 
-constexpr int most_iterations = 60;
 // Above so many blocks normal equations are summed by gram(), below them by Eigen: where a fit
 // takes milliseconds, nothing is worth other last digits than earlier results have.
 constexpr Index many_blocks = 8000;
@@ -102,19 +101,25 @@ constexpr Index many_blocks = 8000;
 class BlockSolver {
 public:
   BlockSolver(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
-              const MatrixXd& penalty, const VectorXd& weight, double enough)
+              const MatrixXd& penalty, const VectorXd& weight, FitEnd end)
       : law_(law), measured_(measured), whitener_(whitener), penalty_(penalty), weight_(weight),
-        enough_(enough) {}
+        end_(end) {}
 
   BlockFit run(std::vector<double> start) {
     positive_ = law_.predict(start).array() > 0;
     Point here = evaluate(std::move(start));
     prepare(here);
     double damping = 1e-3;
-    for (int i = 0; i < most_iterations && damping < 1e8; ++i) {
-      Point there = evaluate(step(here, damping));
+    for (int i = 0; i < end_.most_steps && damping < 1e8; ++i) {
+      std::vector<double> next = step(here, damping);
+      if (measured_.size() > many_blocks &&
+          !(cost_at(next) < here.cost)) { // no derivatives of a step refused
+        damping *= 8;
+        continue;
+      }
+      Point there = evaluate(std::move(next));
       if (there.cost < here.cost) {
-        const bool done = here.cost - there.cost < enough_ * here.cost;
+        const bool done = here.cost - there.cost < end_.enough * here.cost;
         here = std::move(there);
         damping = std::max(0.2 * damping, 1e-10);
         if (done) break;
@@ -157,6 +162,18 @@ private:
     if (!std::isfinite(fit.cost) || loses_friction(tau))
       fit.cost = std::numeric_limits<double>::infinity();
     return fit;
+  }
+
+  double cost_at(const std::vector<double>& parameters) const {
+    const VectorXd tau = law_.predict(parameters);
+    MatrixXd residual = measured_ - tau;
+    whitener_.apply(residual);
+    if (weight_.size() > 0) residual = weight_.asDiagonal() * residual;
+    double cost = residual.squaredNorm();
+    const Eigen::Map<const VectorXd> p(parameters.data(), static_cast<Index>(parameters.size()));
+    if (penalty_.size() > 0) cost += p.dot(penalty_ * p);
+    return std::isfinite(cost) && !loses_friction(tau) ? cost
+                                                       : std::numeric_limits<double>::infinity();
   }
 
   // Whether a block that had friction at the start has none: such a step is refused.
@@ -204,7 +221,7 @@ private:
   const Whitener& whitener_;
   const MatrixXd& penalty_;
   const VectorXd& weight_;
-  double enough_;
+  FitEnd end_;
   Eigen::Array<bool, Eigen::Dynamic, 1> positive_; // per block, at the start
   MatrixXd raw_;
 };
@@ -213,10 +230,10 @@ private:
 
 BlockFit fit_blocks(const LawOnBlocks& law, const VectorXd& measured, const Whitener& whitener,
                     std::vector<double> start, const MatrixXd& penalty, const VectorXd& weight,
-                    double enough) {
+                    FitEnd end) {
   for (std::size_t p = 0; p < start.size(); ++p)
     start[p] = std::clamp(start[p], law.parameters()[p].lower, law.parameters()[p].upper);
-  return BlockSolver(law, measured, whitener, penalty, weight, enough).run(std::move(start));
+  return BlockSolver(law, measured, whitener, penalty, weight, end).run(std::move(start));
 }
 
 } // namespace frictab::trace

@@ -49,16 +49,21 @@ struct BlockFit {
   double cost = 0; // sum of squared whitened residuals
 };
 
+// When a fit ends.
+struct FitEnd {
+  double enough = 1e-11; // a step that gains less than this share of the cost is the last
+  int most_steps = 60;   // tried
+};
+
 // The fit described above. `penalty`: S (empty: none). `weight`: per block, applied behind the
-// whitening (empty: 1). It ends where a step gains less than `enough` of the cost. A step that
-// turns a positive stress into none is refused: where tests scatter as a whole, a law of no
-// friction at all is off by few standard deviations, and the fit could go there. (calibrate/fit.h
-// has another solver, whose parameters agree with these to five digits. It is not used here because
-// the noise of the folds depends on the digits behind, and with it the nested log score, by up to 3
-// %.)
+// whitening (empty: 1). A step that turns a positive stress into none is refused: where tests
+// scatter as a whole, a law of no friction at all is off by few standard deviations, and the fit
+// could go there. (calibrate/fit.h has another solver, whose parameters agree with these to five
+// digits. It is not used here because the noise of the folds depends on the digits behind, and with
+// it the nested log score, by up to 3 %.)
 BlockFit fit_blocks(const LawOnBlocks& law, const Eigen::VectorXd& measured,
                     const Whitener& whitener, std::vector<double> start,
                     const Eigen::MatrixXd& penalty = {}, const Eigen::VectorXd& weight = {},
-                    double enough = 1e-11);
+                    FitEnd end = {});
 
 } // namespace frictab::trace

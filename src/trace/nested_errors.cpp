@@ -21,9 +21,13 @@ using Eigen::VectorXd;
 constexpr std::size_t all_alone = 40, many_folds = 20, least_folds = 4;
 constexpr std::size_t tests_searched = many_folds * 400; // over all folds
 
+} // namespace
+
 std::size_t count_of_folds(std::size_t tests) {
   return tests <= all_alone ? tests : std::clamp(tests_searched / tests, least_folds, many_folds);
 }
+
+namespace {
 constexpr double farthest = 1e3;    // that a law and a measurement are taken to be apart
 constexpr double score_freedom = 5; // of Student's t
 

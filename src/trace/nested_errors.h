@@ -60,6 +60,9 @@ struct NestedErrors {
   Best best() const;
 };
 
+// As many as tests up to 40 of them, then 20; above 400 tests fewer, and never fewer than 4.
+std::size_t count_of_folds(std::size_t tests);
+
 // Leave-one-test-out, or 20 folds above 40 tests. `all`: the search on all tests, which says how
 // many effects to look at and where to start the noise.
 NestedErrors nested_errors(const Search& all);

@@ -152,14 +152,17 @@ std::vector<double> own_parameters(const Campaign& campaign, const Rival& from) 
   return start;
 }
 
-// Share of the cost below which a step's gain ends a fit. Loose where a search is repeated for
-// every fold, tight where the result is handed on.
-double fit_tolerance(const Campaign& campaign, NoiseSearch search) {
-  if (campaign.quick) return 1e-5;
-  // Of many tests the cost is large: a millionth of it is still far less than a unit of log
+// When a fit ends: loose where a search is repeated for every fold, tight where the result is
+// handed on.
+FitEnd end_of_fit(const Campaign& campaign, NoiseSearch search) {
+  constexpr int few_steps = 12; // from where a fit to selected tests has ended
+  const bool chooses = campaign.quick || search == NoiseSearch::kept;
+  // Of many tests the cost is so large that a millionth of it is far less than a unit of log
   // likelihood, by which rivals are chosen.
-  if (campaign.selection || campaign.of_selected) return search == NoiseSearch::kept ? 1e-6 : 1e-9;
-  return search == NoiseSearch::kept ? 1e-8 : 1e-11;
+  if (campaign.selection)
+    return chooses ? FitEnd{campaign.quick ? 1e-5 : 1e-6, few_steps} : FitEnd{1e-8};
+  if (campaign.quick || campaign.of_selected) return {1e-5};
+  return {search == NoiseSearch::kept ? 1e-8 : 1e-11};
 }
 
 // On the blocks of this campaign. `from_selection`: from where a fit to selected tests has ended,
@@ -179,12 +182,12 @@ Rival fit_on_blocks(const Campaign& campaign, std::vector<PlacedEffect> effects,
   const BlockColumns& columns = campaign.candidates.by_symbol;
   const LawOnBlocks law(extended, campaign.conventions, columns);
   const MatrixXd penalty = penalty_of(rival);
-  const double enough = fit_tolerance(campaign, search);
+  const FitEnd end = end_of_fit(campaign, search);
   const auto refit = [&](const LawOnBlocks& with) {
     rival.predicted = with.predict(rival.parameters);
     const Whitener whitener(rival.noise, rival.predicted, campaign.blocks, campaign.nuisance);
     BlockFit fit =
-        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, enough);
+        fit_blocks(with, campaign.measured, whitener, rival.parameters, penalty, {}, end);
     rival.parameters = std::move(fit.parameters);
     rival.predicted = std::move(fit.predicted);
     rival.jacobian = std::move(fit.jacobian);
@@ -284,10 +287,12 @@ NoiseModel rows_alike(const NoiseModel& noise) {
 }
 
 Rival with_weights(const Campaign& campaign, Rival rival, const NoiseModel& weights) {
+  const FitEnd end = campaign.selection ? end_of_fit(campaign, NoiseSearch::again) : FitEnd{};
   const LawOnBlocks law(bounded_law(campaign, rival), campaign.conventions,
                         campaign.candidates.by_symbol);
   const Whitener whitener(weights, rival.predicted, campaign.blocks, campaign.nuisance);
-  BlockFit fit = fit_blocks(law, campaign.measured, whitener, rival.parameters, penalty_of(rival));
+  BlockFit fit =
+      fit_blocks(law, campaign.measured, whitener, rival.parameters, penalty_of(rival), {}, end);
   rival.parameters = std::move(fit.parameters);
   rival.predicted = std::move(fit.predicted);
   rival.jacobian = std::move(fit.jacobian);
