@@ -6,9 +6,10 @@
 //   trace.cpp          the stage: sorts the data by name, searches, delivers, reports
 //   what a search works on
 //     blocks           rows of an experiment as at most 40 block means
+//     selection        200 tests that stand for all where there are many more
 //     candidates       columns, histories and pairs that an effect may follow (a Cause)
 //     shapes           forms of an effect of a cause, before it is fitted
-//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits
+//     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: their sums)
 //     noise, noise_fit the covariance of residuals, and its fit
 //     rivals           a law with some effects, fitted together with the noise (a Rival)
 //     directions       derivatives of tau_R: what is known, what an effect would change
