@@ -138,12 +138,12 @@ Deviations deviations_of(const trace::NoiseModel& n) {
 
 // A standard deviation of 200 tests is off by 5 % (of normal ones; of uniform ones less).
 TEST(SlowTraceScale, NoiseOfSelectedTestsAgreesWithThatOfAll) {
-  const trace::Blocks all = tests_of(1000, 12);
+  const trace::Blocks all = tests_of(1600, 12);
   const auto some = trace::select_tests(all, {}, 1);
   const auto count = static_cast<Index>(all.count());
   const MatrixXd none(count, 0), fitted = VectorXd::Constant(count, 100);
   const VectorXd tau = fitted.col(0);
-  constexpr int campaigns = 3;
+  constexpr int campaigns = 4;
   const double error = 1 / std::sqrt(2.0 * static_cast<double>(trace::selected_tests));
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= campaigns; ++seed) {
