@@ -16,12 +16,12 @@ struct Blocks {
   std::vector<std::size_t> first_row; // per block its first row, then the number of rows
   // Per block, where its middle lies in its experiment: -1/2 first row, 1/2 last row.
   Eigen::VectorXd position;
-  double usual_rows = 1; // median of a block: what the noise model's white part belongs to
-  std::size_t most = 40; // blocks of an experiment
+  double usual_rows = 1;       // median of a block: what the noise model's white part belongs to
+  std::size_t most = 40;       // blocks of an experiment
+  std::vector<double> weights; // per row how many it stands for; empty: one each
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }
-  std::vector<double> weights; // per row how many it stands for; empty: one each
   double rows(std::size_t block) const;
   // Per block, the mean of its rows.
   Eigen::VectorXd mean(std::span<const double> per_row) const;

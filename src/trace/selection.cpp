@@ -31,9 +31,14 @@ Blocks blocks_of(const Blocks& all, const std::vector<std::size_t>& tests) {
   some.first = {0};
   some.first_row = {0};
   for (const std::size_t e : tests) {
+    const std::size_t begin = all.first_row[all.first[e]], end = all.first_row[all.first[e + 1]];
+    const std::size_t before = some.first_row.back();
     for (std::size_t b = all.first[e]; b < all.first[e + 1]; ++b)
-      some.first_row.push_back(some.first_row.back() + all.rows(b));
+      some.first_row.push_back(before + all.first_row[b + 1] - begin);
     some.first.push_back(some.first_row.size() - 1);
+    if (!all.weights.empty())
+      some.weights.insert(some.weights.end(), all.weights.begin() + static_cast<long>(begin),
+                          all.weights.begin() + static_cast<long>(end));
   }
   return some;
 }
