@@ -4,9 +4,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "calibrate/calibration.h"
+#include "calibrate/resampling.h"
 
 namespace frictab::calibrate {
 

@@ -114,7 +114,7 @@ public:
     first_.push_back(rows.rows());
   }
 
-  Dataset held(std::shared_ptr<const RowSource> source) {
+  Dataset held(const std::shared_ptr<const RowSource>& source) {
     out_.experiments = rows_.experiments;
     out_.first_row = first_block_;
     out_.sources = rows_.sources;
@@ -199,8 +199,9 @@ private:
 
 } // namespace
 
-Dataset condense(const Dataset& rows, std::size_t blocks, std::shared_ptr<const RowSource> source) {
-  return Condenser(rows, std::max<std::size_t>(blocks, 1)).held(std::move(source));
+Dataset condense(const Dataset& rows, std::size_t blocks,
+                 const std::shared_ptr<const RowSource>& source) {
+  return Condenser(rows, std::max<std::size_t>(blocks, 1)).held(source);
 }
 
 namespace {

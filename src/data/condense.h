@@ -24,7 +24,8 @@ namespace frictab::data {
 
 // `rows` have sigma_n_MPa and tau_R_MPa. `blocks`: of about equal numbers of rows in each
 // experiment, at least 1.
-Dataset condense(const Dataset& rows, std::size_t blocks, std::shared_ptr<const RowSource> source);
+Dataset condense(const Dataset& rows, std::size_t blocks,
+                 const std::shared_ptr<const RowSource>& source);
 
 // take(d, e, rows): all rows of experiment e of all[d], on any thread. Each source is read once,
 // whatever share of its experiments is asked for. The datasets are condensed. Throws InputError

@@ -124,7 +124,8 @@ public:
             std::shared_ptr<const Campaign> campaign)
       : options_(options), blocks_(blocks), campaign_(std::move(campaign)),
         faults_(campaign_->files().size()) {
-    while (is_auto() && campaign_->files().size() * blocks_ > most_blocks && blocks_ > coarse_blocks)
+    while (is_auto() && campaign_->files().size() * blocks_ > most_blocks &&
+           blocks_ > coarse_blocks)
       blocks_ = fewer(); // each file has an experiment at least
   }
 
@@ -181,8 +182,7 @@ private:
     }
     const std::lock_guard lock(mutex_);
     held_ += found.blocks.rows();
-    if (held_ > most_blocks && blocks_ > coarse_blocks && is_auto())
-      throw TooManyBlocks();
+    if (held_ > most_blocks && blocks_ > coarse_blocks && is_auto()) throw TooManyBlocks();
     parts_.emplace(number, std::move(found));
   }
 
@@ -202,7 +202,7 @@ private:
     bool first = true;
     for (auto& [number, found] : parts_) {
       const std::string& file = campaign_->files()[number.file];
-      add_counts(std::move(found));
+      add_counts(found);
       if (found.blocks.rows() == 0) {
         add_dropped(found.blocks);
         continue;
@@ -227,12 +227,12 @@ private:
     dropped_.insert(dropped_.end(), none.dropped.begin(), none.dropped.end());
   }
 
-  void add_counts(Found&& found) {
-    for (MappedFile::CountedNote& note : found.counted_notes) {
+  void add_counts(const Found& found) {
+    for (const MappedFile::CountedNote& note : found.counted_notes) {
       const auto same = std::find_if(notes_.begin(), notes_.end(),
                                      [&](const auto& other) { return other.words == note.words; });
       if (same == notes_.end()) {
-        notes_.push_back(std::move(note));
+        notes_.push_back(note);
         continue;
       }
       same->rows += note.rows;
