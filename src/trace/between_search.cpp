@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <gsl/gsl_cdf.h>
 
+#include "data/shares.h"
 #include "trace/noise.h"
 #include "trace/projection.h"
 
@@ -342,32 +343,36 @@ private:
 
 } // namespace
 
-TestGains test_gains(std::span<const double> measured, std::span<const double> predicted,
-                     std::span<const std::size_t> first_row) {
+TestGains test_gains(const data::Dataset& data, std::span<const double> predicted) {
   constexpr std::size_t most_parts = 10, rows_each = 5, least_parts = 3;
-  const std::size_t tests = first_row.size() - 1;
+  const auto measured = data.values("tau_R_MPa");
+  const std::size_t tests = data.experiments.size();
   TestGains out{VectorXd(static_cast<Index>(tests)), VectorXd(static_cast<Index>(tests))};
   std::vector<double> per_row; // variance of a mean times its rows
   std::vector<std::size_t> unknown;
   for (std::size_t e = 0; e < tests; ++e) {
-    const std::size_t begin = first_row[e], rows = first_row[e + 1] - begin;
+    const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
     const auto ratio = [&](std::size_t i) {
       const double law = std::max(predicted[i], 1e-300);
       return std::log(std::max(measured[i], least_ratio * law) / law);
     };
-    const std::size_t parts = std::min(most_parts, rows / rows_each);
-    double sum = 0;
-    std::vector<double> means(std::max<std::size_t>(parts, 1), 0.0);
+    const std::size_t wanted = std::min(most_parts, rows / rows_each);
+    const auto first = data::equal_shares(data, e, std::max<std::size_t>(wanted, 1));
+    const std::size_t parts = wanted < 1 ? 0 : first.size() - 1;
+    double sum = 0, all = 0;
+    std::vector<double> means(first.size() - 1, 0.0);
     for (std::size_t p = 0; p < means.size(); ++p) {
-      const std::size_t from = begin + p * rows / means.size(),
-                        to = begin + (p + 1) * rows / means.size();
-      for (std::size_t i = from; i < to; ++i)
-        means[p] += ratio(i);
+      double weight = 0;
+      for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
+        means[p] += data.row_weight(i) * ratio(i);
+        weight += data.row_weight(i);
+      }
       sum += means[p];
-      means[p] /= static_cast<double>(to - from);
+      all += weight;
+      means[p] /= weight;
     }
     const auto at = static_cast<Index>(e);
-    out.gain(at) = sum / static_cast<double>(rows);
+    out.gain(at) = sum / all;
     if (parts < least_parts) {
       unknown.push_back(e);
       continue;
@@ -380,7 +385,7 @@ TestGains test_gains(std::span<const double> measured, std::span<const double> p
   const double usual = per_row.empty() ? 0 : median_of(per_row);
   for (const std::size_t e : unknown)
     out.variance(static_cast<Index>(e)) =
-        usual / static_cast<double>(first_row[e + 1] - first_row[e]);
+        usual / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
   return out;
 }
 

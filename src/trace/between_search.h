@@ -31,8 +31,7 @@ struct TestGains {
   Eigen::VectorXd gain;
   Eigen::VectorXd variance;
 };
-TestGains test_gains(std::span<const double> measured, std::span<const double> predicted,
-                     std::span<const std::size_t> first_row);
+TestGains test_gains(const data::Dataset& data, std::span<const double> predicted);
 
 struct BetweenInput {
   const TestGains& gains;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "data/shares.h"
+
 namespace frictab::trace {
 
 namespace {
@@ -81,10 +83,9 @@ Blocks make_blocks(const data::Dataset& data, std::size_t most) {
   blocks.most = most;
   blocks.first.push_back(0);
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-    const std::size_t begin = data.first_row[e], rows = data.first_row[e + 1] - begin;
-    const std::size_t count = std::min(rows, most);
-    for (std::size_t b = 0; b < count; ++b)
-      blocks.first_row.push_back(begin + b * rows / count);
+    const std::size_t rows = data.first_row[e + 1] - data.first_row[e];
+    const auto shares = data::equal_shares(data, e, std::min(rows, most));
+    blocks.first_row.insert(blocks.first_row.end(), shares.begin(), shares.end() - 1);
     blocks.first.push_back(blocks.first_row.size());
   }
   blocks.first_row.push_back(data.rows());

@@ -33,8 +33,8 @@ std::vector<double> test_means(const Dataset& data, const Column& column) {
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      sum += column.values[i];
-    means.push_back(sum / static_cast<double>(data.first_row[e + 1] - data.first_row[e]));
+      sum += data.row_weight(i) * column.values[i];
+    means.push_back(sum / static_cast<double>(data.rows_behind(e)));
   }
   return means;
 }

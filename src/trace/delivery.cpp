@@ -253,11 +253,9 @@ ValidationShift validation_shift_of(const Search& search, const Rival& rival) {
   ValidationShift apart;
   if (tests < 3) return apart;
   const models::Model model = search.model_of(rival);
-  const auto tau = in.validation.values("tau_R_MPa");
   const std::vector<double> predicted = calibrate::predict(model, in.validation);
-  const TestGains seen = test_gains(in.training.values("tau_R_MPa"),
-                                    calibrate::predict(model, in.training), in.training.first_row);
-  const TestGains unseen = test_gains(tau, predicted, in.validation.first_row);
+  const TestGains seen = test_gains(in.training, calibrate::predict(model, in.training));
+  const TestGains unseen = test_gains(in.validation, predicted);
   const double free = std::max(1.0, static_cast<double>(seen.gain.size()) - rival.freedom);
   const auto square = [](const VectorXd& x) { return (x.array() - x.mean()).square().sum(); };
   const auto n = static_cast<double>(tests);

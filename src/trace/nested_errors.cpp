@@ -38,10 +38,9 @@ VectorXd relative_errors(const data::Dataset& data, const std::vector<double>& p
     double sum = 0;
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i) {
       const double ratio = measured[i] / std::max(predicted[i], 1e-300);
-      sum += std::abs(std::log(std::clamp(ratio, 1 / farthest, farthest)));
+      sum += data.row_weight(i) * std::abs(std::log(std::clamp(ratio, 1 / farthest, farthest)));
     }
-    errors(static_cast<Index>(e)) =
-        sum / static_cast<double>(data.first_row[e + 1] - data.first_row[e]);
+    errors(static_cast<Index>(e)) = sum / static_cast<double>(data.rows_behind(e));
   }
   return errors;
 }

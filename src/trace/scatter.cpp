@@ -112,9 +112,7 @@ Repeats scatter_of_repeats(const data::Dataset& data, const VectorXd& gain) {
 void add_scatter(Trace& trace, const Search& search, const Rival& last) {
   add_floor(trace, search, last);
   const data::Dataset& training = search.input.training;
-  const TestGains gains =
-      test_gains(training.values("tau_R_MPa"), calibrate::predict(search.model_of(last), training),
-                 training.first_row);
+  const TestGains gains = test_gains(training, calibrate::predict(search.model_of(last), training));
   MatrixXd directions = last.jacobian;
   append_columns(directions, search.campaign().nuisance);
   const VectorXd law = last.predicted.cwiseMax(1e-3 * search.tau_scale_MPa);

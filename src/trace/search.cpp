@@ -169,8 +169,7 @@ void Search::make_gains() {
                      fit.parameters, {}, weight);
   Model plain = model;
   plain.parameters = fit.parameters;
-  gains = test_gains(input.training.values("tau_R_MPa"), calibrate::predict(plain, input.training),
-                     input.training.first_row);
+  gains = test_gains(input.training, calibrate::predict(plain, input.training));
   MatrixXd directions = fit.jacobian;
   append_columns(directions, trained_);
   const VectorXd floor = fit.predicted.cwiseMax(1e-3 * tau_scale_MPa);

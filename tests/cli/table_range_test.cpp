@@ -59,7 +59,9 @@ TEST_F(TableRange, NothingIsBeyondTheDataByDefault) {
   const auto result = run_frictab({"tabulate", job});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, Not(HasSubstr("beyond the data")));
-  EXPECT_EQ(run("tabulate", "data").out, result.out);
+  // But for the last line, which repeats what the command line said.
+  const std::string said = run("tabulate", "data").out;
+  EXPECT_EQ(said.substr(0, said.find("next: ")), result.out.substr(0, result.out.find("next: ")));
 }
 
 TEST_F(TableRange, NodesBeyondTheDataStandInSummaryInfoAndReport) {

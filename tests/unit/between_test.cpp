@@ -299,7 +299,11 @@ TEST(TestGains, AreMeansOfLogarithmsWithTheirVariance) {
     }
     first.push_back(measured.size());
   }
-  const trace::TestGains gains = trace::test_gains(measured, predicted, first);
+  data::Dataset data;
+  data.experiments.resize(200);
+  data.first_row = first;
+  data.columns = {{"tau_R_MPa", "MPa", measured, {}}};
+  const trace::TestGains gains = trace::test_gains(data, predicted);
   double sum = 0;
   for (std::size_t i = 0; i < 6; ++i)
     sum += std::log(measured[i] / predicted[i]) / 6;
