@@ -187,8 +187,7 @@ const Registered<Command> tabulate{[] {
   Command command = stage<tabulate_stage>(
       4, "tabulate", "Sample the chosen law onto a grid made to the tolerance",
       {{"frictab tabulate job.toml", "tables/NAME.h5 of table.model"},
-       {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"},
-       {"frictab tabulate job.toml --shard 3/8", "a part of a table larger than memory"}});
+       {"frictab tabulate job.toml --set table.interpolation=cubic -o cubic", "other tables"}});
   command.declare = declare_tabulate;
   return command;
 }};

@@ -260,7 +260,9 @@ TEST_F(SlowMainJob, SourcesOfStatesThatSomeTargetsDoNotKnowAreToldForAllOfThemAt
                         "[export.qform_lua.inputs]\n"
                         "what was finished is kept in " +
                             directory.path("out/.frictab-kept") + "; `frictab run " + job +
-                            "` goes on from there\n");
+                            " --set 'export.targets=[\"abaqus_vfric\", \"marc_ufric\", "
+                            "\"qform_lua\"]' --set export.inputs.sigma_f_MPa=field:1` goes on from "
+                            "there\n");
 }
 
 TEST_F(SlowMainJob, SectionOfOneTargetHoldsForItAlone) {

@@ -71,7 +71,9 @@ TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
   for (auto& [columns, run] : runs) {
     const CommandResult result = run.get();
     EXPECT_EQ(result.exit_code, 0) << result.out;
-    const std::vector<std::string> lines = drawn(result.out);
+    std::vector<std::string> lines = drawn(result.out);
+    // On a busy machine what comes before the compiler takes long enough to be told as well.
+    std::erase_if(lines, [](const std::string& line) { return line.starts_with("verifying,"); });
     ASSERT_GE(lines.size(), 3U) << result.out;
     EXPECT_NE(lines.front(), lines.back()) << "it stands still";
     for (const std::string& line : lines) {
