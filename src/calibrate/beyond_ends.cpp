@@ -22,7 +22,8 @@ void RowsBeyond::add(const models::Law& law, const std::vector<std::string>& nam
     const auto values = columns[static_cast<std::size_t>(found - names.begin())];
     auto& [below, above] = sides[name];
     for (std::size_t row = 0; row < data.rows(); ++row) {
-      const bool low = values[row]<ends.first, high = values[row]> ends.second;
+      const bool low = values[row] < ends.first;
+      const bool high = values[row] > ends.second;
       if (low) below += behind(row);
       if (high) above += behind(row);
       if (low || high) outside[row] = 1;

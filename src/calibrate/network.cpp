@@ -16,6 +16,7 @@
 #include "core/random.h"
 #include "data/condense.h"
 #include "data/quantity.h"
+#include "data/shares.h"
 
 namespace frictab::calibrate {
 
@@ -39,27 +40,11 @@ struct Binning {
 
   explicit Binning(const data::Dataset& of) : first_bin{0}, data(of) {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-      const std::vector<std::size_t> before = rows_before(e);
-      const std::size_t bins = std::min(before.size() - 1, bins_per_experiment);
-      std::size_t next = 0; // held row; a block is in one bin
-      for (std::size_t b = 0; b < bins; ++b) {
-        const auto row = std::lower_bound(before.begin() + static_cast<std::ptrdiff_t>(next),
-                                          before.end() - 1, b * before.back() / bins);
-        next = static_cast<std::size_t>(row - before.begin());
-        if (next + 1 == before.size()) break;
-        first.push_back(data.first_row[e] + next++);
-      }
+      const std::vector<std::size_t> bins = data::equal_shares(data, e, bins_per_experiment);
+      first.insert(first.end(), bins.begin(), bins.end() - 1);
       first_bin.push_back(static_cast<Index>(first.size()));
     }
     first.push_back(data.rows());
-  }
-
-  // Rows of an experiment before each that is held, and all: those that condensed ones stand for.
-  std::vector<std::size_t> rows_before(std::size_t e) const {
-    std::vector<std::size_t> before{0};
-    for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
-      before.push_back(before.back() + static_cast<std::size_t>(data.row_weight(i)));
-    return before;
   }
 
   VectorXd means(std::span<const double> column) const {

@@ -32,6 +32,17 @@ void append_condensed(Condensed& to, const Condensed& from) {
 
 } // namespace
 
+void add_dropped(Dataset& all, const std::vector<Dataset::Dropped>& more) {
+  for (const Dataset::Dropped& dropped : more) {
+    const auto same = std::find_if(all.dropped.begin(), all.dropped.end(),
+                                   [&](const auto& there) { return there.rule == dropped.rule; });
+    if (same == all.dropped.end())
+      all.dropped.push_back(dropped);
+    else
+      same->rows += dropped.rows;
+  }
+}
+
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults) {
   for (const std::string& name : more.experiments)
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
@@ -73,8 +84,9 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
       return static_cast<double>(std::lower_bound(levels.begin(), levels.end(), level) -
                                  levels.begin());
     };
-    for (double& value : column.values)
-      value = recode(column, value);
+    if (levels != column.levels) // else a campaign of many parts would go through all again
+      for (double& value : column.values)
+        value = recode(column, value);
     for (const double value : other->values)
       column.values.push_back(recode(*other, value));
     column.levels = std::move(levels);
@@ -84,14 +96,7 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   all.experiments.insert(all.experiments.end(), more.experiments.begin(), more.experiments.end());
   for (std::size_t e = 1; e < more.first_row.size(); ++e)
     all.first_row.push_back(offset + more.first_row[e]);
-  for (const Dataset::Dropped& dropped : more.dropped) {
-    const auto same = std::find_if(all.dropped.begin(), all.dropped.end(),
-                                   [&](const auto& there) { return there.rule == dropped.rule; });
-    if (same == all.dropped.end())
-      all.dropped.push_back(dropped);
-    else
-      same->rows += dropped.rows;
-  }
+  add_dropped(all, more.dropped);
   all.clocks.insert(all.clocks.end(), more.clocks.begin(), more.clocks.end());
   for (std::string& note : more.notes)
     if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end())

@@ -9,6 +9,9 @@ namespace frictab::data {
 // Appends `more`, of `file`, to `all`: same columns, text levels joined, experiments told apart.
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults);
 
+// Adds up the rows that the same rule left out.
+void add_dropped(Dataset& all, const std::vector<Dataset::Dropped>& more);
+
 // Both as one campaign, of the columns that both have. An experiment of `second` that is called
 // like one of `first` is another one: "A (2)".
 Dataset together(const Dataset& first, const Dataset& second);

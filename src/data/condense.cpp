@@ -15,6 +15,16 @@
 
 namespace frictab::data {
 
+RatioSum ratio_sum(std::span<const double> above, std::span<const double> below) {
+  RatioSum ratio;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (below[i] > 0) {
+      ratio.sum += above[i] / below[i];
+      ++ratio.rows;
+    }
+  return ratio;
+}
+
 namespace {
 
 using Values = std::span<const double>;
@@ -89,16 +99,6 @@ std::pair<double, double> ends_of(Values values) {
     if (!(span.second >= x)) span.second = x;
   }
   return span;
-}
-
-RatioSum ratio_sum(Values above, Values below) {
-  RatioSum ratio;
-  for (std::size_t i = 0; i < above.size(); ++i)
-    if (below[i] > 0) {
-      ratio.sum += above[i] / below[i];
-      ++ratio.rows;
-    }
-  return ratio;
 }
 
 // Blocks of all experiments of a dataset.

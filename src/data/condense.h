@@ -34,6 +34,9 @@ using TakeRows =
     std::function<void(std::size_t dataset, std::size_t experiment, const Dataset& rows)>;
 void read_again(std::span<const Dataset* const> all, const TakeRows& take);
 
+// Over the rows where what stands below is positive.
+RatioSum ratio_sum(std::span<const double> above, std::span<const double> below);
+
 // Least and largest value of a column or a history over the rows that were read; of the held ones
 // where they are these. NaN where there is no value.
 std::pair<double, double> span_behind(const Dataset& data, const std::string& name,

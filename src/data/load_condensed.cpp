@@ -13,7 +13,6 @@
 #include "data/append.h"
 #include "data/condense.h"
 #include "data/file_list.h"
-#include "data/join.h"
 #include "data/load_part.h"
 #include "data/plausibility.h"
 #include "data/raw_parts.h"
@@ -204,7 +203,7 @@ private:
       const std::string& file = campaign_->files()[number.file];
       add_counts(found);
       if (found.blocks.rows() == 0) {
-        add_dropped(found.blocks);
+        dropped_.insert(dropped_.end(), found.blocks.dropped.begin(), found.blocks.dropped.end());
         continue;
       }
       if (first) {
@@ -222,11 +221,6 @@ private:
     return all;
   }
 
-  // Of a part of which nothing is left.
-  void add_dropped(const Dataset& none) {
-    dropped_.insert(dropped_.end(), none.dropped.begin(), none.dropped.end());
-  }
-
   void add_counts(const Found& found) {
     for (const MappedFile::CountedNote& note : found.counted_notes) {
       const auto same = std::find_if(notes_.begin(), notes_.end(),
@@ -242,15 +236,7 @@ private:
   }
 
   void finish(Dataset& all) {
-    for (const Dataset::Dropped& dropped : dropped_) {
-      const auto same =
-          std::find_if(all.dropped.begin(), all.dropped.end(),
-                       [&](const Dataset::Dropped& other) { return other.rule == dropped.rule; });
-      if (same == all.dropped.end())
-        all.dropped.push_back(dropped);
-      else
-        same->rows += dropped.rows;
-    }
+    add_dropped(all, dropped_);
     for (const MappedFile::CountedNote& note : notes_)
       all.notes.push_back(note.text());
     all.notes.insert(all.notes.begin(), campaign_->notes().begin(), campaign_->notes().end());
@@ -266,7 +252,7 @@ private:
   std::vector<FaultList> faults_;              // by file
   std::vector<MappedFile::CountedNote> notes_; // of all parts
   std::vector<Implausible> implausible_;
-  std::vector<Dataset::Dropped> dropped_;
+  std::vector<Dataset::Dropped> dropped_; // of parts of which nothing is left
 };
 
 // ---- how many rows there are ----
@@ -324,15 +310,7 @@ Dataset load_condensed(const std::vector<std::string>& files, const DataOptions&
                        std::size_t blocks) {
   const auto campaign = std::make_shared<const Campaign>(files, options);
   Dataset all = FirstLook(options, blocks, campaign).held();
-  if (all.rows() == 0)
-    throw InputError(options.join.place,
-                     "data.join leaves no row: no test has a partner at the same time",
-                     "tests are known by their names, as the files are called or from_name says; "
-                     "offset is added to the clock of data.join");
-  if (std::string text = clocks_text(all.clocks, options.join); !text.empty())
-    all.notes.push_back(std::move(text));
-  all.unused = unused_tests(all, campaign->beside());
-  fingerprint(all);
+  complete(all, options, campaign->beside());
   return all;
 }
 

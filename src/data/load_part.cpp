@@ -123,6 +123,9 @@ Beside load_beside(DataOptions& options) {
   return beside;
 }
 
+namespace {
+
+// Of which no file has a row.
 std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside) {
   std::vector<std::string> unused;
   const auto add = [&](const std::string& where, const std::string& name) {
@@ -137,6 +140,20 @@ std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside)
     for (const std::string& name : beside.second->experiments)
       add("data.join", name);
   return unused;
+}
+
+} // namespace
+
+void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
+  if (all.rows() == 0)
+    throw InputError(options.join.place,
+                     "data.join leaves no row: no test has a partner at the same time",
+                     "tests are known by their names, as the files are called or from_name says; "
+                     "offset is added to the clock of data.join");
+  if (std::string text = clocks_text(all.clocks, options.join); !text.empty())
+    all.notes.push_back(std::move(text));
+  all.unused = unused_tests(all, beside);
+  fingerprint(all);
 }
 
 void throw_faults(const std::vector<FaultList>& of_files) {

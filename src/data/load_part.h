@@ -21,8 +21,6 @@ struct Beside {
 
 // Reads data.tests and data.join; takes out of the options what stands in the table of tests.
 Beside load_beside(DataOptions& options);
-// Tests that stand beside the data and are in none of these files.
-std::vector<std::string> unused_tests(const Dataset& data, const Beside& beside);
 
 // Where a file lies, and what a message calls it where its rows find no room.
 std::filesystem::path path_of(const FilePlan& plan);
@@ -37,6 +35,10 @@ Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside);
 // The campaign that these files make.
 Dataset load_all(const std::vector<std::string>& named, const DataOptions& options,
                  const std::function<Part(const FilePlan&)>& load);
+
+// Says what all files together leave: clocks, tests that stand beside the data and are in none of
+// them; takes the fingerprint. Throws InputError where data.join leaves no row.
+void complete(Dataset& all, const DataOptions& options, const Beside& beside);
 
 // The faults of each file by line; those that several files have alike, of the first.
 void throw_faults(const std::vector<FaultList>& of_files);

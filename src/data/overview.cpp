@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/no_value.h"
+#include "data/condense.h"
 #include "data/quantity.h"
 
 namespace frictab::data {
@@ -20,17 +21,6 @@ std::pair<double, double> span_of(std::span<const double> values) {
     if (!(span.second >= value)) span.second = value;
   }
   return span;
-}
-
-// Of a ratio, over the rows where what stands below is positive.
-double mean_ratio(std::span<const double> above, std::span<const double> below) {
-  double sum = 0, n = 0;
-  for (std::size_t i = 0; i < above.size(); ++i)
-    if (below[i] > 0) {
-      sum += above[i] / below[i];
-      ++n;
-    }
-  return n > 0 ? sum / n : no_value;
 }
 
 double mean_of_ratio(const RatioSum& ratio) {
@@ -63,9 +53,10 @@ std::vector<TestOverview> overview(const Dataset& data) {
     for (const Quantity& quantity : quantities())
       if (data.has(quantity.name))
         test.spans.emplace_back(quantity.name, span_of(of(quantity.name)));
-    test.mean_mu = mean_ratio(of("tau_R_MPa"), of("sigma_n_MPa"));
+    test.mean_mu = mean_of_ratio(ratio_sum(of("tau_R_MPa"), of("sigma_n_MPa")));
     if (data.has("sigma_f_MPa"))
-      test.mean_of_k = std::numbers::sqrt3 * mean_ratio(of("tau_R_MPa"), of("sigma_f_MPa"));
+      test.mean_of_k =
+          std::numbers::sqrt3 * mean_of_ratio(ratio_sum(of("tau_R_MPa"), of("sigma_f_MPa")));
     tests.push_back(std::move(test));
   }
   return tests;

@@ -510,6 +510,11 @@ std::string_view with_unix_lines(std::string_view text, std::string& storage) {
   return storage;
 }
 
+void check_text(std::string_view text, const std::string& file) {
+  if (text.find('\0') != text.npos)
+    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+}
+
 // What stands in front of the first row.
 struct Head {
   std::string_view header; // its line
@@ -562,15 +567,14 @@ CsvTable parse_csv(std::string_view text, const std::string& file, const CsvForm
   if (wide) text = *wide;
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   if (without_footer(text, 0).empty()) throw InputError({file, 0, 0}, "the file is empty");
-  if (text.find('\0') != std::string_view::npos)
-    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
+  check_text(text, file);
   std::string unix_lines;
   text = without_footer(with_unix_lines(text, unix_lines), format.skip_footer);
   const Head head = read_head(table, text, format, faults);
-  reserve_rows(table, text.substr(std::min(head.end, text.size())), text.size());
-  Scanner scanner(text.substr(std::min(head.end, text.size())), head.delimiter, head.end_line);
-  read_rows(table, scanner, text.substr(std::min(head.end, text.size())), head.header, format,
-            faults);
+  const std::string_view rows = text.substr(std::min(head.end, text.size()));
+  reserve_rows(table, rows, text.size());
+  Scanner scanner(rows, head.delimiter, head.end_line);
+  read_rows(table, scanner, rows, head.header, format, faults);
   table.notes = notes_of(table.passed_over);
   if (table.rows() == 0 && faults.empty())
     throw InputError({file, table.header_line, 0}, "there are no rows below the header");
@@ -607,11 +611,6 @@ std::size_t lines_in(std::string_view text) {
   return lines;
 }
 
-void check_text(std::string_view text, const std::string& file) {
-  if (text.find('\0') != text.npos)
-    throw InputError({file, 0, 0}, "this is no text file", "give CSV text or HDF5");
-}
-
 } // namespace
 
 struct CsvPieces::Data {
@@ -621,8 +620,8 @@ struct CsvPieces::Data {
   CsvTable header;
   std::string header_line;
   char delimiter = ',';
-  std::string rest; // read and not yet in a piece
-  std::size_t line = 1, intervals = 0;
+  std::string rest;     // read and not yet in a piece
+  std::size_t line = 1; // of the file, where `rest` begins
   CsvPassedOver passed_over;
   std::string whole_because;
   bool rows = false, ended = false;

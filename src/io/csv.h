@@ -85,6 +85,7 @@ public:
   // The next few pieces, parsed on all cores; empty behind the last one. Rows are numbered from 0
   // in each; lines are those of the file. `notes` are told with the last one, of all.
   std::vector<CsvTable> next(FaultList& faults);
+
   // A table without rows: the columns and their units.
   const CsvTable& header() const;
 

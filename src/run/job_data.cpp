@@ -74,17 +74,18 @@ std::vector<std::string> unused_by_both(const data::Dataset& a, const data::Data
   return both;
 }
 
-// Rows, or blocks of them where data.condense asks for these.
-data::Dataset load(const std::vector<std::string>& files, const data::DataOptions& options) {
-  const std::size_t blocks = data::blocks_to_condense(options);
+// Rows, or where `blocks` is not 0 so many blocks of them per experiment (data.condense).
+data::Dataset load(const std::vector<std::string>& files, const data::DataOptions& options,
+                   std::size_t blocks) {
   return blocks > 0 ? data::load_condensed(files, options, blocks)
                     : data::load_dataset(files, options);
 }
 
 JobData with_validation_files(const data::DataOptions& options, FaultList& implausible) {
   JobData data;
-  data.training = load(options.training, options);
-  data.validation = load(options.validation, options);
+  const std::size_t blocks = data::blocks_to_condense(options);
+  data.training = load(options.training, options, blocks);
+  data.validation = load(options.validation, options, blocks);
   for (data::Dataset* part : {&data.training, &data.validation})
     data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
   data.training.unused = unused_by_both(data.training, data.validation);
@@ -122,7 +123,7 @@ JobData with_held_out_tests(data::Dataset all, double share, std::uint64_t seed)
 // The key holds out of few tests as well: someone may want a share that nothing has seen.
 JobData without_validation_files(const data::DataOptions& options, std::uint64_t seed,
                                  FaultList& implausible) {
-  data::Dataset all = load(options.training, options);
+  data::Dataset all = load(options.training, options, data::blocks_to_condense(options));
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
   if (!options.holdout && all.experiments.size() < few_experiments)
     return without_others(std::move(all));
