@@ -11,14 +11,18 @@
 
 namespace frictab::trace {
 
+// Up to so many experiments nothing is cut, and each has so many blocks at most.
+inline constexpr std::size_t uncut_experiments = 200, most_blocks = 40;
+inline constexpr std::size_t block_budget = uncut_experiments * most_blocks; // of all
+
 struct Blocks {
   std::vector<std::size_t> first;     // per experiment its first block, then the number of blocks
   std::vector<std::size_t> first_row; // per block its first row, then the number of rows
   // Per block, where its middle lies in its experiment: -1/2 first row, 1/2 last row.
   Eigen::VectorXd position;
-  double usual_rows = 1;       // median of a block: what the noise model's white part belongs to
-  std::size_t most = 40;       // blocks of an experiment
-  std::vector<double> weights; // per row how many it stands for; empty: one each
+  double usual_rows = 1;          // median of a block: what the noise model's white part belongs to
+  std::size_t most = most_blocks; // of an experiment
+  std::vector<double> weights;    // per row how many it stands for; empty: one each
 
   std::size_t count() const { return first.back(); }
   std::size_t experiments() const { return first.size() - 1; }

@@ -96,7 +96,7 @@ namespace {
 
 // Above so many blocks normal equations are summed by gram(), below them by Eigen: where a fit
 // takes milliseconds, nothing is worth other last digits than earlier results have.
-constexpr Index many_blocks = 8000;
+constexpr auto many_blocks = static_cast<Index>(block_budget);
 
 class BlockSolver {
 public:
@@ -144,8 +144,8 @@ private:
     VectorXd gradient;
   };
 
-  static Eigen::Map<const VectorXd> at(const Point& fit) {
-    return {fit.parameters.data(), static_cast<Index>(fit.parameters.size())};
+  static Eigen::Map<const VectorXd> at(const std::vector<double>& parameters) {
+    return {parameters.data(), static_cast<Index>(parameters.size())};
   }
 
   Point evaluate(std::vector<double> parameters) {
@@ -157,10 +157,7 @@ private:
     fit.all.rightCols(raw_.cols()) = raw_;
     whitener_.apply(fit.all);
     if (weight_.size() > 0) fit.all = weight_.asDiagonal() * fit.all;
-    fit.cost = fit.all.col(0).squaredNorm();
-    if (penalty_.size() > 0) fit.cost += at(fit).dot(penalty_ * at(fit));
-    if (!std::isfinite(fit.cost) || loses_friction(tau))
-      fit.cost = std::numeric_limits<double>::infinity();
+    fit.cost = cost_of(fit.all.col(0), fit.parameters, tau);
     return fit;
   }
 
@@ -169,9 +166,14 @@ private:
     MatrixXd residual = measured_ - tau;
     whitener_.apply(residual);
     if (weight_.size() > 0) residual = weight_.asDiagonal() * residual;
+    return cost_of(residual.col(0), parameters, tau);
+  }
+
+  // `residual` is whitened.
+  double cost_of(const Eigen::Ref<const VectorXd>& residual, const std::vector<double>& parameters,
+                 const VectorXd& tau) const {
     double cost = residual.squaredNorm();
-    const Eigen::Map<const VectorXd> p(parameters.data(), static_cast<Index>(parameters.size()));
-    if (penalty_.size() > 0) cost += p.dot(penalty_ * p);
+    if (penalty_.size() > 0) cost += at(parameters).dot(penalty_ * at(parameters));
     return std::isfinite(cost) && !loses_friction(tau) ? cost
                                                        : std::numeric_limits<double>::infinity();
   }
@@ -189,7 +191,7 @@ private:
     here.gradient = jacobian.transpose() * here.all.col(0);
     if (penalty_.size() > 0) {
       here.normal += penalty_;
-      here.gradient -= penalty_ * at(here);
+      here.gradient -= penalty_ * at(here.parameters);
     }
   }
 

@@ -18,7 +18,7 @@ struct Selection {
 
 // As many as the largest campaign that is not cut. (Of so many tests a standard deviation between
 // tests is known to 1/sqrt(2 x 200), 5 %, which moves no weight that matters.)
-inline constexpr std::size_t selected_tests = 200;
+inline constexpr std::size_t selected_tests = uncut_experiments;
 
 // Spread evenly over the tests as they are sorted: one, drawn by `seed`, of each of 200 runs of
 // neighbours. (At equal steps they could meet the same level of a factorial design every time.)
