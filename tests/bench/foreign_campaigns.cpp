@@ -240,25 +240,27 @@ Dataset dataset_of(const Part& part, const Noise& scatter, const Draft& draft,
   return data;
 }
 
+// Values of rows, the tests in another order.
+Values reordered(const Values& values, const std::vector<std::size_t>& first_row,
+                 const std::vector<std::size_t>& order) {
+  Values out;
+  for (const std::size_t e : order)
+    out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(first_row[e]),
+               values.begin() + static_cast<std::ptrdiff_t>(first_row[e + 1]));
+  return out;
+}
+
 // The same tests in another order.
 Dataset reordered(const Dataset& data, const std::vector<std::size_t>& order) {
   Dataset out = data;
   out.experiments.clear();
   out.first_row = {0};
-  out.oracle_MPa.clear();
+  out.oracle_MPa = reordered(data.oracle_MPa, data.first_row, order);
   for (Column& column : out.columns)
-    column.values.clear();
+    column.values = reordered(column.values, data.first_row, order);
   for (const std::size_t e : order) {
-    const auto first = static_cast<std::ptrdiff_t>(data.first_row[e]);
-    const auto end = static_cast<std::ptrdiff_t>(data.first_row[e + 1]);
-    const auto append = [&](const Values& from, Values& to) {
-      to.insert(to.end(), from.begin() + first, from.begin() + end);
-    };
-    for (std::size_t c = 0; c < data.columns.size(); ++c)
-      append(data.columns[c].values, out.columns[c].values);
-    append(data.oracle_MPa, out.oracle_MPa);
     out.experiments.push_back(data.experiments[e]);
-    out.first_row.push_back(out.first_row.back() + static_cast<std::size_t>(end - first));
+    out.first_row.push_back(out.first_row.back() + data.first_row[e + 1] - data.first_row[e]);
   }
   data::fingerprint(out);
   return out;
@@ -300,6 +302,10 @@ Campaign make_campaign(const Options& options) {
   const auto files = filed(draft.parts.training, options, order);
   campaign.training =
       reordered(dataset_of(draft.parts.training, draft.training, draft, options, 20), files);
+  Values planted;
+  for (std::size_t i = 0; i < draft.parts.training.rows(); ++i)
+    planted.push_back(std::log(draft.parts.training.truth[i] / draft.parts.training.law[i]));
+  campaign.planted = reordered(planted, draft.parts.training.first_row, files);
   std::vector<std::size_t> as_made(draft.parts.validation.tests());
   std::iota(as_made.begin(), as_made.end(), std::size_t{0});
   campaign.validation =

@@ -42,6 +42,7 @@ struct Campaign {
   data::Dataset training, validation; // oracle_MPa: with the effects, without the tests' own gains
   std::string base;                   // the registered law to calibrate
   std::vector<Cause> causes;          // that are recorded
+  std::vector<double> planted;        // per training row: logarithm of the factor that was planted
   // Relative standard deviation between tests: of what they came from, and of these tests.
   double gain_scatter = 0, gain_sample = 0;
   bool absorbed = false; // the base law takes the effect up: its strength was not reached

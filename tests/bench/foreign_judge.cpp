@@ -10,6 +10,7 @@
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
+#include "trace/search.h"
 #include "trace/trace_text.h"
 
 namespace frictab::foreign {
@@ -70,6 +71,23 @@ Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Opt
   Trace found = trace::trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
   if (options.show) std::fputs(trace::trace_text(found).c_str(), stderr);
   return found;
+}
+
+// What knowing the shape of the cause would find: the test within tests, which judges what is
+// constant in a test as well, with the planted shape alone.
+void judge_truth(const Campaign& campaign, const calibrate::ModelFit& fit, double alpha,
+                 std::uint64_t seed, Score& score) {
+  trace::TraceOptions how;
+  how.alpha = alpha;
+  trace::Search search({campaign.training, campaign.validation, fit, how, 50, seed});
+  const double threshold = trace::screen_within_tests(search).result.threshold(alpha);
+  const Eigen::VectorXd shape = search.blocks.mean(campaign.planted);
+  search.causes.assign(1, search.causes.front());
+  search.shapes.assign(1, {{{}, shape.cast<float>()}});
+  const trace::ScreenResult alone = trace::screen_within_tests(search).result;
+  if (alone.directions.empty()) return; // the law's own parameters imitate it
+  score.p_truth = alone.p_value;
+  score.truth_passes = std::abs(alone.directions[alone.best].statistic) > threshold;
 }
 
 // --- what is the same column --------------------------------------------------------------------
@@ -195,6 +213,8 @@ Score judged(const Options& options, double alpha) try {
   const auto end = std::chrono::steady_clock::now();
   score.seconds = std::chrono::duration<double>(end - begin).count();
   read_verdict(trace, score);
+  score.why = bench::turned_down(trace);
+  if (!options.effect.empty()) judge_truth(campaign, fit, alpha, options.seed, score);
   const auto found = found_effects(trace);
   Judge(campaign, found).score(score);
   const auto measured = campaign.validation.values("tau_R_MPa");

@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gsl/gsl_statistics_double.h>
+
+#include "core/text.h"
+#include "trace/trace.h"
 
 namespace frictab::bench {
 
@@ -18,6 +22,14 @@ inline double correlation(std::span<const double> x, std::span<const double> y) 
 // Whether two columns of one campaign are as good as one; not where one of them is unknown.
 inline bool go_together(std::span<const double> x, std::span<const double> y, double least) {
   return !x.empty() && !y.empty() && std::abs(correlation(x, y)) > least;
+}
+
+// What a trace turned down or only led, and why.
+inline std::string turned_down(const trace::Trace& trace) {
+  std::string why = join(trace.rejected, "; ");
+  for (const trace::Lead& lead : trace.leads)
+    why += fmt::format("; lead {} p {:.3g}: {}", lead.name, lead.p_value, lead.why);
+  return why;
 }
 
 // Names of the cases of a group, in order of first appearance.

@@ -307,9 +307,7 @@ public:
     score_.p_value =
         trace_.effects.empty() ? trace_.remaining.p_value : trace_.effects.front().p_value;
     score_.order_p = trace_.order.p_value;
-    score_.rejected = join(trace_.rejected, "; ");
-    for (const trace::Lead& lead : trace_.leads)
-      score_.rejected += fmt::format("; lead {} p {:.3g}: {}", lead.name, lead.p_value, lead.why);
+    score_.rejected = bench::turned_down(trace_);
     errors();
     return std::move(score_);
   }
