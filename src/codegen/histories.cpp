@@ -138,6 +138,11 @@ double peak_of(double ratio, double pressure) {
   return ratio == 0 ? 1.0 : pressure / ratio;
 }
 
+// Where a load that rises (1) or falls (0) is at its extreme: highest, or minus the lowest.
+double extreme_of(double rises, double pressure) {
+  return rises == 1 ? pressure : -pressure;
+}
+
 // In the solver's unit.
 double pressure_now(const std::vector<SolverInput>& inputs, double canonical) {
   for (const SolverInput& input : inputs)
@@ -236,6 +241,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.flags["has_mean"] = calls(histories, "now", "ftmean");
   own.flags["has_most"] = calls(histories, "now", "ftmost");
   own.flags["has_ratio"] = calls(histories, "now", "ftrat");
+  own.flags["has_turn"] = calls(histories, "now", "ftturn");
   own.flags["has_rise"] = calls(histories, "now", "ftrise");
   own.flags["has_recent"] = calls(histories, "now", "ftlate");
   own.flags["has_theta"] = calls(histories, "now", "ftthta");
@@ -246,6 +252,7 @@ void fortran::add_histories(TemplateValues& values, const std::vector<SolverInpu
   own.text = {{"n", std::to_string(count)},
               {"time", std::to_string(time)},
               {"slowest", fortran_number(data::slowest_speed)},
+              {"at_peak", fortran_number(data::at_peak)},
               {"a", own.flags["has_area"] ? ", a" : ""}};
   values.text["histories_text"] =
       without_last_break(render_template("fortran/frictab_histories.f", own));
@@ -274,6 +281,7 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
     const double now = present(continuation(input).of, inputs, columns, row);
     if (is(input, C::lag) || is(input, C::rise)) value = now - value;
     if (is(input, C::growth)) value = 1 / columns[c][row];
+    if (is(input, C::direction)) value = extreme_of(columns[c][row], pressure_now(inputs, now));
     if (is(input, C::ratio)) value = peak_of(columns[c][row], pressure_now(inputs, now));
     if (takes_mean(input)) value *= values[time - 1];
     if (is(input, C::rise) || (is(input, C::peak) && continuation(input).of == C::temperature))
@@ -295,6 +303,7 @@ bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
     if (how.rule == C::peak && value < now) return false;
     if (is_state(how.rule) && !(value > 0)) return false;
     if (how.rule == C::rise && now - value + zero_celsius <= 0) return false;
+    if (how.rule == C::direction && value != 1 && (value != 0 || !(now > 0))) return false;
     if (how.rule == C::ratio && value != 1 && (value > 1 || (value > 0) != (now > 0))) return false;
   }
   return true;

@@ -14,6 +14,8 @@
 //   lag                        h' = h + T dt                      x = T - h/time
 //   peak                       h' = max(h, q)                     x = max(h, q)
 //   load over its peak         h' = max(h, p)                     x = p/max(h, p)
+//   direction of load          h' = highest p while it rises,     x = 1 or 0 by the sign of h'
+//                                   minus the lowest while it falls
 //   rise                       h' = T of the first increment      x = T - h
 //   friction power, flash      h' = tau v, tau sqrt(v)            x = h
 //   smoothed speed             h' = h + (v - h)/n                 x = h + (v - h)/n
@@ -102,7 +104,8 @@ std::vector<double> history_values(const std::vector<SolverInput>& inputs,
                                    std::span<const double* const> columns, std::size_t row);
 
 // Whether there are such ones: a peak is not below the present value (0 where the law does not take
-// it and it is no constant), a mean needs time, a load over its peak a load that the law takes.
+// it and it is no constant), a mean needs time, a load over its peak a load that the law takes, and
+// a load rises or falls.
 bool histories_can_be_posed(const std::vector<SolverInput>& inputs,
                             std::span<const double* const> columns, std::size_t row);
 

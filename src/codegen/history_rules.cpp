@@ -102,6 +102,14 @@ HistoryRule load_over_peak() {
           .grows = false};
 }
 
+HistoryRule load_direction() {
+  return {.now = "@{x} = ftrsng(ftturn(@{h}, p))",
+          .next = "@{h1} = ftturn(@{h}, p)",
+          .meaning = "highest pressure while it rises, minus the lowest while it falls",
+          .unit = "MPa",
+          .grows = false};
+}
+
 HistoryRule rise() {
   return {.now = "@{x} = ftrise(@{h}, t)",
           .next = "@{h1} = ftfrst(@{h}, t)",
@@ -178,6 +186,8 @@ HistoryRule history_rule(const data::Continuation& how) {
     return load_over_peak();
   case C::since_peak:
     return slip_since_peak();
+  case C::direction:
+    return load_direction();
   case C::rise:
     return rise();
   case C::lag:

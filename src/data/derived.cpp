@@ -70,6 +70,20 @@ void load_ratio(Rows sigma, Out out) {
   }
 }
 
+// 1 while the stress rises, 0 while it falls; without a load it goes on as before.
+void load_direction(Rows sigma, Out out) {
+  double extreme = 0; // since it last turned
+  bool rises = true;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double now = sigma[i];
+    const bool turns = rises ? now < at_peak * extreme : at_peak * now > extreme;
+    const bool further = rises ? now > extreme : now < extreme;
+    if (now > 0 && turns) rises = !rises;
+    if (now > 0 && (turns || further)) extreme = now;
+    out[i] = rises ? 1 : 0;
+  }
+}
+
 void slip_since_peak(Rows sigma, Rows s, Out out) {
   double peak = sigma[0];
   out[0] = 0;
@@ -139,6 +153,14 @@ std::vector<Rule> further_rules() {
                    {"sigma_n_MPa"},
                    {C::ratio, C::pressure}},
                   load_ratio),
+      rule_of_one(
+          {"load_direction",
+           "1",
+           "1 while the contact normal stress rises, 0 while it falls: it turns where it is "
+           "5 % from its last extreme",
+           {"sigma_n_MPa"},
+           {C::direction, C::pressure}},
+          load_direction),
       rule_of_two(
           {"slip_since_peak",
            "mm",

@@ -24,6 +24,7 @@ struct Continuation {
     last,       // the value at the end of the last increment
     ratio,      // the value over its peak
     since_peak, // slip since it was last within 5 % of its peak
+    direction,  // 1 while it rises, 0 while it falls: it turns 5 % from its last extreme
     rise,       // above the value at the start of contact
     lag,        // above the mean so far
     recent,     // mean over the last increments, the older the less

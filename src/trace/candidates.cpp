@@ -33,6 +33,12 @@ bool is_constant(Rows values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
 }
 
+bool has_two_values(Rows values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return std::all_of(values.begin(), values.end(),
+                     [low = *low, high = *high](double v) { return v == low || v == high; });
+}
+
 std::size_t count_empty(Rows values) {
   return static_cast<std::size_t>(
       std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
@@ -257,6 +263,7 @@ private:
     column.values = blocks_.mean(values);
     column.spread = effects::spread_of(values);
     column.within = varies_within(values, training_);
+    column.two_values = has_two_values(values);
     column.tested = quantiles_of(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);

@@ -20,6 +20,7 @@ struct CandidateColumn {
   Eigen::VectorXd values;          // per block
   effects::Spread spread;          // over rows
   bool within = false;             // varies within experiments
+  bool two_values = false;         // a number whose rows hold no third one; blocks may
   std::vector<double> tested;      // where its rows are: quantiles, ascending
   double gap = 0;                  // between the two of them that are furthest apart
   double reach = 0;                // part of its range that a usual experiment runs through

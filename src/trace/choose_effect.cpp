@@ -230,9 +230,10 @@ const char* plain_form(const Cause& cause, bool text) {
   return text ? "category" : "linear";
 }
 
-const char* smooth_form(const Cause& cause, bool text) {
+const char* smooth_form(const Cause& cause, bool text, bool two_values) {
   if (cause.columns.size() == 3) return "product3";
   if (cause.columns.size() == 2) return text ? "spline_by_level" : "surface";
+  if (two_values) return plain_form(cause, text);
   return text ? "category" : "spline";
 }
 
@@ -247,7 +248,8 @@ PlacedEffect plain_effect(const Search& search, const Cause& cause) {
 
 PlacedEffect smooth_effect(const Search& search, const Cause& cause, effects::ActsOn acts_on) {
   const Candidates& candidates = search.candidates;
-  const char* form = smooth_form(cause, starts_with_text(cause, candidates));
+  const char* form = smooth_form(cause, starts_with_text(cause, candidates),
+                                 candidates.columns[cause.columns[0]].two_values);
   return start_effect(*effects::find_effect(form), cause, candidates, acts_on,
                       search.tau_scale_MPa);
 }

@@ -79,8 +79,10 @@ bool is_along(const std::string& name) {
          name == "time_since_start";
 }
 
-// A form that needs positive values, or degrees, is tried where it has a meaning.
+// A form that needs positive values, or degrees, is tried where it has a meaning. Of two values a
+// line says all.
 bool has_meaning(const effects::EffectForm& form, const CandidateColumn& x) {
+  if (form.columns == 1 && x.two_values) return form.name == "linear";
   if (form.name == "arrhenius")
     return x.name.find("_C") != std::string::npos || x.name.find("T_") != std::string::npos;
   if (form.name == "power" || form.name == "logarithmic")

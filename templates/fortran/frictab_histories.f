@@ -19,6 +19,10 @@ C     a: the area now.
       double precision ftrat
       external ftrat
 @end
+@if has_turn
+      double precision ftturn, ftrsng
+      external ftturn, ftrsng
+@end
 @if has_rise
       double precision ftrise
       external ftrise
@@ -50,6 +54,10 @@ C     frictional stress tau; pmax: the peak pressure so far.
 @if has_most
       double precision ftmost
       external ftmost
+@end
+@if has_turn
+      double precision ftturn
+      external ftturn
 @end
 @if has_rise
       double precision ftfrst
@@ -106,6 +114,43 @@ C     A load over its peak; 1 before there was one.
       if (ftnan(peak)) return
       ftrat = 1.0D0
       if (peak .gt. 0.0D0) ftrat = p/peak
+      return
+      end
+C
+@end
+@if has_turn
+C     The extreme pressure h since the load last turned, behind the
+C     pressure p: the highest while it rises, minus the lowest while it
+C     falls. It turns where it is 5 % from that. NaN where one is.
+      double precision function ftturn(h, p)
+      implicit none
+      double precision h, p
+      logical ftnan
+      external ftnan
+      ftturn = h
+      if (ftnan(h)) return
+      ftturn = p
+      if (ftnan(p)) return
+      if (h .ge. 0.0D0 .and. p .lt. @{at_peak}*h) then
+        ftturn = -p
+      else if (h .ge. 0.0D0) then
+        ftturn = max(h, p)
+      else if (@{at_peak}*p .le. -h) then
+        ftturn = max(h, -p)
+      end if
+      return
+      end
+C
+C     1 while the load rises, 0 while it falls; NaN where h is.
+      double precision function ftrsng(h)
+      implicit none
+      double precision h
+      logical ftnan
+      external ftnan
+      ftrsng = h
+      if (ftnan(h)) return
+      ftrsng = 0.0D0
+      if (h .ge. 0.0D0) ftrsng = 1.0D0
       return
       end
 C

@@ -28,6 +28,7 @@ struct Options {
   double jitter = 0;                     // relative, on measured friction
   bool other_columns = false;            // the same columns in another order
   bool other_tests = false;              // the same tests in another order of the file
+  bool search_only = false;              // nothing is left out, nothing is delivered
   bool show = false;                     // print what tracing says of it
 };
 

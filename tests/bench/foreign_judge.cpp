@@ -10,7 +10,7 @@
 #include "calibrate/calibration.h"
 #include "core/text.h"
 #include "data/derived.h"
-#include "trace/search.h"
+#include "trace/delivery.h"
 #include "trace/trace_text.h"
 
 namespace frictab::foreign {
@@ -50,10 +50,6 @@ std::vector<Found> found_effects(const Trace& trace) {
   return found;
 }
 
-bool is_delivered(const Trace& trace) {
-  return trace.extended.model.law != nullptr;
-}
-
 void read_verdict(const Trace& trace, Score& score) {
   score.verdict = trace::verdict_name(trace.verdict);
   score.unexplained = trace.verdict == trace::Verdict::unexplained_structure;
@@ -79,7 +75,8 @@ void judge_truth(const Campaign& campaign, const calibrate::ModelFit& fit, doubl
                  std::uint64_t seed, Score& score) {
   trace::TraceOptions how;
   how.alpha = alpha;
-  trace::Search search({campaign.training, campaign.validation, fit, how, 50, seed});
+  const trace::TraceInput input{campaign.training, campaign.validation, fit, how, 50, seed};
+  trace::Search search(input);
   const double threshold = trace::screen_within_tests(search).result.threshold(alpha);
   const Eigen::VectorXd shape = search.blocks.mean(campaign.planted);
   search.causes.assign(1, search.causes.front());
@@ -197,6 +194,44 @@ double mean_error(std::span<const double> measured, const std::vector<double>& p
 
 } // namespace
 
+namespace {
+
+// What was found, and the law with it.
+struct Outcome {
+  std::vector<Found> found;
+  models::Model law; // without one where nothing is delivered
+};
+
+Outcome of_trace(const Campaign& campaign, const calibrate::ModelFit& fit, const Options& options,
+                 double alpha, Score& score) {
+  const Trace trace = traced(campaign, fit, options, alpha);
+  read_verdict(trace, score);
+  score.why = bench::turned_down(trace);
+  return {found_effects(trace), trace.extended.model};
+}
+
+// As if all that is significant were delivered.
+Outcome of_search(const Campaign& campaign, const calibrate::ModelFit& fit, const Options& options,
+                  double alpha, Score& score) {
+  trace::TraceOptions how;
+  how.alpha = alpha;
+  const trace::TraceInput input{campaign.training, campaign.validation, fit, how, 50, options.seed};
+  const auto search = trace::search_effects(input);
+  Outcome outcome;
+  for (const trace::Cause& cause : search->last().causes) {
+    const trace::Lead lead = trace::lead_of(*search, cause);
+    outcome.found.push_back({names_of(lead.columns, lead.derived), {}});
+  }
+  score.order_found = search->order.found;
+  score.verdict = outcome.found.empty() ? "nothing" : "search";
+  if (outcome.found.empty()) return outcome;
+  score.p_value = search->findings.front().p_value;
+  outcome.law = search->model_of(search->last());
+  return outcome;
+}
+
+} // namespace
+
 Score judged(const Options& options, double alpha) try {
   const Campaign campaign = make_campaign(options);
   Score score;
@@ -209,22 +244,21 @@ Score judged(const Options& options, double alpha) try {
   const calibrate::Calibration calibration = calibrate::calibrate(input);
   const calibrate::ModelFit& fit = calibration.fits.front();
   const auto begin = std::chrono::steady_clock::now();
-  const Trace trace = traced(campaign, fit, options, alpha);
+  const Outcome outcome =
+      (options.search_only ? of_search : of_trace)(campaign, fit, options, alpha, score);
   const auto end = std::chrono::steady_clock::now();
   score.seconds = std::chrono::duration<double>(end - begin).count();
-  read_verdict(trace, score);
-  score.why = bench::turned_down(trace);
   if (!options.effect.empty()) judge_truth(campaign, fit, alpha, options.seed, score);
-  const auto found = found_effects(trace);
-  Judge(campaign, found).score(score);
-  const auto measured = campaign.validation.values("tau_R_MPa");
-  score.delivered = is_delivered(trace);
-  score.before = mean_error(measured, calibrate::predict(fit.model, campaign.validation));
-  score.after =
-      score.delivered
-          ? mean_error(measured, calibrate::predict(trace.extended.model, campaign.validation))
-          : score.before;
-  score.oracle = mean_error(measured, campaign.validation.oracle_MPa);
+  Judge(campaign, outcome.found).score(score);
+  const auto error_of = [&](const models::Model& model) {
+    return mean_error(campaign.validation.values("tau_R_MPa"),
+                      calibrate::predict(model, campaign.validation));
+  };
+  score.delivered = outcome.law.law != nullptr;
+  score.before = error_of(fit.model);
+  score.after = score.delivered ? error_of(outcome.law) : score.before;
+  score.oracle =
+      mean_error(campaign.validation.values("tau_R_MPa"), campaign.validation.oracle_MPa);
   return score;
 } catch (const std::exception& error) {
   Score failed;

@@ -4,8 +4,7 @@
 //
 // usage: frictab_bench_foreign [--only TEXT] [--seeds N] [--first-seed N] [--nulls N]
 //                              [--masked-seeds N] [--strengths A,B] [--factors A,B] [--alpha A]
-//                              [--show]
-//                              [--threads N] [--csv FILE] [--list]
+//                              [--search-only] [--show] [--threads N] [--csv FILE] [--list]
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +23,7 @@ struct Arguments {
   double alpha = trace::TraceOptions{}.alpha;
   unsigned threads = 0;
   std::string csv;
-  bool list = false, show = false;
+  bool list = false, show = false, search_only = false;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -40,6 +39,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.threads, "0: all cores");
   app.add_option("--csv", arguments.csv, "one row per campaign");
   app.add_flag("--show", arguments.show, "print what tracing says of every campaign (stderr)");
+  app.add_flag("--search-only", arguments.search_only,
+               "all that is significant, whether it pays or not: a tenth of the time");
   app.add_flag("--list", arguments.list, "name the campaigns, run nothing");
 }
 
@@ -76,8 +77,10 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   frictab::set_threads(arguments.threads);
   auto cases = all_cases(arguments.counts);
-  for (Case& c : cases)
+  for (Case& c : cases) {
     c.options.show = arguments.show;
+    c.options.search_only = arguments.search_only;
+  }
   if (arguments.list) {
     for (const Case& c : cases)
       fmt::print("{}\n", line_of(c));

@@ -41,11 +41,11 @@ Table way_table() {
   Table table = test::constant_table();
   table.value = {0.05};
   const auto x = [](const char* name, double gain) { return Expr(gain) * Expr::symbol(name); };
-  table.combine =
-      Expr::symbol("sigma_n_MPa") *
-      (Expr::symbol("value") + x("load_ratio", 0.02) + x("slip_since_peak", 1e-3) +
-       x("temperature_rise", 1e-4) + x("temperature_lag", 5e-5) + x("flash_heating", 1e-5) +
-       x("aging_state_over_1p5mm", 1e-2) + x("slip_state_over_0p8mm", 1e-2));
+  table.combine = Expr::symbol("sigma_n_MPa") *
+                  (Expr::symbol("value") + x("load_ratio", 0.02) + x("load_direction", 0.01) +
+                   x("slip_since_peak", 1e-3) + x("temperature_rise", 1e-4) +
+                   x("temperature_lag", 5e-5) + x("flash_heating", 1e-5) +
+                   x("aging_state_over_1p5mm", 1e-2) + x("slip_state_over_0p8mm", 1e-2));
   return table;
 }
 
@@ -77,6 +77,7 @@ public:
         {"peak_v_rel", std::max(peak_speed, now.speed)},
         {"peak_T_contact", std::max(peak_temperature, now.temperature)},
         {"load_ratio", now.pressure / std::max(peak_pressure, now.pressure)},
+        {"load_direction", turned(now.pressure).first ? 1 : 0},
         {"slip_since_peak", since_peak},
         {"temperature_rise", time > 0 ? now.temperature - first_temperature : 0},
         {"temperature_lag", now.temperature - mean(warmth, now.temperature)},
@@ -93,6 +94,7 @@ public:
     if (!(now.pressure > 0)) return; // out of contact nothing is remembered
     const double before = tau(now);
     peak_pressure = std::max(peak_pressure, now.pressure);
+    std::tie(rises, extreme) = turned(now.pressure);
     energy += now.pressure * now.speed * now.time;
     power = before * now.speed;
     flash = before * std::sqrt(now.speed);
@@ -110,6 +112,15 @@ public:
     peak_temperature = std::max(peak_temperature, now.temperature);
   }
 
+  // Whether the load rises at this pressure, and the extreme since it turned.
+  std::pair<bool, double> turned(double pressure) const {
+    if (rises && pressure < 0.95 * extreme) return {false, pressure};
+    if (!rises && 0.95 * pressure > extreme) return {true, pressure};
+    return {rises, rises ? std::max(extreme, pressure) : std::min(extreme, pressure)};
+  }
+
+  bool rises = true;
+  double extreme = 0; // MPa
   double energy = 0, power = 0, time = 0, dwell = 0, pressures = 0, slip = 0, warmth = 0;
   double peak_speed = 0, peak_temperature = -273.15, peak_pressure = 0;
   double since_peak = 0, first_temperature = 0, flash = 0, aged = 0, slipped = 0;

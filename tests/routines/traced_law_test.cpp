@@ -209,7 +209,7 @@ TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesThatAskForStateVariables) {
 }
 
 TEST_P(SlowTracedLawOf, TargetIsTheLawOfHistoriesOfLoadAndHeat) {
-  static const Case c({"unloading", "since_peak", "heating", "lag", "flash"});
+  static const Case c({"unloading", "falling", "since_peak", "heating", "lag", "flash"});
   expect_verified(c);
 }
 
@@ -378,7 +378,8 @@ TEST_P(TurningHistory, OfVfricComesCloseToThatOfTheLaw) {
   EXPECT_NEAR(routine(GetParam(), c, 3200), exact, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, TurningHistory, testing::Values("unloading", "since_peak"),
+INSTANTIATE_TEST_SUITE_P(Effects, TurningHistory,
+                         testing::Values("unloading", "falling", "since_peak"),
                          [](const auto& given) { return given.param; });
 
 INSTANTIATE_TEST_SUITE_P(Effects, HistoryOnAPath,

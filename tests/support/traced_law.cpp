@@ -30,6 +30,7 @@ PlacedEffect traced_effect(const std::string& which) {
   if (which == "warmth") put("linear", "mean_T_contact", {0.2, 100, 180}, 20, 200);
   if (which == "fastest") put("linear", "peak_v_rel", {-0.1, 250, 500}, 5, 500);
   if (which == "unloading") put("hysteresis", "load_ratio", {0.3, 0.8}, 0, 1);
+  if (which == "falling") put("linear", "load_direction", {0.2, 1, 1}, 0, 1);
   if (which == "since_peak") put("saturation", "slip_since_peak", {-0.2, 3}, 0, 20);
   if (which == "heating") put("linear", "temperature_rise", {-0.2, 0, 100}, -180, 180);
   if (which == "lag") put("linear", "temperature_lag", {0.2, 0, 50}, -100, 100);

@@ -44,6 +44,13 @@ TEST(Derived, LoadRatioIsOneWhileLoading) {
   EXPECT_EQ(derived("load_ratio", loaded), (Values{1, 1, 1, 0.98, 0.5, 0.96, 1}));
 }
 
+TEST(Derived, LoadDirectionTurnsWhereTheLoadIsFivePercentFromItsLastExtreme) {
+  EXPECT_EQ(derived("load_direction", loaded), (Values{1, 1, 1, 1, 0, 1, 1}));
+  const Dataset waves =
+      twice({{"sigma_n_MPa", {800, 700, 600, 620, 640, 690, 0, 680, 700, 650, 0, 649, 690}}});
+  EXPECT_EQ(derived("load_direction", waves), (Values{1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1}));
+}
+
 TEST(Derived, SlipSincePeakCountsBelow95PercentOfIt) {
   EXPECT_EQ(derived("slip_since_peak", loaded), (Values{0, 0, 0, 0, 2, 0, 0}));
 }
