@@ -452,12 +452,20 @@ std::string cause_name(const Cause& cause, const Candidates& candidates) {
   return join(names, " x ");
 }
 
+namespace {
+
+int steps_from_what_is_recorded(const CandidateColumn& derived) {
+  const data::Continuation& how = data::find_derived(derived.name)->continuation;
+  if (how.always) return 1;
+  return how.rule == data::Continuation::none ? 3 : 2;
+}
+
+} // namespace
+
 int complexity(const Cause& cause, const Candidates& candidates) {
   int steps = 2 * static_cast<int>(cause.columns.size() - 1);
-  for (const std::size_t c : cause.columns) {
-    const CandidateColumn& column = candidates.columns[c];
-    if (column.derived) steps += data::find_derived(column.name)->continuation.always ? 1 : 2;
-  }
+  for (const std::size_t c : cause.columns)
+    if (candidates.columns[c].derived) steps += steps_from_what_is_recorded(candidates.columns[c]);
   return steps;
 }
 

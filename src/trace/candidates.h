@@ -60,8 +60,9 @@ std::vector<Cause> all_causes(const Candidates& candidates);
 bool may_act_together(const Cause& cause, const Candidates& candidates);
 
 std::string cause_name(const Cause& cause, const Candidates& candidates);
-// 0 a recorded column, 1 a history that routines follow, 2 another derived quantity, 2 more for
-// every column behind the first.
+// 0 a recorded column, 1 a history that every routine with state variables follows, 2 one that it
+// follows for this law, 3 a derived quantity that no routine follows; 2 more for every column
+// behind the first.
 int complexity(const Cause& cause, const Candidates& candidates);
 bool constant_in_experiments(const Cause& cause, const Candidates& candidates);
 
