@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "fuzz/damaged_files.h"
 #include "io/atomic_file.h"
 #include "support/run_command.h"
 #include "support/sample_tables.h"
@@ -97,7 +98,7 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
       table::write_table(sample.table, file, storage);
       const std::string valid = io::read_file(file);
       const std::size_t in_memory = storage.chunked() ? 0 : table::most_bytes_in_memory;
-      std::vector<std::string> cases(60);
+      std::vector<std::string> cases(fuzz::damaged_files(60));
       for (std::string& bytes : cases)
         bytes = damaged(valid, random);
       const std::string told = outcomes_in_child(cases, file, in_memory);
@@ -108,8 +109,8 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
         ++(told[i] == read_well ? well : faults);
       }
     }
-  EXPECT_GT(well, 40U); // the mutations reach both sides
-  EXPECT_GT(faults, 200U);
+  EXPECT_GT(well, fuzz::damaged_files(40)); // the mutations reach both sides
+  EXPECT_GT(faults, fuzz::damaged_files(200));
 }
 
 } // namespace

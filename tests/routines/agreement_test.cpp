@@ -2,7 +2,6 @@
 // solver calls it, gives what frictab's own evaluation gives.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <gtest/gtest.h>
 
@@ -55,10 +54,6 @@ void compare(const Exporter& exporter, const codegen::ExportRequest& request,
   }
 }
 
-// Units change what arguments are divided by, not what stands behind them: those with arguments and
-// histories of every kind.
-const std::set<std::string> unit_samples = {"four_axes", "traced", "further_histories", "held"};
-
 // The law alone, in C and in Fortran, over two million states; what stands around the same core in
 // a solver's routine over a tenth of them.
 TEST_P(SlowAgreement, OfTheRoutineWithFrictabItselfAndItCompilesWithoutAWarning) {
@@ -66,7 +61,7 @@ TEST_P(SlowAgreement, OfTheRoutineWithFrictabItselfAndItCompilesWithoutAWarning)
   const std::size_t rows = exporter.batch ? 200000 : 20000;
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
-    if (GetParam().units == "m-kg-s" && !unit_samples.count(sample.name)) continue;
+    if (GetParam().units == "m-kg-s" && !test::has_every_kind_of_argument(sample)) continue;
     const test::SampleRequest sampled(exporter, sample.table, GetParam().units);
     const codegen::ExportRequest request = sampled.get();
     // Properties are constants of a call: most points share them, as in a solver.

@@ -281,6 +281,7 @@ TEST_P(SlowFricCoef, ConvertsUnitsOfMetreKilogramSecondAndTheirDerivatives) {
 
 TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
   for (const NamedTable& sample : sample_tables()) {
+    if (!newer() && !has_every_kind_of_argument(sample)) continue;
     SCOPED_TRACE(sample.name);
     EXPECT_NO_THROW(routine("warnings " + sample.name, {sample.table, "m-kg-s", {}}));
   }
@@ -288,7 +289,8 @@ TEST_P(SlowFricCoef, CompilesWithoutAWarningForEveryTable) {
 
 TEST_P(SlowFricCoef, AgreesWithFrictabItselfBySlippingBlocks) {
   const codegen::Exporter& exporter = *codegen::find_exporter("abaqus_fric_coef");
-  for (const NamedTable& sample : sample_tables()) {
+  for (const NamedTable& sample : sample_tables()) { // SlowAgreement has all of them
+    if (!has_every_kind_of_argument(sample)) continue;
     SCOPED_TRACE(sample.name);
     const codegen::ExportRequest request{
         sample.table, "mm-t-s", {}, {{"abaqus_release", GetParam()}}};

@@ -338,6 +338,7 @@ TEST_F(Fric, EndsTheAnalysisBeyondAnErrorSideAndNamesIt) {
 TEST_F(SlowFric, CompilesWithoutAWarningForEveryTableAndChoice) {
   for (const NamedTable& sample : sample_tables())
     for (const std::string choice : {"current", "start_of_increment"}) {
+      if (choice != "current" && !has_every_kind_of_argument(sample)) continue;
       SCOPED_TRACE(sample.name + " " + choice);
       EXPECT_NO_THROW(routine("warnings " + sample.name + choice,
                               {sample.table, "m-kg-s", {}, {{"abaqus_coefficient", choice}}}));

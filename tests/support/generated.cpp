@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// ctest runs every test as a process of its own: what one has compiled lies beside the tests for
+// ctest runs every suite as a process of its own: what one has compiled lies beside the tests for
 // the others, by its text and its compiler's command.
 fs::path kept_library(const SourceBundle& bundle, const BuildVariant& build) {
   std::string all = join(build.command, "\n");
@@ -81,6 +81,12 @@ std::unique_ptr<Library> library_of(const SourceBundle& bundle, const BuildVaria
 
 const std::vector<std::string> strict = both(no_warnings, run_checks);
 const std::vector<std::string> strict_declared = both(strict, {"-fimplicit-none"});
+
+bool stands_for_its_language(const codegen::Exporter& exporter) {
+  for (const char* name : {"c", "fortran", "abaqus_vfric", "qform_lua"})
+    if (exporter.name == name) return true;
+  return false;
+}
 
 void add_flags(BuildVariant& variant, const std::vector<std::string>& flags) {
   variant.command.insert(variant.command.begin() + 1, flags.begin(), flags.end());

@@ -27,6 +27,10 @@ inline const std::vector<std::string> run_checks = {"-fcheck=all", "-g",
 // Both; the second also where no include of the solver gives names a type by their first letter.
 extern const std::vector<std::string> strict, strict_declared;
 
+// One target for each language that generated code is written in: C, Fortran 2008, Fortran in fixed
+// form, Lua. What a formula becomes is the same in all targets of a language.
+bool stands_for_its_language(const codegen::Exporter& exporter);
+
 // Behind the compiler's name.
 void add_flags(codegen::BuildVariant& variant, const std::vector<std::string>& flags);
 

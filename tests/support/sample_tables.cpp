@@ -274,6 +274,12 @@ const std::vector<NamedTable>& sample_tables() {
   return tables;
 }
 
+bool has_every_kind_of_argument(const NamedTable& sample) {
+  for (const char* name : {"four_axes", "traced", "further_histories", "held"})
+    if (sample.name == name) return true;
+  return false;
+}
+
 std::map<std::string, std::string> sample_inputs(const codegen::Exporter& exporter) {
   const bool knows_flow_stress = exporter.whole() && exporter.name != "calculix_usrmu";
   if (knows_flow_stress) return {};

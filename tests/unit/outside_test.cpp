@@ -249,8 +249,11 @@ TEST(Verify, ComparesRowsOutsideWithTheLawWhereItGoesOn) {
 }
 
 TEST(SlowVerify, OfGeneratedSourcesGoesOutsideByEveryPolicy) {
-  for (const char* target : {"c", "abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"})
+  for (const std::string target : {"c", "abaqus_vfric", "abaqus_vfriction", "abaqus_vfric_coef"})
     for (const char* words : {"clamp", "error", "law"}) {
+      const bool for_its_language = target == "c" || target == "abaqus_vfric";
+      // Of the others of a language only the driver differs: in how a row is refused.
+      if (!for_its_language && words != std::string("error")) continue;
       const DriftRecord r = verified(words, target);
       if (!r.ran) GTEST_SKIP() << r.why_not;
       EXPECT_TRUE(r.passed) << target << " " << words;

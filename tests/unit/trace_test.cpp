@@ -276,7 +276,7 @@ TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   TwinOptions options = campaign("log_coulomb", 6, "form=category,column=tool,strength=0.6");
   options.effects.push_back(
       twin::parse_effect("form=linear,column=latent,latent=drift,strength=0.6"));
-  options.design = parse_design("points=15", *options.design);
+  options.design = parse_design("points=8", *options.design);
   Data data = data_of(options);
   for (Dataset* part : {&data.training, &data.validation})
     number_tests(*part, "Test_No");
@@ -380,8 +380,8 @@ TEST(Trace, IgnoredColumnsCannotBeACause) {
 
 // One trace for what would cost three.
 TEST(SlowTrace, IsTheSameForAnyNumberOfThreadsAndReadBackFromItsFile) {
-  const TwinOptions options =
-      campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
+  TwinOptions options = campaign("log_coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
+  options.design = parse_design("points=10", *options.design);
   set_threads(1);
   const Trace t = traced(options);
   const std::string one = trace_json({t}, true);
@@ -413,7 +413,7 @@ void expect_same(const Trace& one, const Trace& other, const char* what) {
 // (Coulomb's law: log_coulomb bounds the stress in its logarithm at 1 kPa, which a unit moves.)
 TEST(SlowTrace, DoesNotDependOnUnitDigitsOrTheOrderOfFiles) {
   TwinOptions options = campaign("coulomb", 4, "form=power,column=humidity_pct,strength=0.6");
-  options.design = parse_design("points=15", *options.design); // five traces
+  options.design = parse_design("points=8", *options.design); // five traces
   const Data data = data_of(options);
   const Trace plain = traced(data, "coulomb");
   ASSERT_EQ(plain.verdict, Verdict::effect_added) << trace_text(plain);
@@ -543,7 +543,7 @@ TEST(SlowTraceRates, SevenOfEightPlantedEffectsAreFoundInTheNamedSet) {
   for (const auto& [form, column] : planted) {
     TwinOptions options =
         campaign("log_coulomb", 21, fmt::format("form={},column={},strength=0.6", form, column));
-    options.design->points = 15; // eight searches, each repeated twenty times
+    options.design->points = 10; // eight searches, each repeated twenty times
     const Trace t = traced(options);
     detected += t.verdict == Verdict::effect_added;
     named += names(t, column);
@@ -558,6 +558,7 @@ TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
     for (const char* noise : {"normal", "t4", "heteroscedastic"}) {
       TwinOptions options = campaign(seed % 2 ? "orowan" : "exp_coulomb", seed);
       options.noise = noise;
+      options.design->points = 15;
       const Trace t = traced(options);
       found += t.nested.offered > 0;
       added += !t.effects.empty();
