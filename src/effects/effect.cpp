@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/order_statistics.h"
 #include "data/derived.h"
 #include "data/quantity.h"
 #include "effects/natural_spline.h"
@@ -40,16 +41,17 @@ double Spread::positive() const {
 }
 
 Spread spread_of(std::span<const double> values) {
-  std::vector<double> sorted;
-  sorted.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+  std::vector<double> finite;
+  finite.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                [](double value) { return std::isfinite(value); });
-  if (sorted.empty()) return {};
-  std::sort(sorted.begin(), sorted.end());
-  const auto quantile = [&](double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+  if (finite.empty()) return {};
+  const auto rank = [&](double share) {
+    return static_cast<std::size_t>(share * static_cast<double>(finite.size() - 1) + 0.5);
   };
-  return {sorted.front(), quantile(0.1), quantile(0.5), quantile(0.9), sorted.back()};
+  const std::size_t ranks[] = {rank(0), rank(0.1), rank(0.5), rank(0.9), rank(1)};
+  place_ranks(finite, ranks);
+  return {finite[ranks[0]], finite[ranks[1]], finite[ranks[2]], finite[ranks[3]], finite[ranks[4]]};
 }
 
 void set_knots(PlacedEffect& effect, const std::vector<std::span<const double>>& values) {

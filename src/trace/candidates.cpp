@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/order_statistics.h"
 #include "core/text.h"
 #include "data/derived.h"
 #include "data/quantity.h"
@@ -89,30 +90,37 @@ double likeness(const VectorXd& a, const VectorXd& b) {
 
 constexpr double the_same = 1 - 1e-9, alike = 0.98; // likeness
 
-// Where a column stands along a direction that no column has by chance: columns that are the same
-// stand together, so that of a thousand others few are compared with it. The sign of a correlation
-// does not count.
-double standing(const VectorXd& values) {
+// Multiples of the golden ratio: even, and never periodic. No column has this direction by chance.
+VectorXd golden_direction(Index size) {
+  VectorXd direction(size);
+  double next = 0.5;
+  for (double& d : direction) {
+    next = std::fmod(next + 0.6180339887498949, 1.0);
+    d = next - 0.5;
+  }
+  return direction.normalized();
+}
+
+// Where a column stands along that direction: columns that are the same stand together, so that of
+// a thousand others few are compared with it. The sign of a correlation does not count.
+double standing(const VectorXd& values, const VectorXd& direction) {
   const VectorXd x = values.array() - values.mean();
   const double size = x.norm();
-  if (!(size > 0)) return 0;
-  double along = 0, length = 0, next = 0.5;
-  for (Index i = 0; i < x.size(); ++i) {
-    next = std::fmod(next + 0.6180339887498949, 1.0); // golden ratio: even, and never periodic
-    along += (next - 0.5) * x(i);
-    length += (next - 0.5) * (next - 0.5);
-  }
-  return std::abs(along) / (size * std::sqrt(length));
+  return size > 0 ? std::abs(direction.dot(x)) / size : 0;
 }
 // Unit vectors of columns that are the same are at most sqrt(1e-9) apart.
 constexpr double together = 4e-5;
 
-std::vector<double> quantiles_of(Rows values) {
+// Leaves the values between two of them in that order.
+std::vector<double> quantiles_of(std::vector<double>& all) {
   constexpr std::size_t parts = 30;
-  std::vector<double> sorted(values.begin(), values.end()), at;
-  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> at;
+  std::vector<std::size_t> ranks;
   for (std::size_t i = 0; i <= parts; ++i)
-    at.push_back(sorted[i * (sorted.size() - 1) / parts]);
+    ranks.push_back(i * (all.size() - 1) / parts);
+  place_ranks(all, ranks);
+  for (const std::size_t rank : ranks)
+    at.push_back(all[rank]);
   return at;
 }
 
@@ -144,7 +152,8 @@ public:
                   Rows predicted, const std::vector<std::string>& inputs,
                   const TraceOptions& options)
       : training_(training), validation_(validation), blocks_(blocks), predicted_(predicted),
-        inputs_(inputs), options_(options) {
+        inputs_(inputs), options_(options),
+        golden_(golden_direction(static_cast<Index>(blocks.count()))) {
     for (const Column& column : validation.columns)
       validation_columns_.emplace(column.name, &column);
   }
@@ -261,10 +270,11 @@ private:
     column.recorded = std::move(recorded);
     column.derived = derived;
     column.values = blocks_.mean(values);
-    column.spread = effects::spread_of(values);
+    std::vector<double> in_parts(values.begin(), values.end());
+    column.tested = quantiles_of(in_parts);
+    column.spread = effects::spread_of(in_parts); // quicker than of values in any order
     column.within = varies_within(values, training_);
     column.two_values = has_two_values(values);
-    column.tested = quantiles_of(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
     const bool orders = name == "test_order" || name == found_.order_column;
@@ -272,16 +282,16 @@ private:
     column.in_law =
         std::find(inputs_.begin(), inputs_.end(), effects::symbol_of(name)) != inputs_.end();
     found_.by_symbol[effects::symbol_of(name)] = column.values;
-    if (const CandidateColumn* twin = twin_of(column.values)) {
+    const double at = standing(column.values, golden_);
+    if (const CandidateColumn* twin = twin_of(column.values, at)) {
       found_.notes.push_back(name + " is the same as " + twin->name + " in these data");
       return;
     }
-    keep(std::move(column));
+    keep(std::move(column), at);
   }
 
   // The first column that is the same but for zero and scale; nullptr where there is none.
-  const CandidateColumn* twin_of(const VectorXd& values) const {
-    const double at = standing(values);
+  const CandidateColumn* twin_of(const VectorXd& values, double at) const {
     std::size_t first = found_.columns.size();
     for (auto near = standings_.lower_bound(at - together);
          near != standings_.end() && near->first <= at + together; ++near)
@@ -290,8 +300,8 @@ private:
     return first < found_.columns.size() ? &found_.columns[first] : nullptr;
   }
 
-  void keep(CandidateColumn column) {
-    standings_.emplace(standing(column.values), found_.columns.size());
+  void keep(CandidateColumn column, double at) {
+    standings_.emplace(at, found_.columns.size());
     found_.columns.push_back(std::move(column));
   }
 
@@ -313,7 +323,8 @@ private:
     text.within = varies_within(column.values, training_);
     text.between = !text.within;
     found_.by_symbol[effects::symbol_of(column.name)] = text.values;
-    keep(std::move(text));
+    const double at = standing(text.values, golden_);
+    keep(std::move(text), at);
   }
 
   bool possible(const data::DerivedQuantity& quantity) const {
@@ -338,6 +349,7 @@ private:
   Rows predicted_;
   const std::vector<std::string>& inputs_;
   const TraceOptions& options_;
+  const VectorXd golden_;
   std::unordered_map<std::string_view, const Column*> validation_columns_;
   std::multimap<double, std::size_t> standings_; // of found columns
   Candidates found_;

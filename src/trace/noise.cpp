@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 constexpr double least_share = 0.05; // of the mean tau: noise that grows with tau does not vanish
@@ -75,22 +74,19 @@ Whitener::Whitener(const NoiseModel& noise, const VectorXd& tau, const Blocks& b
                       std::exp(-1 / (static_cast<double>(count) * noise.length))});
     log_det_(static_cast<Index>(e)) = make_filter(parts_.back(), white, slow);
   }
-  filter<double>(effects);
+  filter(effects);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     const Part& part = parts_[e];
     const RandomEffects both = random_effects(effects.middleRows(part.first, part.size));
-    directions_.q.push_back(both.q);
-    directions_.qc.push_back(both.q * both.c.asDiagonal());
-    directions_f_.q.push_back(both.q.cast<float>());
-    directions_f_.qc.push_back(directions_.qc.back().cast<float>());
+    q_.push_back(both.q);
+    qc_.emplace_back(both.q * both.c.asDiagonal());
     log_det_(static_cast<Index>(e)) +=
         both.log_det - 2 * shrink_.segment(part.first, part.size).array().log().sum();
   }
   if (nuisance.cols() == 0) return;
   MatrixXd whitened = nuisance;
   apply(whitened);
-  directions_.nuisance = orthonormal(whitened);
-  directions_f_.nuisance = directions_.nuisance.cast<float>();
+  nuisance_ = orthonormal(whitened);
 }
 
 double Whitener::make_filter(const Part& part, const VectorXd& white, double slow) {
@@ -108,24 +104,21 @@ double Whitener::make_filter(const Part& part, const VectorXd& white, double slo
 
 // Innovations over their standard deviation, along each experiment; several columns at a time, so
 // that a processor does not wait for the one before.
-template <class Number> void Whitener::filter(Eigen::Ref<Matrix<Number>> columns) const {
-  constexpr Index lanes = 8;
-  for (Index c = 0; c < columns.cols(); c += lanes) {
-    const Index width = std::min(lanes, columns.cols() - c);
+void Whitener::filter(Eigen::Ref<MatrixXd> columns) const {
+  constexpr Index together = 8;
+  for (Index c = 0; c < columns.cols(); c += together) {
+    const Index width = std::min(together, columns.cols() - c);
     for (const Part& part : parts_) {
-      const auto rho = static_cast<Number>(part.rho);
-      Number state[lanes] = {};
-      Number* value[lanes];
+      double state[together] = {};
+      double* value[together];
       for (Index l = 0; l < width; ++l)
         value[l] = &columns(part.first, c + l);
       for (Index i = 0; i < part.size; ++i) {
-        const auto shrink = static_cast<Number>(shrink_(part.first + i));
         const auto at = static_cast<std::size_t>(part.first + i);
-        const auto gain = static_cast<Number>(gain_[at]);
-        const auto scale = static_cast<Number>(scale_[at]);
+        const double shrink = shrink_(part.first + i), gain = gain_[at], scale = scale_[at];
         for (Index l = 0; l < width; ++l) {
-          const Number v = value[l][i] * shrink - state[l];
-          state[l] = rho * (state[l] + gain * v);
+          const double v = value[l][i] * shrink - state[l];
+          state[l] = part.rho * (state[l] + gain * v);
           value[l][i] = v * scale;
         }
       }
@@ -133,25 +126,66 @@ template <class Number> void Whitener::filter(Eigen::Ref<Matrix<Number>> columns
   }
 }
 
-template <class Number>
-void Whitener::apply(Eigen::Ref<Matrix<Number>> columns,
-                     const Directions<Number>& directions) const {
-  filter<Number>(columns);
+void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
+  filter(columns);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
     auto rows = columns.middleRows(parts_[e].first, parts_[e].size);
-    const Matrix<Number> along = directions.q[e].transpose() * rows;
-    rows.noalias() -= directions.qc[e] * along;
+    const MatrixXd along = q_[e].transpose() * rows;
+    rows.noalias() -= qc_[e] * along;
   }
-  if (const auto& nuisance = directions.nuisance; nuisance.cols() > 0)
-    columns -= nuisance * (nuisance.transpose() * columns).eval();
+  if (nuisance_.cols() > 0) columns -= nuisance_ * (nuisance_.transpose() * columns).eval();
 }
 
-void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
-  apply<double>(columns, directions_);
+TileWhitener::TileWhitener(const Whitener& whitener)
+    : parts_(whitener.parts_), nuisance_(whitener.nuisance_.transpose().cast<float>()) {
+  for (std::size_t e = 0; e < parts_.size(); ++e)
+    for (Index i = 0; i < parts_[e].size; ++i) {
+      const Index b = parts_[e].first + i;
+      const auto at = static_cast<std::size_t>(b);
+      const double gain = whitener.gain_[at], rho = parts_[e].rho;
+      const MatrixXd &q = whitener.q_[e], &qc = whitener.qc_[e];
+      const auto single = [](double x) { return static_cast<float>(x); };
+      filter_.push_back({single(whitener.shrink_(b)),
+                         single(rho * (1 - gain)),
+                         single(rho * gain),
+                         single(whitener.scale_[at]),
+                         {single(q(i, 0)), single(q(i, 1))},
+                         {single(qc(i, 0)), single(qc(i, 1))}});
+    }
 }
 
-void Whitener::apply(Eigen::Ref<MatrixXf> columns) const {
-  apply<float>(columns, directions_f_);
+namespace {
+
+// One experiment: the filter, then what gain and slope add, off along their two directions.
+FRICTAB_WIDE void whiten(const TileWhitener::Filter* filter, Index count, float* tile) {
+  Lanes state[lane_parts] = {}, first[lane_parts] = {}, second[lane_parts] = {}, x[lane_parts];
+  for (Index b = 0; b < count; ++b) {
+    const TileWhitener::Filter& f = filter[b];
+    load_lanes(tile + b * tile_width, x);
+    for (Index p = 0; p < lane_parts; ++p) {
+      const Lanes shrunk = f.shrink * x[p];
+      x[p] = f.scale * (shrunk - state[p]);
+      state[p] = f.keep * state[p] + f.feed * shrunk;
+      first[p] += f.q[0] * x[p];
+      second[p] += f.q[1] * x[p];
+    }
+    store_lanes(x, tile + b * tile_width);
+  }
+  for (Index b = 0; b < count; ++b) {
+    const TileWhitener::Filter& f = filter[b];
+    load_lanes(tile + b * tile_width, x);
+    for (Index p = 0; p < lane_parts; ++p)
+      x[p] -= f.qc[0] * first[p] + f.qc[1] * second[p];
+    store_lanes(x, tile + b * tile_width);
+  }
+}
+
+} // namespace
+
+void TileWhitener::apply(Tile& tile) const {
+  for (const Whitener::Part& part : parts_)
+    whiten(filter_.data() + part.first, part.size, tile.data() + part.first * tile_width);
+  if (nuisance_.rows() > 0) take_off(nuisance_, along(nuisance_, tile), tile);
 }
 
 } // namespace frictab::trace

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "trace/blocks.h"
+#include "trace/tile.h"
 
 namespace frictab::trace {
 
@@ -47,36 +48,46 @@ public:
 
   // Columns of block values, in place.
   void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
-  void apply(Eigen::Ref<Eigen::MatrixXf> columns) const;
   // Log determinant of V, per experiment.
   const Eigen::VectorXd& log_det() const { return log_det_; }
   // Variance of each block mean.
   const Eigen::VectorXd& variance() const { return variance_; }
 
 private:
-  template <class Number> using Matrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
-  template <class Number> void filter(Eigen::Ref<Matrix<Number>> columns) const;
-  template <class Number> struct Directions {
-    std::vector<Matrix<Number>> q;  // per experiment, orthonormal: of the random effects
-    std::vector<Matrix<Number>> qc; // and what is taken off along them
-    Matrix<Number> nuisance;        // orthonormal, whitened
-  };
-  template <class Number>
-  void apply(Eigen::Ref<Matrix<Number>> columns, const Directions<Number>& directions) const;
-
+  friend class TileWhitener;
   struct Part {
     Eigen::Index first, size;
     double rho;
   };
   // Of the filter along one experiment; its log determinant.
   double make_filter(const Part& part, const Eigen::VectorXd& white, double slow);
+  void filter(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
   std::vector<double> gain_, scale_; // of the filter, per block
   std::vector<Part> parts_;
   Eigen::VectorXd shrink_; // 1/D
   Eigen::VectorXd log_det_, variance_;
-  Directions<double> directions_;
-  Directions<float> directions_f_;
+  std::vector<Eigen::MatrixXd> q_;  // per experiment, orthonormal: of the random effects
+  std::vector<Eigen::MatrixXd> qc_; // and what is taken off along them
+  Eigen::MatrixXd nuisance_;        // orthonormal, whitened
+};
+
+// The same for thousands of directions, in single precision.
+class TileWhitener {
+public:
+  explicit TileWhitener(const Whitener& whitener);
+  void apply(Tile& tile) const;
+
+  // At one block: what the filter keeps of its state and takes from a value over D, and the random
+  // effects' directions.
+  struct Filter {
+    float shrink, keep, feed, scale, q[2], qc[2];
+  };
+
+private:
+  std::vector<Filter> filter_;
+  std::vector<Whitener::Part> parts_;
+  Eigen::MatrixXf nuisance_; // a column per block
 };
 
 } // namespace frictab::trace

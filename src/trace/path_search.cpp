@@ -12,6 +12,8 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "core/wide.h"
+#include "trace/gram.h"
 #include "trace/noise.h"
 #include "trace/projection.h"
 
@@ -43,7 +45,9 @@ struct Ground {
   std::size_t free = 0;
 };
 
-void add_shape(Ground& ground, const PathShape& shape, std::size_t index, const MatrixXd& known) {
+// Its columns go to `columns`.
+void add_shape(Ground& ground, const PathShape& shape, std::size_t index, const MatrixXd& known,
+               std::vector<MatrixXd>& columns) {
   const MatrixXd centred = shape.columns.rowwise() - shape.columns.colwise().mean();
   const MatrixXd left = centred - known * (known.transpose() * centred);
   std::vector<Index> kept;
@@ -55,8 +59,40 @@ void add_shape(Ground& ground, const PathShape& shape, std::size_t index, const 
   const MatrixXd q = orthonormal(left(Eigen::all, kept));
   if (static_cast<double>(q.cols()) > std::max(1.0, static_cast<double>(ground.free) / 3)) return;
   if (q.cols() == 1 && 1 / q.array().pow(4).sum() < least_effective) return;
-  ground.usable.push_back({index, shape.name, ground.columns.cols(), q.cols()});
-  append_columns(ground.columns, q);
+  const Usable* last = ground.usable.empty() ? nullptr : &ground.usable.back();
+  ground.usable.push_back({index, shape.name, last ? last->first + last->count : 0, q.cols()});
+  columns.push_back(q);
+}
+
+Ground ground_of(const PathInput& input, const MatrixXd& known) {
+  Ground ground;
+  ground.free = static_cast<std::size_t>(input.response.size() - known.cols());
+  if (ground.free < least_free) return ground;
+  std::vector<MatrixXd> columns;
+  for (std::size_t s = 0; s < input.shapes.size(); ++s)
+    add_shape(ground, input.shapes[s], s, known, columns);
+  if (columns.empty()) return ground;
+  const Usable& last = ground.usable.back();
+  ground.columns.resize(input.response.size(), last.first + last.count);
+  for (std::size_t u = 0; u < columns.size(); ++u)
+    ground.columns.middleCols(ground.usable[u].first, ground.usable[u].count) = columns[u];
+  ground.gram = gram(ground.columns);
+  return ground;
+}
+
+FRICTAB_WIDE void subtract(double times, const double* __restrict from, Index count,
+                           double* __restrict to) {
+  for (Index i = 0; i < count; ++i)
+    to[i] -= times * from[i];
+}
+
+FRICTAB_WIDE void take_column(double root, double along, Index count, double* __restrict u,
+                              double* __restrict v, double* __restrict d) {
+  for (Index i = 0; i < count; ++i) {
+    u[i] /= root;
+    v[i] -= along * u[i];
+    d[i] -= u[i] * u[i];
+  }
 }
 
 // One residual's walk over the shapes.
@@ -64,21 +100,21 @@ class Walk {
 public:
   Walk(const Ground& ground, const VectorXd& along, double total)
       : g_(ground), total_(total), rest_(total), free_(static_cast<double>(ground.free)), v_(along),
-        d_(ground.gram.diagonal()), open_(ground.usable.size(), true) {}
+        d_(ground.gram.diagonal()), open_(ground.usable.size(), 1) {}
 
   // The best next shape; npos where none is possible.
   std::size_t best() const {
     std::size_t found = npos;
     double most = 0;
     for (std::size_t s = 0; s < g_.usable.size(); ++s)
-      if (const double r = single(s); r > most) {
+      if (const double r = may_explain(s, most) ? single(s) : 0; r > most) {
         most = r;
         found = s;
       }
     double least = found == npos ? 0 : log_p_of(most / rest_, 1, free_);
     for (std::size_t s = 0; s < g_.usable.size(); ++s) {
       const double q = static_cast<double>(g_.usable[s].count);
-      if (q < 2 || !open_[s] || free_ - q < least_after) continue;
+      if (q < 2 || !open_[s] || free_ - q < least_after || !group_may_explain(s, most)) continue;
       const double r = group(s);
       if (r <= most) continue; // more columns that explain less
       const double p = log_p_of(r / rest_, q, free_);
@@ -90,8 +126,8 @@ public:
     return found;
   }
 
-  // The best shape of the `rank`-th best name of one degree of freedom (0: the best).
-  std::size_t best_of_name(std::size_t rank) const {
+  // The best shapes of the best names of one degree of freedom, at most `count`, best first.
+  std::vector<std::size_t> best_of_names(std::size_t count) const {
     std::vector<std::pair<double, std::size_t>> best; // per name
     std::vector<std::size_t> at;
     for (std::size_t s = 0; s < g_.usable.size(); ++s) {
@@ -101,37 +137,34 @@ public:
       if (at.size() <= name) at.resize(name + 1, npos);
       if (at[name] == npos) {
         at[name] = best.size();
-        best.emplace_back(r, s);
-      } else if (r > best[at[name]].first)
-        best[at[name]] = {r, s};
+        best.emplace_back(-r, s);
+      } else if (-r < best[at[name]].first)
+        best[at[name]] = {-r, s};
     }
-    if (best.size() <= rank) return npos;
-    std::nth_element(best.begin(), best.begin() + static_cast<long>(rank), best.end(),
-                     [](const auto& a, const auto& b) {
-                       return a.first > b.first || (a.first == b.first && a.second < b.second);
-                     });
-    return best[rank].second;
+    count = std::min(count, best.size());
+    std::partial_sort(best.begin(), best.begin() + static_cast<long>(count), best.end());
+    std::vector<std::size_t> shapes;
+    for (std::size_t rank = 0; rank < count; ++rank)
+      shapes.push_back(best[rank].second);
+    return shapes;
   }
 
   void take(std::size_t s) {
     const Usable& shape = g_.usable[s];
     for (Index c = shape.first; c < shape.first + shape.count; ++c) {
+      const double root = std::sqrt(std::max(d_(c), 1e-12)), along = v_(c) / root;
       VectorXd u = g_.gram.col(c);
       for (const VectorXd& w : taken_)
-        u -= w(c) * w;
-      const double left = std::max(d_(c), 1e-12);
-      u /= std::sqrt(left);
-      const double a = v_(c) / std::sqrt(left);
-      v_ -= a * u;
-      d_ -= u.cwiseAbs2();
-      explained_ += a * a;
+        subtract(w(c), w.data(), u.size(), u.data());
+      take_column(root, along, u.size(), u.data(), v_.data(), d_.data());
+      explained_ += along * along;
       taken_.push_back(std::move(u));
     }
     columns_ += static_cast<double>(shape.count);
     free_ -= static_cast<double>(shape.count);
     rest_ = std::max(total_ - explained_, 1e-300);
     for (std::size_t o = 0; o < open_.size(); ++o)
-      if (g_.usable[o].name == shape.name) open_[o] = false;
+      if (g_.usable[o].name == shape.name) open_[o] = 0;
   }
 
   // Of all that was taken.
@@ -143,6 +176,25 @@ public:
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
 private:
+  static constexpr double slack = 1 - 1e-9; // far beyond rounding
+
+  // Whether single(s) can be more than `most`: without a division.
+  bool may_explain(std::size_t s, double most) const {
+    const Index c = g_.usable[s].first;
+    return v_(c) * v_(c) > slack * most * d_(c);
+  }
+
+  // The same of a group: without a factorisation. Its columns were orthonormal, so no eigenvalue of
+  // its matrix is below 1 minus the squares that were taken from it.
+  bool group_may_explain(std::size_t s, double most) const {
+    const Usable& shape = g_.usable[s];
+    double left = 1;
+    for (const VectorXd& w : taken_)
+      left -= w.segment(shape.first, shape.count).squaredNorm();
+    return left < least_shape_left ||
+           v_.segment(shape.first, shape.count).squaredNorm() > slack * most * left;
+  }
+
   // What a shape of one degree of freedom explains beside what was taken.
   double single(std::size_t s) const {
     const Usable& shape = g_.usable[s];
@@ -169,7 +221,7 @@ private:
   double total_, rest_, explained_ = 0, columns_ = 0, free_;
   VectorXd v_, d_;
   std::vector<VectorXd> taken_;
-  std::vector<bool> open_;
+  std::vector<char> open_;
 };
 
 // Best log p and shapes for each length.
@@ -180,12 +232,17 @@ struct Paths {
 
 Paths walk_all(const Ground& ground, const VectorXd& along, double total, std::size_t longest) {
   Paths paths{std::vector<double>(longest, 0.0), std::vector<std::vector<std::size_t>>(longest)};
-  const std::size_t starts = longest > 1 ? beam + 1 : 1;
-  for (std::size_t start = 0; start < starts; ++start) {
-    Walk walk(ground, along, total);
+  const Walk from(ground, along, total);
+  std::vector<std::size_t> first{from.best()};
+  if (longest > 1) { // the best name is that of the first start
+    const std::vector<std::size_t> names = from.best_of_names(beam + 1);
+    if (!names.empty()) first.insert(first.end(), names.begin() + 1, names.end());
+  }
+  for (std::size_t start = 0; start < first.size(); ++start) {
+    Walk walk = from;
     std::vector<std::size_t> taken;
     for (std::size_t k = 0; k < longest; ++k) {
-      const std::size_t next = k == 0 && start > 0 ? walk.best_of_name(start) : walk.best();
+      const std::size_t next = k == 0 ? first[start] : walk.best();
       if (next == Walk::npos) break;
       walk.take(next);
       taken.push_back(ground.usable[next].shape);
@@ -262,14 +319,9 @@ PathResult search_path(const PathInput& input) {
   const auto tests = static_cast<std::size_t>(input.response.size());
   const MatrixXd known = orthonormal(input.known);
   PathResult result;
-  Ground ground;
-  ground.free = tests - static_cast<std::size_t>(known.cols());
-  if (ground.free < least_free) return result;
-  for (std::size_t s = 0; s < input.shapes.size(); ++s)
-    add_shape(ground, input.shapes[s], s, known);
+  const Ground ground = ground_of(input, known);
   if (ground.usable.empty()) return result;
   result.possible = true;
-  ground.gram = ground.columns.transpose() * ground.columns;
   const VectorXd left = input.response - known * (known.transpose() * input.response);
   const VectorXd leverage = known.rowwise().squaredNorm();
   const VectorXd exchangeable =

@@ -1,4 +1,4 @@
-// Whitens, projects, scores and flips; single precision, a cause at a time.
+// Whitens, projects, scores and flips; single precision, a tile of directions at a time.
 #include "trace/screen.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "trace/projection.h"
+#include "trace/sign_flips.h"
 
 namespace frictab::trace {
 
@@ -23,14 +24,11 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr double least_left = 0.002; // of a direction, behind what fitted parameters imitate
-constexpr std::uint64_t flip_stream = 71;
-constexpr float least_variance_share = 1e-3f; // of the sum of squared scores, as a variance
-constexpr Index least_experiments = 7;        // that carry a direction, ...
+constexpr double least_left = 0.002;     // of a direction, behind what fitted parameters imitate
+constexpr Index least_experiments = 7;   // that carry a direction, ...
 constexpr float share_of_most = 0.05f;   // ... each at least so much of what the first of them does
 constexpr std::size_t most_groups = 400; // whose signs are flipped
 constexpr std::uint64_t group_stream = 72;
-constexpr Index slab_values = 1 << 23; // of directions that are whitened together: 32 MiB
 
 constexpr double most_leverage = 0.98; // that is undone
 
@@ -84,30 +82,28 @@ std::vector<std::size_t> groups_of(std::span<const std::size_t> units, std::uint
   return group;
 }
 
-MatrixXf signs(std::size_t flips, std::span<const std::size_t> units, std::uint64_t seed) {
-  MatrixXf s(static_cast<Index>(flips), static_cast<Index>(units.size()));
-  std::vector<float> sign(count_of(units));
-  for (Index b = 0; b < s.rows(); ++b) {
-    Random random(seed, flip_stream + 1000 * static_cast<std::uint64_t>(b));
-    for (float& of_unit : sign)
-      of_unit = random.uniform() < 0.5 ? -1.0f : 1.0f;
-    for (std::size_t e = 0; e < units.size(); ++e)
-      s(b, static_cast<Index>(e)) = sign[units[e]];
+// Sums of a tile over the blocks of a test.
+FRICTAB_WIDE void sum_test(const float* tile, const float* residual, Index count, float* squares,
+                           float* scores) {
+  Lanes square[lane_parts] = {}, score[lane_parts] = {}, x[lane_parts];
+  for (Index b = 0; b < count; ++b) {
+    load_lanes(tile + b * tile_width, x);
+    for (Index p = 0; p < lane_parts; ++p) {
+      square[p] += x[p] * x[p];
+      score[p] += x[p] * residual[b];
+    }
   }
-  return s;
+  store_lanes(square, squares);
+  store_lanes(score, scores);
 }
 
-struct CauseScores {
-  std::vector<Direction> directions;
-  MatrixXf scores; // groups x directions
-  MatrixXf shares; // of each group in a direction's squared size
-  VectorXf maxima; // per flip
-  bool absorbed = false;
-};
-
+// What the tiles of a screening are made of, and what comes of each.
 class Screening {
 public:
-  explicit Screening(const ScreenInput& input) : in_(input) {
+  explicit Screening(const ScreenInput& input)
+      : in_(input), whitener_(input.whitener), group_(groups_of(input.units, input.seed)),
+        group_count_(static_cast<Index>(count_of(group_))),
+        flips_(input.flips, units_of_groups(), input.seed) {
     MatrixXd fitted = in_.fitted;
     in_.whitener.apply(fitted);
     const MatrixXd q = orthonormal(fitted);
@@ -115,61 +111,48 @@ public:
     in_.whitener.apply(residual);
     VectorXd r = residual.col(0) - q * (q.transpose() * residual.col(0));
     undo_leverage(q, in_.first, r);
-    q_ = q.cast<float>();
+    q_ = q.transpose().cast<float>();
     residual_ = r.cast<float>();
-    group_ = groups_of(in_.units, in_.seed);
-    group_count_ = static_cast<Index>(count_of(group_));
-    signs_ = signs(in_.flips, units_of_groups(), in_.seed);
     for (std::size_t p = 0; p < sites.size(); ++p)
       sensitivity_[p] = in_.sensitivities[p].cast<float>();
+    list_directions();
   }
 
   Index groups() const { return group_count_; }
+  std::size_t tiles() const { return (all_.size() + width - 1) / width; }
 
-  // In parts of shapes, so that a cause of many shapes does not fill the memory.
-  CauseScores run(std::size_t cause) const {
-    const auto shapes = static_cast<Index>(in_.shapes[cause].size());
-    const auto sites_each = static_cast<Index>(sites.size());
-    const Index each =
-        std::max<Index>(1, slab_values / std::max<Index>(1, in_.residual.size() * sites_each));
-    CauseScores found = run(cause, 0, std::min(each, shapes));
-    for (Index begin = each; begin < shapes; begin += each)
-      append(run(cause, begin, std::min(begin + each, shapes)), found);
+  struct Scored {
+    std::vector<Direction> directions; // identifiable ones
+    TileScores of;                     // of these, in front
+  };
+
+  // Of a tile; `maxima` as SignFlips has them.
+  Scored score(std::size_t tile, std::span<float> maxima) const {
+    const auto directions =
+        std::span(all_).subspan(tile * width, std::min(width, all_.size() - tile * width));
+    Tile x = columns(directions);
+    whitener_.apply(x);
+    const TileValues before = x.rowwise().squaredNorm();
+    take_off(q_, along(q_, x), x);
+    Tile squares(tile_width, experiments()), scores(tile_width, experiments());
+    for (Index e = 0; e < experiments(); ++e) {
+      const auto begin = static_cast<Index>(in_.first[static_cast<std::size_t>(e)]);
+      const auto end = static_cast<Index>(in_.first[static_cast<std::size_t>(e) + 1]);
+      sum_test(x.col(begin).data(), residual_.data() + begin, end - begin, squares.col(e).data(),
+               scores.col(e).data());
+    }
+    Scored found = identifiable(directions, before, squares, scores);
+    if (found.directions.empty()) return found;
+    const TileValues statistics = flips_.statistics(found.of, in_.least_deviation, maxima);
+    for (std::size_t d = 0; d < found.directions.size(); ++d)
+      found.directions[d].statistic = statistics(static_cast<Index>(d));
     return found;
   }
 
 private:
-  CauseScores run(std::size_t cause, Index begin, Index end) const {
-    CauseScores found;
-    MatrixXf x = columns(cause, begin, end, found.directions);
-    found.absorbed = x.cols() == 0;
-    if (x.cols() == 0) return found;
-    in_.whitener.apply(x);
-    const VectorXf before = x.colwise().norm();
-    x -= q_ * (q_.transpose() * x).eval();
-    const MatrixXf squares = sums(x.cwiseAbs2());
-    x.array().colwise() *= residual_.array();
-    keep_identifiable(before, squares, sums(x), found);
-    if (found.directions.empty()) {
-      found.absorbed = true;
-      return found;
-    }
-    studentise(found);
-    return found;
-  }
+  static constexpr auto width = static_cast<std::size_t>(tile_width);
 
-  static void append(const CauseScores& more, CauseScores& to) {
-    if (more.absorbed) return;
-    if (to.absorbed) {
-      to = more;
-      return;
-    }
-    to.directions.insert(to.directions.end(), more.directions.begin(), more.directions.end());
-    const Index before = to.scores.cols();
-    to.scores.conservativeResize(Eigen::NoChange, before + more.scores.cols());
-    to.scores.rightCols(more.scores.cols()) = more.scores;
-    to.maxima = to.maxima.cwiseMax(more.maxima);
-  }
+  Index experiments() const { return static_cast<Index>(in_.first.size()) - 1; }
 
   // Experiments that are groups of their own may still have to change sign together; groups of
   // several never split what does.
@@ -180,113 +163,96 @@ private:
     return own;
   }
 
-  MatrixXf columns(std::size_t cause, Index begin, Index end,
-                   std::vector<Direction>& directions) const {
-    const auto& shapes = in_.shapes[cause];
-    MatrixXf x(in_.residual.size(), (end - begin) * static_cast<Index>(sites.size()));
-    Index next = 0;
-    for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s)
-      for (std::size_t p = 0; p < sites.size(); ++p) {
-        const bool several = shapes[s].effect.inputs.size() > 1;
-        if (sensitivity_[p].size() == 0 || (several && p != on_mu && p != on_both)) continue;
-        x.col(next++) = shapes[s].direction.cwiseProduct(sensitivity_[p]);
-        directions.push_back({cause, s, p});
+  void list_directions() {
+    for (std::size_t cause = 0; cause < in_.shapes.size(); ++cause)
+      for (std::size_t s = 0; s < in_.shapes[cause].size(); ++s)
+        for (std::size_t p = 0; p < sites.size(); ++p) {
+          const bool several = in_.shapes[cause][s].effect.inputs.size() > 1;
+          if (sensitivity_[p].size() > 0 && (!several || p == on_mu || p == on_both))
+            all_.push_back({cause, s, p});
+        }
+  }
+
+  // Shapes times sensitivities; a few blocks at a time, so that rows turn into columns in the first
+  // cache, and enough of them that the shapes come from memory in one stream each.
+  Tile columns(std::span<const Direction> directions) const {
+    constexpr Index part = 64;
+    Tile x = Tile::Zero(tile_width, in_.residual.size());
+    for (Index first = 0; first < x.cols(); first += part) {
+      const Index last = std::min(first + part, x.cols());
+      for (std::size_t d = 0; d < directions.size(); ++d) {
+        const float* shape = in_.shapes[directions[d].cause][directions[d].shape].direction.data();
+        const float* sensitivity = sensitivity_[directions[d].site].data();
+        for (Index b = first; b < last; ++b)
+          x(static_cast<Index>(d), b) = shape[b] * sensitivity[b];
       }
-    x.conservativeResize(Eigen::NoChange, next);
-    return x;
-  }
-
-  // Per experiment.
-  MatrixXf sums(const MatrixXf& x) const {
-    MatrixXf s(static_cast<Index>(in_.first.size() - 1), x.cols());
-    for (Index e = 0; e < s.rows(); ++e) {
-      const auto begin = static_cast<Index>(in_.first[static_cast<std::size_t>(e)]);
-      const auto end = static_cast<Index>(in_.first[static_cast<std::size_t>(e) + 1]);
-      s.row(e) = x.middleRows(begin, end - begin).colwise().sum();
     }
-    return s;
-  }
-
-  // Of experiments, into `to`: per group.
-  template <class Column, class To> void sum_groups(const Column& from, To to) const {
-    to.setZero();
-    for (Index e = 0; e < from.size(); ++e)
-      to(static_cast<Index>(group_[static_cast<std::size_t>(e)])) += from(e);
+    return x;
   }
 
   // Scores are divided by the direction's size (statistics in units of their standard deviation
   // under the noise model) and kept where enough is left of the direction.
-  void keep_identifiable(const VectorXf& before, const MatrixXf& squares, const MatrixXf& scores,
-                         CauseScores& found) const {
-    std::vector<Direction> kept;
-    const VectorXf size = squares.colwise().sum().cwiseSqrt();
-    found.scores.resize(group_count_, scores.cols());
-    found.shares.resize(group_count_, scores.cols());
-    for (Index c = 0; c < scores.cols(); ++c) {
-      if (!(size(c) * size(c) > least_left * before(c) * before(c)) || scores.col(c).isZero(0))
-        continue;
-      // A direction carried by few experiments could never be significant, and its flips would be
-      // among the largest in every draw: the threshold would rise for all others.
-      const float carries = share_of_most * squares.col(c).maxCoeff();
-      // With fewer experiments nothing can be significant; leads are still listed.
-      const Index least = std::min(least_experiments, squares.rows());
-      if ((squares.col(c).array() > carries).count() < least) continue;
-      Direction direction = found.directions[static_cast<std::size_t>(c)];
-      direction.size = size(c);
-      const auto next = static_cast<Index>(kept.size());
-      sum_groups(scores.col(c) / size(c), found.scores.col(next));
-      sum_groups(squares.col(c) / (size(c) * size(c)), found.shares.col(next));
-      kept.push_back(direction);
+  Scored identifiable(std::span<const Direction> directions, const TileValues& before,
+                      const Tile& squares, const Tile& scores) const {
+    const TileValues squared = squares.rowwise().sum(), size = squared.sqrt();
+    // A direction carried by few experiments could never be significant, and its flips would be
+    // among the largest in every draw: the threshold would rise for all others.
+    const TileValues carries = share_of_most * squares.rowwise().maxCoeff().array();
+    TileValues carriers = TileValues::Zero();
+    for (Index e = 0; e < experiments(); ++e)
+      carriers += (squares.col(e).array() > carries).cast<float>();
+    const TileValues strongest = scores.cwiseAbs().rowwise().maxCoeff();
+    // With fewer experiments nothing can be significant; leads are still listed.
+    const auto least = static_cast<float>(std::min(least_experiments, experiments()));
+    Scored found;
+    std::vector<Index> kept;
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      const auto l = static_cast<Index>(d);
+      const bool left = squared(l) > static_cast<float>(least_left) * before(l);
+      if (!left || strongest(l) == 0 || carriers(l) < least) continue;
+      found.directions.push_back(directions[d]);
+      found.directions.back().size = size(l);
+      kept.push_back(l);
     }
-    found.scores.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
-    found.shares.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
-    found.directions = std::move(kept);
+    found.of = {Tile::Zero(tile_width, group_count_), Tile::Zero(tile_width, group_count_)};
+    for (Index e = 0; e < experiments(); ++e) {
+      const auto group = static_cast<Index>(group_[static_cast<std::size_t>(e)]);
+      for (std::size_t d = 0; d < kept.size(); ++d) {
+        const auto to = static_cast<Index>(d), from = kept[d];
+        found.of.scores(to, group) += scores(from, e) / size(from);
+        found.of.shares(to, group) += squares(from, e) / squared(from);
+      }
+    }
+    return found;
   }
-
-  void studentise(CauseScores& found) const;
 
   const ScreenInput& in_;
-  MatrixXf q_, signs_;
-  std::vector<std::size_t> group_; // per experiment
-  Index group_count_ = 0;
+  TileWhitener whitener_;
+  MatrixXf q_; // what is fitted, orthonormal: a column per block
   VectorXf residual_;
   std::array<VectorXf, sites.size()> sensitivity_;
+  std::vector<std::size_t> group_; // per experiment
+  Index group_count_;
+  SignFlips flips_;
+  std::vector<Direction> all_;
 };
-
-// The statistic t of screen.h for every direction of a cause, and its largest absolute value in
-// every flip. Scores are scaled to sizes I of sum 1, so that the amplitude b is the sum of scores,
-// and sum (U - b I)^2 = sum U^2 - 2 b sum U I + b^2 sum I^2 takes matrix products only.
-void Screening::studentise(CauseScores& found) const {
-  const MatrixXf shared = found.scores.cwiseProduct(found.shares);
-  const MatrixXf sums = signs_ * found.scores, shared_sums = signs_ * shared;
-  const auto count = static_cast<float>(found.scores.rows());
-  const float wider = count / std::max(count - 1, 1.0f);
-  found.maxima = VectorXf::Zero(signs_.rows());
-  for (Index c = 0; c < sums.cols(); ++c) {
-    const float total = found.scores.col(c).squaredNorm(),
-                shares = found.shares.col(c).squaredNorm();
-    // Sum over experiments of (score - sum * share)^2.
-    const auto variance = [&](const auto& sum, const auto& with_shares) {
-      return total - 2 * sum * with_shares + sum * sum * shares;
-    };
-    const float floor = in_.least_deviation * in_.least_deviation;
-    const float least = std::max(least_variance_share * total, floor / wider);
-    const float sum = found.scores.col(c).sum();
-    found.directions[static_cast<std::size_t>(c)].statistic =
-        sum / std::sqrt(wider * std::max(variance(sum, shared.col(c).sum()), least));
-    const auto flipped = sums.col(c).array();
-    found.maxima = found.maxima.cwiseMax(
-        (flipped.square() / (wider * variance(flipped, shared_sums.col(c).array()).max(least)))
-            .matrix());
-  }
-  found.maxima = found.maxima.cwiseSqrt();
-}
 
 std::size_t best_of(const std::vector<Direction>& directions) {
   std::size_t best = 0;
   for (std::size_t d = 1; d < directions.size(); ++d)
     if (std::abs(directions[d].statistic) > std::abs(directions[best].statistic)) best = d;
   return best;
+}
+
+// Causes of which no direction can be told from what is fitted.
+std::vector<std::size_t> absorbed(std::size_t causes, const std::vector<Direction>& identifiable) {
+  std::vector<bool> seen(causes, false);
+  for (const Direction& d : identifiable)
+    seen[d.cause] = true;
+  std::vector<std::size_t> none;
+  for (std::size_t c = 0; c < causes; ++c)
+    if (!seen[c]) none.push_back(c);
+  return none;
 }
 
 } // namespace
@@ -300,38 +266,35 @@ double ScreenResult::threshold(double alpha) const {
 
 ScreenResult screen(const ScreenInput& input) {
   const Screening screening(input);
-  std::vector<CauseScores> parts(input.shapes.size());
-  const Progress progress("screening causes", parts.size());
-  parallel_for(parts.size(), [&](std::size_t s) {
-    parts[s] = screening.run(s);
+  std::vector<Screening::Scored> tiles(screening.tiles());
+  MatrixXf maxima = MatrixXf::Zero(static_cast<Index>(input.flips),
+                                   static_cast<Index>(tiles.size())); // a column per tile
+  const Progress progress("screening causes", tiles.size());
+  parallel_for(tiles.size(), [&](std::size_t t) {
+    tiles[t] = screening.score(
+        t, {maxima.col(static_cast<Index>(t)).data(), static_cast<std::size_t>(input.flips)});
+    if (!input.keep_scores) tiles[t].of = {};
     progress.tick();
-    if (!input.keep_scores) parts[s].scores.resize(0, 0);
   });
   ScreenResult result;
-  VectorXf maxima = VectorXf::Zero(static_cast<Index>(input.flips));
-  Index columns = 0;
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    if (parts[s].absorbed) {
-      result.absorbed.push_back(s);
-      continue;
-    }
-    maxima = maxima.cwiseMax(parts[s].maxima);
-    columns += parts[s].scores.cols();
-    result.directions.insert(result.directions.end(), parts[s].directions.begin(),
-                             parts[s].directions.end());
-  }
+  for (const Screening::Scored& tile : tiles)
+    result.directions.insert(result.directions.end(), tile.directions.begin(),
+                             tile.directions.end());
+  result.absorbed = absorbed(input.shapes.size(), result.directions);
   if (input.keep_scores) {
-    result.scores.resize(screening.groups(), columns);
+    result.scores.resize(screening.groups(), static_cast<Index>(result.directions.size()));
     Index next = 0;
-    for (const CauseScores& part : parts) {
-      if (part.absorbed) continue;
-      result.scores.middleCols(next, part.scores.cols()) = part.scores;
-      next += part.scores.cols();
+    for (const Screening::Scored& tile : tiles) {
+      const auto count = static_cast<Index>(tile.directions.size());
+      if (count > 0)
+        result.scores.middleCols(next, count) = tile.of.scores.topRows(count).transpose();
+      next += count;
     }
   }
   result.best = best_of(result.directions);
   if (input.flips == 0) return result;
-  result.flipped_maxima.assign(maxima.data(), maxima.data() + maxima.size());
+  const VectorXf largest = maxima.rowwise().maxCoeff();
+  result.flipped_maxima.assign(largest.begin(), largest.end());
   std::sort(result.flipped_maxima.begin(), result.flipped_maxima.end());
   const float most =
       result.directions.empty() ? 0 : std::abs(result.directions[result.best].statistic);

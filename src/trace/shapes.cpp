@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "data/quantity.h"
 
@@ -132,19 +133,37 @@ std::vector<GridShape> level_shapes(const Cause& cause, const Candidates& candid
   return shapes;
 }
 
+// A shape about its mean, of norm 1: told from others by its first quarter where that is enough.
+struct Centred {
+  Eigen::VectorXf values;
+  Index quarter;
+  float rest; // norm behind that quarter
+
+  explicit Centred(Eigen::VectorXf of_norm_1)
+      : values(std::move(of_norm_1)), quarter(values.size() / 4),
+        rest(values.tail(values.size() - quarter).norm()) {}
+
+  bool resembles(const Centred& other) const {
+    constexpr float alike = 0.999f, rounding = 1e-4f;
+    const float begun = values.head(quarter).dot(other.values.head(quarter));
+    if (std::abs(begun) + rest * other.rest < alike - rounding) return false;
+    return std::abs(values.dot(other.values)) > alike;
+  }
+};
+
 // Shapes that say almost the same are tried once.
 void keep_different(std::vector<GridShape>& shapes) {
   std::vector<GridShape> kept;
-  std::vector<Eigen::VectorXf> centred;
+  std::vector<Centred> seen;
   for (GridShape& shape : shapes) {
     Eigen::VectorXf d = shape.direction.array() - shape.direction.mean();
     const float norm = d.norm();
     if (!(norm > 1e-6f) || !std::isfinite(norm)) continue;
-    d /= norm;
-    if (std::any_of(centred.begin(), centred.end(),
-                    [&](const Eigen::VectorXf& other) { return std::abs(other.dot(d)) > 0.999f; }))
+    Centred centred(d / norm);
+    if (std::any_of(seen.begin(), seen.end(),
+                    [&](const Centred& other) { return other.resembles(centred); }))
       continue;
-    centred.push_back(std::move(d));
+    seen.push_back(std::move(centred));
     kept.push_back(std::move(shape));
   }
   shapes = std::move(kept);
@@ -156,6 +175,46 @@ std::vector<const double*> inputs_on(const PlacedEffect& effect, const BlockColu
     data.push_back(columns.at(effects::symbol_of(input.column)).data());
   return data;
 }
+
+// Factors of one form along its grid. To make a program takes as long as to run it over thousands
+// of blocks, and along a grid only values change that it takes as they come.
+class GridOfForm {
+public:
+  explicit GridOfForm(const BlockColumns& columns) : columns_(columns) {}
+
+  // d factor/d amplitude.
+  Eigen::VectorXf direction(const PlacedEffect& effect) {
+    if (!bound_ || references_of(effect) != references_) bind(effect);
+    Eigen::VectorXf direction(static_cast<Index>(bound_->rows()));
+    bound_->sweep(effects::fitted_values(effect), true,
+                  [&](const expr::BoundProgram::Block& block) {
+                    for (std::size_t i = 0; i < block.count; ++i)
+                      direction(static_cast<Index>(block.first + i)) =
+                          static_cast<float>(block.derivative[0][i]);
+                  });
+    return direction;
+  }
+
+private:
+  // Parameters that are not fitted: constants of the program.
+  static std::vector<double> references_of(PlacedEffect effect) {
+    effects::set_fitted(effect, std::vector<double>(effects::fitted_values(effect).size(), 0.0));
+    return effect.parameters;
+  }
+
+  void bind(const PlacedEffect& effect) {
+    const auto data = inputs_on(effect, columns_);
+    const auto rows = columns_.at(effects::symbol_of(effect.inputs[0].column)).size();
+    references_ = references_of(effect);
+    program_ = std::make_unique<expr::Program>(effects::factor_program(effect));
+    bound_ = std::make_unique<expr::BoundProgram>(*program_, static_cast<std::size_t>(rows), data);
+  }
+
+  const BlockColumns& columns_;
+  std::vector<double> references_;
+  std::unique_ptr<expr::Program> program_;
+  std::unique_ptr<expr::BoundProgram> bound_;
+};
 
 } // namespace
 
@@ -224,11 +283,11 @@ std::vector<GridShape> shapes_of(const Cause& cause, const Candidates& candidate
       grid = form.grid(spreads);
     } else
       grid.emplace_back(effect.parameters.begin() + 1, effect.parameters.end());
+    GridOfForm along(candidates.by_symbol);
     for (const auto& values : grid) {
       std::copy(values.begin(), values.end(), effect.parameters.begin() + 1);
       if (too_narrow(effect, x.gap)) continue;
-      shapes.push_back(
-          {effect, amplitude_basis(effect, candidates.by_symbol).col(0).cast<float>()});
+      shapes.push_back({effect, along.direction(effect)});
     }
   }
   keep_different(shapes);

@@ -10,7 +10,7 @@
 //     candidates       columns, histories and pairs that an effect may follow (a Cause)
 //     shapes           forms of an effect of a cause, before it is fitted
 //     law_on_blocks    a law on blocks: predictions, derivatives, weighted fits (gram: their sums)
-//     noise, noise_fit the covariance of residuals, and its fit
+//     noise, noise_fit the covariance of residuals, and its fit (tile: for many directions)
 //     rivals           a law with some effects, fitted together with the noise (a Rival)
 //     directions       derivatives of tau_R: what is known, what an effect would change
 //     projection       bases, to take what is known out of what is tested
@@ -18,7 +18,8 @@
 //     search           its state, and its two tests
 //     search_effects   the recipe: between, within, between once more, order
 //     between_search   between tests: one gain per test, with test_shapes and path_search
-//     screen           within tests: scores of thousands of directions, signs flipped
+//     screen           within tests: scores of thousands of directions, a tile at a time, and
+//     sign_flips       their signs flipped
 //     choose_effect    which cause, in which form, with smooth and plausibility
 //     order_search     what the order of tests explains as well, with order_test
 //   what comes of it

@@ -92,18 +92,6 @@ TEST(Whitener, GivesTheInverseCovarianceOfEveryExperiment) {
   }
 }
 
-TEST(Whitener, SinglePrecisionAgrees) {
-  const auto count = static_cast<Index>(blocks.count());
-  const trace::Whitener whitener(some_noise(1), some_tau(count), blocks);
-  MatrixXd x(count, 11); // about 1 once whitened
-  for (Index i = 0; i < x.size(); ++i)
-    x(i) = 3 * std::sin(1.7 * static_cast<double>(i));
-  Eigen::MatrixXf f = x.cast<float>();
-  whitener.apply(x);
-  whitener.apply(f);
-  EXPECT_LT((x - f.cast<double>()).cwiseAbs().maxCoeff(), 1e-5);
-}
-
 TEST(Whitener, SeesNothingAlongNuisanceColumns) {
   const auto count = static_cast<Index>(blocks.count());
   const MatrixXd nuisance = MatrixXd::Random(count, 2);
