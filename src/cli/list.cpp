@@ -9,7 +9,6 @@
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "core/wrapped.h"
 #include "data/quantity.h"
 #include "effects/effect.h"
 #include "job/literature.h"
@@ -75,7 +74,7 @@ void print(const std::vector<Line>& lines) {
     if (line.by_name && !by_name)
       fmt::print("\nwhere models.use names them, as [\"all\", \"{}\"]:\n", line.name);
     by_name = line.by_name;
-    fmt::print("{:<{}}  {}\n", line.name, width, wrapped(line.title, page_width, width + 2));
+    fmt::print("{:<{}}  {}\n", line.name, width, line.title);
   }
 }
 

@@ -40,10 +40,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
       best = candidate;
     }
   }
-  // What a person shortens is no typing error: tolerance for tolerance_MPa, not for trace.
-  if (name.size() >= 3 && (best.empty() || best_distance > 2))
+  if (best.empty() && name.size() >= 3) // what a person shortens: sigma_n for sigma_n_MPa
     for (const std::string& candidate : candidates)
-      if (candidate.starts_with(name)) return candidate;
+      if (candidate.rfind(name, 0) == 0) return candidate;
   return best;
 }
 

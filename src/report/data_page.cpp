@@ -15,7 +15,6 @@
 #include "report/judged.h"
 #include "report/numbers.h"
 #include "report/sections.h"
-#include "report/state_plots.h"
 #include "report/svg.h"
 
 namespace frictab::report {
@@ -62,7 +61,7 @@ Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
   return curve;
 }
 
-svg::Axis axis_over(const DataPage& page, const std::string& name) {
+svg::Axis axis_over(const DataPage& page, const std::string& name, std::string label) {
   double low = 0, high = 0;
   for (const Dataset* data : {&page.training, &page.validation})
     for (const double value : data->values(name))
@@ -70,7 +69,7 @@ svg::Axis axis_over(const DataPage& page, const std::string& name) {
         low = std::min(low, value);
         high = std::max(high, value);
       }
-  return svg::nice_axis(low, high, 2, axis_name(name));
+  return svg::nice_axis(low, high, 2, std::move(label));
 }
 
 svg::Axis row_axis(const DataPage& page) {
@@ -83,8 +82,9 @@ svg::Axis row_axis(const DataPage& page) {
 
 void add_strokes(TemplateValues& values, const DataPage& page) {
   const data::Quantity* over = abscissa(page.training);
-  const svg::Axis x = over ? axis_over(page, over->name) : row_axis(page);
-  const svg::Axis y = axis_over(page, "tau_R_MPa");
+  const svg::Axis x =
+      over ? axis_over(page, over->name, over->symbol + " in " + over->unit) : row_axis(page);
+  const svg::Axis y = axis_over(page, "tau_R_MPa", "tau_R in MPa");
   const auto add = [&](const Dataset& data, const char* use, const char* colour) {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const Curve curve = curve_of(data, e, over);
