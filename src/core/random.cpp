@@ -1,6 +1,7 @@
 // Seeded random numbers and a low-discrepancy sequence.
 #include "core/random.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,23 @@ std::uint64_t mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return z ^ (z >> 31);
+}
+
+constexpr unsigned next_prime(unsigned above) {
+  for (unsigned candidate = above + 1;; ++candidate) {
+    unsigned divisor = 2;
+    while (divisor < candidate && candidate % divisor != 0)
+      ++divisor;
+    if (divisor == candidate) return candidate;
+  }
+}
+
+template <std::size_t count> constexpr std::array<unsigned, count> first_primes() {
+  std::array<unsigned, count> primes{};
+  unsigned last = 1;
+  for (unsigned& prime : primes)
+    prime = last = next_prime(last);
+  return primes;
 }
 } // namespace
 
@@ -50,13 +68,15 @@ std::size_t Random::below(std::size_t count) {
 }
 
 void halton(std::uint64_t index, std::span<double> out) {
-  static constexpr unsigned primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
+  static constexpr std::array<unsigned, 32> primes = first_primes<32>();
+  unsigned prime = 1;
   for (std::size_t d = 0; d < out.size(); ++d) {
+    prime = d < primes.size() ? primes[d] : next_prime(prime);
     double fraction = 1.0;
     double value = 0.0;
-    for (std::uint64_t i = index + 1; i > 0; i /= primes[d]) {
-      fraction /= primes[d];
-      value += fraction * static_cast<double>(i % primes[d]);
+    for (std::uint64_t i = index + 1; i > 0; i /= prime) {
+      fraction /= prime;
+      value += fraction * static_cast<double>(i % prime);
     }
     out[d] = value;
   }
