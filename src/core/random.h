@@ -29,8 +29,8 @@ private:
   bool has_spare_ = false;
 };
 
-// Point `index` of the Halton sequence in (0,1)^dims, dims = out.size(): coordinate d is the radical
-// inverse of index + 1 in the d-th prime (Halton 1960). Deterministic, fills the box evenly.
+// Point `index` of the Halton sequence in (0,1)^dims, dims = out.size(): coordinate d is the
+// radical inverse of index + 1 in the d-th prime (Halton 1960). Fills the box evenly.
 void halton(std::uint64_t index, std::span<double> out);
 
 } // namespace frictab

@@ -12,7 +12,6 @@
 #include "data/load.h"
 #include "data/quantity.h"
 #include "data/sniff.h"
-#include "fuzz/damaged_files.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 #include "job/guessed_job.h"
@@ -134,7 +133,8 @@ TEST_F(LoadFuzz, DamagedCsvGivesADatasetOrAnInputError) {
 }
 
 // Runs in a child process: the HDF5 library itself may fall over a damaged file, and
-// then the parent still tells which case it was.
+// then the parent still tells which case it was. 500 files, for each is read by a process of its
+// own (io/isolated.h), and to start one is what takes the time.
 TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   {
     const std::vector<double> values{1, 2, 3, 4};
@@ -151,7 +151,7 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   Random random(12);
   std::size_t outcomes[4] = {};
   for (int batch = 0; batch < 20; ++batch) {
-    std::vector<std::string> cases(fuzz::damaged_files(100));
+    std::vector<std::string> cases(25);
     for (std::string& bytes : cases)
       bytes = mutated(valid, random, 1 + static_cast<std::size_t>(batch));
     const std::string told = outcomes_in_child(cases);
@@ -162,8 +162,8 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
       ++outcomes[static_cast<std::size_t>(outcome)];
     }
   }
-  EXPECT_GT(outcomes[read_well], fuzz::damaged_files(50));
-  EXPECT_GT(outcomes[refused], fuzz::damaged_files(200));
+  EXPECT_GT(outcomes[read_well], 12U);
+  EXPECT_GT(outcomes[refused], 50U);
 }
 
 // Two files in one campaign: what stands beside the rows, or one column per test.

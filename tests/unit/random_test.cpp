@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace frictab {
+namespace frictab::random_test {
 namespace {
 
 TEST(Halton, IsTheRadicalInverseInThePrimes) {
@@ -29,4 +29,4 @@ TEST(Halton, HasAnyNumberOfCoordinates) {
 }
 
 } // namespace
-} // namespace frictab
+} // namespace frictab::random_test
