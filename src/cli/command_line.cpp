@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
+#include "cli/help_format.h"
 #include "core/error.h"
 #include "core/large_work.h"
 #include "core/parallel.h"
@@ -171,6 +172,20 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
     }
     group += (group.empty() ? "" : " ") + std::string(argv[i]);
   }
+  if (argc == 1) {
+    fmt::print(stderr,
+               "error: no command is given\n"
+               "  hint: frictab help lists them; to begin: frictab init --from FILES makes a "
+               "job of data files,\n        frictab twin DIR a synthetic campaign with one\n");
+    return 2;
+  }
+  const std::vector<std::string> below =
+      group.empty() ? std::vector<std::string>() : commands_of(group);
+  if (!below.empty() && error.get_name() == "RequiredError") {
+    fmt::print(stderr, "error: frictab {} needs a command\n  hint: one of {}\n", group,
+               join(below, ", "));
+    return 2;
+  }
   fmt::print(stderr, "error: {}\n  hint: run `frictab {}{}--help`\n", printable(error.what()),
              group, group.empty() ? "" : " ");
   return 2;
@@ -249,8 +264,9 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{"frictab - from tribometer data to a verified friction subroutine", "frictab"};
   app.set_version_flag("-V,--version", std::string("frictab ") + tool_version());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormat>(16));
   app.footer(std::string("`frictab help COMMAND` has the options of a command, with examples; "
-                         "`frictab explain job` the keys of the job file.\n") +
+                         "`frictab explain job` the keys of the job file.\n\n") +
              exit_codes);
   CommonOptions common;
   Runners runners;
@@ -260,6 +276,7 @@ int run_command_line(int argc, char** argv) {
                           ? &app
                           : app.get_subcommand(command.name.substr(0, blank)); // its order is less
     CLI::App* sub = above->add_subcommand(command.name.substr(blank + 1), command.title);
+    sub->formatter(std::make_shared<HelpFormat>(28));
     sub->footer(footer_of(command));
     if (command.declare) {
       add_common(*sub, common, command.uses);

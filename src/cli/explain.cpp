@@ -59,7 +59,13 @@ int print_toml(const std::string& name) {
   return 0;
 }
 
+std::string what_has_a_name() {
+  return "names: frictab list; frictab explain job for the keys of the job file; topics: " +
+         join(topic_names(), ", ");
+}
+
 int run(const std::string& name, const std::string& job, bool toml, const CommonOptions& common) {
+  if (name.empty()) throw InputError({}, "no NAME is given", what_has_a_name());
   if (toml) return print_toml(name);
   auto explanation = explain(name);
   if (!explanation || !job::literature_text(name).empty()) // a job's own goes before
@@ -67,11 +73,7 @@ int run(const std::string& name, const std::string& job, bool toml, const Common
   if (!explanation) {
     const std::string near = nearest_name(name, explainable());
     throw InputError({}, fmt::format("nothing is called '{}'", name),
-                     near.empty()
-                         ? "names: frictab list; frictab explain job for the keys of the job "
-                           "file; topics: " +
-                               join(topic_names(), ", ")
-                         : fmt::format("did you mean '{}'?", near));
+                     near.empty() ? what_has_a_name() : fmt::format("did you mean '{}'?", near));
   }
   common.json ? print_json(*explanation) : print_explanation(*explanation);
   return 0;
@@ -84,8 +86,7 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
          "A law, an effect, a target, a quantity, `job`, a key such as table.model, or a topic:\n"
          "table-layout, " +
              join(topic_names(), ", "))
-      ->type_name("NAME")
-      ->required();
+      ->type_name("NAME");
   app.add_option("--job", *job,
                  "The job file that a law of your own stands in; job.toml of this directory")
       ->type_name("JOB");

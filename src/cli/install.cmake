@@ -24,7 +24,7 @@ install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # what is packed was built before
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME frictab)
-set(CPACK_PACKAGE_CONTACT "The frictab authors <frictab@invalid>")
+set(CPACK_PACKAGE_CONTACT "The frictab authors") # as CITATION.cff; the project has no address
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "friction laws: tribometer data to FE subroutine")
 set(CPACK_PACKAGE_DESCRIPTION "Calibrates friction laws on tribometer data, tabulates them, writes \
 friction subroutines for finite-element codes and proves how far these are from the law.")

@@ -9,6 +9,7 @@
 #include "codegen/exporter.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/wrapped.h"
 #include "data/quantity.h"
 #include "effects/effect.h"
 #include "job/literature.h"
@@ -74,7 +75,7 @@ void print(const std::vector<Line>& lines) {
     if (line.by_name && !by_name)
       fmt::print("\nwhere models.use names them, as [\"all\", \"{}\"]:\n", line.name);
     by_name = line.by_name;
-    fmt::print("{:<{}}  {}\n", line.name, width, line.title);
+    fmt::print("{:<{}}  {}\n", line.name, width, wrapped(line.title, page_width, width + 2));
   }
 }
 

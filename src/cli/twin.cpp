@@ -105,8 +105,8 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       ->check(CLI::IsMember({"csv", "hdf5"}))
       ->capture_default_str();
   app.add_option("--design", options->design,
-                 "levels and sizes: \"p=1725,1865,2005;psi=1,4.47,20;v=5,50,500;T=20,110,200;"
-                 "replicates=1;points=550;validation=30\", any subset");
+                 "levels and sizes: any of p=1725,1865,2005 psi=1,4.47,20 v=5,50,500 T=20,110,200 "
+                 "replicates=1 points=550 validation=30, as in \"v=5,500;points=100\"");
   app.add_option("--effect", options->effects,
                  "plant an effect (repeatable): form=saturation,column=s_mm,strength=0.15,on=mu; "
                  "on = mu, m or tau; column may be a derived quantity or latent")

@@ -40,9 +40,10 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
       best = candidate;
     }
   }
-  if (best.empty() && name.size() >= 3) // what a person shortens: sigma_n for sigma_n_MPa
+  // What a person shortens is no typing error: tolerance for tolerance_MPa, not for trace.
+  if (name.size() >= 3 && (best.empty() || best_distance > 2))
     for (const std::string& candidate : candidates)
-      if (candidate.rfind(name, 0) == 0) return candidate;
+      if (candidate.starts_with(name)) return candidate;
   return best;
 }
 

@@ -8,9 +8,9 @@
 
 namespace frictab {
 
-// The candidate with the smallest edit distance (transpositions count 1), else the first one that
-// `name` begins, or "" where none is near enough to be a typing error (distance > 1 + a third of
-// the length).
+// The candidate with the smallest edit distance (transpositions count 1), or "" where none is near
+// enough to be a typing error (distance > 1 + a third of the length). Where no one is within 2, the
+// first candidate that `name` begins goes before.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 // "did you mean 'x'?" where one is near; otherwise "known: a, b, c".

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -93,9 +94,21 @@ struct ValueReader {
     } else {
       reader.fault(node.place,
                    fmt::format("unknown {} {} in {}", rule.allowed.noun, quoted(node.text), path),
-                   suggest(node.text, names));
+                   node.text.find(',') == node.text.npos
+                       ? suggest(node.text, names)
+                       : "several are a list: " + as_list(node.text));
     }
     return std::nullopt;
+  }
+
+  // "a,b" of a command line, as a job has it: ["a", "b"].
+  static std::string as_list(const std::string& text) {
+    std::istringstream names(text);
+    std::string list;
+    for (std::string name; std::getline(names, name, ',');)
+      list += (list.empty() ? "" : ", ") +
+              toml_quoted(name.substr(std::min(name.find_first_not_of(' '), name.size())));
+    return "[" + list + "]";
   }
 
   bool is_traced_law(const std::string& text) const {

@@ -15,6 +15,7 @@
 #include "report/judged.h"
 #include "report/numbers.h"
 #include "report/sections.h"
+#include "report/state_plots.h"
 #include "report/svg.h"
 
 namespace frictab::report {
@@ -61,7 +62,7 @@ Curve curve_of(const Dataset& data, std::size_t e, const data::Quantity* over) {
   return curve;
 }
 
-svg::Axis axis_over(const DataPage& page, const std::string& name, std::string label) {
+svg::Axis axis_over(const DataPage& page, const std::string& name) {
   double low = 0, high = 0;
   for (const Dataset* data : {&page.training, &page.validation})
     for (const double value : data->values(name))
@@ -69,7 +70,7 @@ svg::Axis axis_over(const DataPage& page, const std::string& name, std::string l
         low = std::min(low, value);
         high = std::max(high, value);
       }
-  return svg::nice_axis(low, high, 2, std::move(label));
+  return svg::nice_axis(low, high, 2, axis_name(name));
 }
 
 svg::Axis row_axis(const DataPage& page) {
@@ -82,9 +83,8 @@ svg::Axis row_axis(const DataPage& page) {
 
 void add_strokes(TemplateValues& values, const DataPage& page) {
   const data::Quantity* over = abscissa(page.training);
-  const svg::Axis x =
-      over ? axis_over(page, over->name, over->symbol + " in " + over->unit) : row_axis(page);
-  const svg::Axis y = axis_over(page, "tau_R_MPa", "tau_R in MPa");
+  const svg::Axis x = over ? axis_over(page, over->name) : row_axis(page);
+  const svg::Axis y = axis_over(page, "tau_R_MPa");
   const auto add = [&](const Dataset& data, const char* use, const char* colour) {
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
       const Curve curve = curve_of(data, e, over);

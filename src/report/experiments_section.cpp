@@ -119,10 +119,8 @@ void add_experiment_errors(codegen::TemplateValues& page, const ReportInput& inp
   page.text["experiment_colours"] =
       !alike.empty()
           ? alike
-          : fmt::format(
-                "<span style=\"color:{}\">&#9679;</span> held out (disc), <span style=\"color:{}\">"
-                "&#9675;</span> trained on (ring).",
-                held_out_colour, trained_colour);
+          : "<span class=\"held\">&#9679;</span> held out (disc), <span class=\"trained\">"
+            "&#9675;</span> trained on (ring).";
   page.text["held_out_names"] = svg::escape(join(input.calibration.validation_experiments, ", "));
   const svg::Axis errors = axis_of_errors(input, shown);
   std::vector<codegen::TemplateValues>& figures = page.lists["experiment_errors"];

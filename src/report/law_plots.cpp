@@ -201,11 +201,14 @@ LawPlots law_plots(const ReportInput& input, std::size_t law, const PlotFrame& f
 }
 
 std::string plot_legend(const PlotFrame& frame) {
+  const auto begin = [](std::size_t width, const char* what) {
+    return fmt::format("<svg class=\"legend\" width=\"{0}\" viewBox=\"0 0 {0} 46\" role=\"img\" "
+                       "aria-label=\"{1}\"><title>{1}</title>\n",
+                       width, what);
+  };
   const std::size_t n = frame.classes.size();
-  std::string text = fmt::format(
-      "<svg class=\"legend\" viewBox=\"0 0 860 46\" role=\"img\" aria-label=\"colours and lines of "
-      "the plots\"><title>colours and lines of the plots</title>\n"
-      "<text x=\"0\" y=\"14\">rows per cell</text>");
+  std::string text =
+      begin(90 + n * 62, "colours of the plots") + "<text x=\"0\" y=\"14\">rows per cell</text>";
   for (std::size_t c = 0; c < n; ++c) {
     const std::size_t x = 90 + c * 62;
     const std::uint32_t from = frame.classes[c];
@@ -218,9 +221,10 @@ std::string plot_legend(const PlotFrame& frame) {
                         "<text x=\"{}\" y=\"32\" text-anchor=\"middle\">{}</text>",
                         x, svg::class_colour(c, n), x + 31, label);
   }
+  text += "</svg>\n" + begin(240, "lines of the plots");
   const auto sample = [&](int y, const std::string& colour, const char* extra, const char* what) {
-    text += fmt::format("<path fill=\"none\" stroke=\"{}\" {} d=\"M560 {}h34\"/>"
-                        "<text x=\"602\" y=\"{}\">{}</text>",
+    text += fmt::format("<path fill=\"none\" stroke=\"{}\" {} d=\"M0 {}h34\"/>"
+                        "<text x=\"42\" y=\"{}\">{}</text>",
                         colour, extra, y, y + 4, what);
   };
   sample(8, "#111", "stroke-width=\"1.3\"", "measured = predicted; zero");

@@ -79,8 +79,66 @@ void draw_band(svg::Plot& plot, const calibrate::BandCheck& band, const std::vec
   }
 }
 
-std::string level_text(const DrawnLaw& drawn, std::size_t other, double share) {
-  return short_figures(quantile(drawn.sorted[other], share), 3);
+struct Level {
+  double share; // of the rows, which lie below
+  const char* colour;
+  const char* dash;
+  std::string value; // as text
+  std::vector<double> tau;
+};
+
+std::vector<Level> levels_of(const DrawnLaw& drawn, const std::vector<double>& x,
+                             std::size_t other) {
+  std::vector<Level> levels = {{0.1, "#0f766e", "7 3", "", {}},
+                               {0.5, "#c2410c", "", "", {}},
+                               {0.9, "#7e22ce", "1 3", "", {}}};
+  for (Level& level : levels) {
+    level.value = short_figures(quantile(drawn.sorted[other], level.share), 3);
+    level.tau = tau_over(drawn, x, other, level.share);
+  }
+  return levels;
+}
+
+// Of what the caption says of its lines: "409, 432 and 454 (10, 50 and 90 % of the rows lie
+// below)".
+std::string said(const std::vector<Level>& levels) {
+  if (levels.front().value == levels.back().value)
+    return levels.front().value + " (10 to 90 % of the rows)";
+  return fmt::format("{}, {} and {} (10, 50 and 90 % of the rows lie below)", levels[0].value,
+                     levels[1].value, levels[2].value);
+}
+
+double largest_difference(const std::vector<Level>& levels) {
+  double largest = 0;
+  for (std::size_t i = 0; i < levels[0].tau.size(); ++i)
+    largest = std::max({largest, std::abs(levels[0].tau[i] - levels[1].tau[i]),
+                        std::abs(levels[2].tau[i] - levels[1].tau[i])});
+  return largest;
+}
+
+// Draws the median line, and the others where they can be told from it. Returns what is to be said
+// of those that cannot.
+std::string draw_levels(svg::Plot& plot, const std::vector<Level>& levels,
+                        const std::vector<double>& x) {
+  const Level &low = levels[0], &median = levels[1], &high = levels[2];
+  const bool at_low = plot.one_line(low.tau, median.tau),
+             at_high = plot.one_line(high.tau, median.tau);
+  std::vector<svg::EndLabel> names;
+  for (const Level* level : {&low, &high, &median}) {
+    if ((level == &low && at_low) || (level == &high && at_high)) continue;
+    std::string name = level->value;
+    if (level == &median && low.value != high.value && (at_low || at_high))
+      name = (at_low ? low : median).value + " to " + (at_high ? high : median).value;
+    plot.line(x, level->tau, {level->colour, 2.2, level->dash, true});
+    names.push_back({level->tau.back(), name, level->colour});
+  }
+  plot.labels_beside(x.back(), names);
+  if (low.value == high.value || !(at_low || at_high)) return "";
+  if (at_low && at_high)
+    return fmt::format(": one line, the law differs by {} MPa at most",
+                       figures(largest_difference(levels), 2));
+  return fmt::format(": {} and {} are one line", (at_low ? low : median).value,
+                     (at_low ? median : high).value);
 }
 
 codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, std::size_t other,
@@ -92,31 +150,18 @@ codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, s
                                     static_cast<double>(line_points - 1));
   svg::Plot plot(340, 200, x_axis, y_axis);
   draw_rows(plot, input, x_axis, y_axis);
-  draw_band(plot, input.calibration.fits.front().band, x, tau_over(drawn, x, other, 0.5));
-  const bool alone = drawn.sorted.size() == 1;
-  const struct {
-    double share;
-    const char* colour;
-    const char* dash;
-  } levels[] = {{0.1, "#0f766e", "7 3"}, {0.5, "#c2410c", ""}, {0.9, "#7e22ce", "1 3"}};
-  std::vector<svg::EndLabel> names;
-  for (const auto& level : levels) {
-    if (alone && level.share != 0.5) continue;
-    const std::vector<double> tau = tau_over(drawn, x, other, level.share);
-    plot.line(x, tau, {level.colour, 2.2, level.dash, true});
-    names.push_back(
-        {tau.back(), alone ? "law" : level_text(drawn, other, level.share), level.colour});
+  const std::vector<Level> levels = levels_of(drawn, x, other);
+  draw_band(plot, input.calibration.fits.front().band, x, levels[1].tau);
+  std::string what = "sigma_n_MPa alone", lines;
+  if (other == drawn.sigma) {
+    plot.line(x, levels[1].tau, {levels[1].colour, 2.2, "", true});
+  } else {
+    what = drawn.law.inputs[other];
+    lines = " at " + said(levels) + draw_levels(plot, levels, x);
   }
-  plot.labels_apart(x.back(), names);
-  const std::string what = alone ? "sigma_N alone" : drawn.law.inputs[other];
-  const std::string levels_said =
-      alone ? ""
-            : fmt::format(" at {}, {} and {} (10, 50 and 90 % of the rows lie below)",
-                          level_text(drawn, other, 0.1), level_text(drawn, other, 0.5),
-                          level_text(drawn, other, 0.9));
-  return {{{"what", svg::escape(what + levels_said)},
+  return {{{"what", svg::escape(what + lines)},
            {"plot", plot.text(drawn.law.model.law->name + " over contact normal stress, by " + what,
-                              "Lines" + levels_said + "; dotted: the band of experiments")}},
+                              "Lines" + lines + "; dotted: the band of experiments")}},
           {},
           {}};
 }
@@ -138,8 +183,9 @@ void add_law_with_data(codegen::TemplateValues& page, const ReportInput& input) 
   page.flags["has_law_panels"] = true;
   page.text["drawn_law"] = svg::escape(drawn->law.model.law->name);
   page.text["law_link"] = "<a href=\"#law\">The law</a> ";
-  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 5, "\u03C3_N / MPa");
-  const svg::Axis y = svg::nice_axis(std::min(0.0, tau->first), tau->second, 5, "\u03C4_R / MPa");
+  const svg::Axis x = svg::nice_axis(sigma->first, sigma->second, 5, axis_name(abscissa_name));
+  const svg::Axis y =
+      svg::nice_axis(std::min(0.0, tau->first), tau->second, 5, axis_name("tau_R_MPa"));
   for (std::size_t i = 0; i < drawn->sorted.size(); ++i)
     if (i != drawn->sigma && drawn->sorted[i].front() < drawn->sorted[i].back())
       panels.push_back(panel(input, *drawn, i, x, y));

@@ -42,8 +42,8 @@ std::string kind_text(const models::Law& law) {
 }
 
 std::string bar_colour(const models::Law& law) {
-  if (law.calibrated == Calibrated::fixed) return "#9aa4af";
-  return law.calibrated == Calibrated::mean ? "#86b0d6" : "#3f83bd";
+  if (law.calibrated == Calibrated::fixed) return "#7f8a96";
+  return law.calibrated == Calibrated::mean ? "#6595c4" : "#2f6ea6";
 }
 
 // Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
@@ -109,7 +109,7 @@ TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::A
                      floor.mae_interval.low,
                      floor.mae_interval.high,
                      calibration.fits.front().validation.mae_MPa,
-                     "#d6d0b8",
+                     "#9c9268",
                      "noise floor: " + figures(floor.mae_MPa) + " MPa"};
   return {
       {{"name", calibrate::noise_floor_name(floor) + (floor.lower_bound ? ": a lower bound" : "") +

@@ -44,7 +44,7 @@ std::string report_html(const ReportInput& input) {
   page.text["title"] = svg::escape(shown_path(input.title));
   page.text["style"] = std::string(codegen::embedded_template("report/style.css"));
   page.flags["synthetic"] = input.calibration.synthetic;
-  page.text["verdict"] = verdict(input);
+  add_verdict(page, input);
   add_drift_summary(page, input);
   add_ranking(page, input);
   add_comparisons(page, input);

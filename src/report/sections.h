@@ -8,9 +8,7 @@
 
 namespace frictab::report {
 
-// One paragraph (HTML): the best law on unseen experiments, and what the fixed constants give.
-std::string verdict(const ReportInput& input);
-
+void add_verdict(codegen::TemplateValues& page, const ReportInput& input);
 void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input);
 void add_ranking(codegen::TemplateValues& page, const ReportInput& input); // with the plots
 void add_comparisons(codegen::TemplateValues& page, const ReportInput& input);

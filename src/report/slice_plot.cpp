@@ -5,20 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "report/state_plots.h"
 #include "report/svg.h"
 
 namespace frictab::report {
 
 namespace {
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit == "1" ? name : name + ", " + unit;
-}
-
 std::string held_text(const table::Slice& slice) {
   std::string text;
   for (const auto& [name, value] : slice.held)
-    text += fmt::format("{}{} = {:g}", text.empty() ? "at " : ", ", name, value);
+    text += fmt::format("{}{} = {:g}", text.empty() ? "; held: " : ", ", name, value);
   return text;
 }
 
@@ -32,30 +29,53 @@ std::vector<std::size_t> lines_of(const table::Slice& slice) {
   return lines;
 }
 
+// One line, or several that cannot be told apart.
+struct DrawnLine {
+  std::vector<double> y;
+  std::string name;
+};
+
+std::vector<DrawnLine> drawn_lines(const table::Slice& slice, const svg::Plot& plot) {
+  const bool two = slice.along.size() == 2;
+  const std::size_t inner = two ? slice.values[1].size() : 1;
+  std::vector<DrawnLine> drawn;
+  std::string first; // value of the line that is drawn
+  for (const std::size_t line : lines_of(slice)) {
+    std::vector<double> y;
+    for (std::size_t i = 0; i < slice.values[0].size(); ++i)
+      y.push_back(slice.tau_MPa[i * inner + line]);
+    const std::string name = two ? fmt::format("{:.4g}", slice.values[1][line]) : "";
+    if (!drawn.empty() && plot.one_line(drawn.back().y, y)) {
+      drawn.back().name = first + " to " + name;
+      continue;
+    }
+    first = name;
+    drawn.push_back({std::move(y), name});
+  }
+  return drawn;
+}
+
 } // namespace
 
 std::string slice_svg(const table::Slice& slice) {
   const std::vector<double>& x = slice.values[0];
   const auto [low, high] = std::minmax_element(slice.tau_MPa.begin(), slice.tau_MPa.end());
-  const svg::Axis x_axis =
-      svg::nice_axis(x.front(), x.back(), 6, with_unit(slice.along[0], slice.units[0]));
-  svg::Plot plot(560, 360, x_axis, svg::nice_axis(std::min(0.0, *low), *high, 6, "tau_R, MPa"));
+  svg::Plot plot(560, 360, svg::nice_axis(x.front(), x.back(), 6, axis_name(slice.along[0])),
+                 svg::nice_axis(std::min(0.0, *low), *high, 6, axis_name("tau_R_MPa")));
   const bool two = slice.along.size() == 2;
-  const std::size_t inner = two ? slice.values[1].size() : 1;
-  const std::vector<std::size_t> lines = lines_of(slice);
+  const std::vector<DrawnLine> lines = drawn_lines(slice, plot);
+  const std::size_t n = lines.size();
   std::vector<svg::EndLabel> ends;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    std::vector<double> y;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      y.push_back(slice.tau_MPa[i * inner + lines[k]]);
-    const std::string colour = two ? svg::class_colour(k + 1, lines.size() + 1) : "#1d4ed8";
-    plot.line(x, y, {colour, 2, "", false});
-    if (two) ends.push_back({y.back(), fmt::format("{:.4g}", slice.values[1][lines[k]]), colour});
+  for (std::size_t k = 0; k < n; ++k) {
+    // The darker half of the colours: the lighter one is lost on white.
+    const std::string colour = svg::class_colour(n - 1 + k, 2 * n - 1);
+    plot.line(x, lines[k].y, {colour, 2, "", false});
+    if (two) ends.push_back({lines[k].y.back(), lines[k].name, colour});
   }
-  plot.labels_apart(x.back(), ends);
-  const std::string what =
-      slice.model + (two ? ", lines at " + with_unit(slice.along[1], slice.units[1]) : "");
-  return plot.file(what, what + " " + held_text(slice));
+  plot.labels_beside(x.back(), ends);
+  std::string what = slice.model + " over " + slice.along[0];
+  if (two) what += ", lines: " + axis_name(slice.along[1]);
+  return plot.file(what, what + held_text(slice));
 }
 
 } // namespace frictab::report

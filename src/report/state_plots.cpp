@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "data/quantity.h"
 #include "report/svg.h"
 
@@ -22,9 +23,7 @@ std::string residual_over(const std::string& law, const data::Quantity& quantity
                           const PlotFrame& frame) {
   const auto span = span_of(x);
   if (!span) return "";
-  const std::string label =
-      quantity.unit == "1" ? quantity.name : quantity.symbol + " / " + quantity.unit;
-  const svg::Axis axis = svg::nice_axis(span->first, span->second, 3, label);
+  const svg::Axis axis = svg::nice_axis(span->first, span->second, 3, axis_name(quantity.name));
   svg::Axis up = frame.residual;
   up.label = "residual / MPa"; // a longer one has no room
   svg::Plot plot(state_width, state_height, axis, up);
@@ -39,6 +38,17 @@ std::string residual_over(const std::string& law, const data::Quantity& quantity
 }
 
 } // namespace
+
+std::string axis_name(const std::string& column) {
+  const data::Quantity* quantity = data::find_quantity(column);
+  if (!quantity) return column;
+  std::string symbol = quantity->symbol;
+  for (const auto& [name, letter] :
+       {std::pair("sigma", "\u03C3"), std::pair("tau", "\u03C4"), std::pair("psi", "\u03C8")})
+    symbol = replace_all(symbol, name, letter);
+  if (quantity->unit == "1") return symbol;
+  return symbol + " / " + (quantity->unit == "degC" ? "\u00B0C" : quantity->unit);
+}
 
 std::optional<std::pair<double, double>> span_of(std::span<const double> values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -51,7 +51,7 @@ StrokeAxes stroke_axes(const data::Dataset& data) {
     most_rows = std::max(most_rows, static_cast<double>(data.first_row[e + 1] - data.first_row[e]));
   const auto x = axes.over.empty() ? std::pair(0.0, most_rows) : *span_of(data.values(axes.over));
   const auto tau = span_of(data.values("tau_R_MPa")).value_or(std::pair(0.0, 1.0));
-  axes.x = svg::nice_axis(x.first, x.second, 2, axes.over.empty() ? "row" : axes.over);
+  axes.x = svg::nice_axis(x.first, x.second, 2, axes.over.empty() ? "row" : axis_name(axes.over));
   axes.y = svg::nice_axis(std::min(0.0, tau.first), tau.second, 2, "");
   return axes;
 }

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "core/wrapped.h"
 
 namespace frictab::report::svg {
 
@@ -32,13 +34,23 @@ std::string begin_svg(double width, double height, std::string_view css, std::st
   return text;
 }
 
-// Escaped, with the R of "_R", or the N of "_N", as a subscript.
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// Escaped, with what stands behind "_" of a Greek letter as a subscript. Names of columns have
+// marks like these too, and stay as they are.
 std::string axis_label(std::string_view text) {
-  std::string label = escape(text);
-  const std::size_t mark = std::min(label.find("_R"), label.find("_N"));
-  if (mark == std::string::npos) return label;
-  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">" + label[mark + 1] +
-         "</tspan><tspan dy=\"-3\">" + label.substr(mark + 2) + "</tspan>";
+  const std::string label = escape(text);
+  std::size_t mark = label.find('_');
+  while (mark != label.npos && (mark == 0 || static_cast<unsigned char>(label[mark - 1]) < 0x80))
+    mark = label.find('_', mark + 1);
+  if (mark == label.npos) return label;
+  const auto end =
+      std::find_if_not(label.begin() + static_cast<long>(mark) + 1, label.end(), is_letter);
+  return label.substr(0, mark) + "<tspan dy=\"3\" class=\"sub\">" +
+         std::string(label.begin() + static_cast<long>(mark) + 1, end) +
+         "</tspan><tspan dy=\"-3\">" + std::string(end, label.end()) + "</tspan>";
 }
 
 std::string label_at(double x, double y, std::string_view anchor, std::string_view text) {
@@ -245,22 +257,31 @@ void Plot::label(double x, double y, std::string_view text, std::string_view col
                        fits ? "end" : "start", colour, escape(text));
 }
 
-void Plot::labels_apart(double x, std::vector<EndLabel> labels) {
-  constexpr double line = 13;
+bool Plot::one_line(std::span<const double> a, std::span<const double> b) const {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (!(std::abs(pixel_y(a[i]) - pixel_y(b[i])) < 1)) return false;
+  return true;
+}
+
+void Plot::labels_beside(double x, std::vector<EndLabel> labels) {
+  constexpr double line = 13, gap = 10;
   std::stable_sort(labels.begin(), labels.end(),
                    [](const EndLabel& a, const EndLabel& b) { return a.y > b.y; });
   // Down from the top, then up again from the bottom.
   std::vector<double> at;
   for (const EndLabel& label : labels)
-    at.push_back(std::max(pixel_y(label.y) - 3, at.empty() ? line : at.back() + line));
-  double below = height_ - 3 + line;
+    at.push_back(std::max(pixel_y(label.y), at.empty() ? 0 : at.back() + line));
+  double below = height_ + line;
   for (std::size_t i = at.size(); i-- > 0;)
     below = at[i] = std::min(at[i], below - line);
-  for (std::size_t i = 0; i < at.size(); ++i)
-    body_ +=
-        fmt::format("\n<text x=\"{}\" y=\"{}\" text-anchor=\"end\" style=\"fill:{};stroke:#fff;"
-                    "stroke-width:3px;paint-order:stroke\">{}</text>",
-                    pixel(pixel_x(x) - 3), pixel(at[i]), labels[i].colour, escape(labels[i].text));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const EndLabel& label = labels[i];
+    beside_ += fmt::format("\n<path fill=\"none\" stroke=\"{}\" d=\"M{} {}L{} {}\"/>", label.colour,
+                           pixel(left_ + pixel_x(x)), pixel(top + pixel_y(label.y)),
+                           pixel(left_ + width_ + gap), pixel(top + at[i]));
+    beside_ += label_at(left_ + width_ + gap + 3, top + at[i] + 4, "start", label.text);
+    right_ = std::max(right_, gap + 5 + digit * static_cast<double>(characters(label.text)));
+  }
 }
 
 std::string Plot::axes() const {
@@ -290,9 +311,9 @@ std::string Plot::text(std::string_view title, std::string_view description) con
   return begin_svg(left_ + width_ + right_, top + height_ + bottom, "plot", title, description) +
          "\n" + axes() +
          fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</svg>\n"
-                     "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></svg>",
+                     "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>{}</svg>",
                      pixel(left_), pixel(top), pixel(width_), pixel(height_), body_, pixel(left_),
-                     pixel(top), pixel(width_), pixel(height_));
+                     pixel(top), pixel(width_), pixel(height_), beside_);
 }
 
 std::string Plot::file(std::string_view title, std::string_view caption) const {
@@ -300,15 +321,20 @@ std::string Plot::file(std::string_view title, std::string_view caption) const {
       "text{font:11px sans-serif;fill:#2b333d}.label{font-size:12px;fill:#111}.sub{font-size:9px}"
       ".grid{stroke:#dfe4e9;stroke-width:1;fill:none}"
       ".frame{stroke:#6b7580;stroke-width:1;fill:none}";
-  constexpr double above = 22; // the caption
-  const std::string width = pixel(left_ + width_ + right_);
-  const double height = top + height_ + bottom;
+  constexpr double line = 15;
+  const double width = left_ + width_ + right_, height = top + height_ + bottom;
+  std::istringstream lines(
+      wrapped(std::string(caption), static_cast<std::size_t>((width - 16) / digit), 0));
+  std::string above;
+  double y = 0;
+  for (std::string text; std::getline(lines, text);)
+    above += label_at(8, y += line, "start", text) + "\n";
+  y += 7;
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                      "style=\"background:#fff\">\n<style>{2}</style>\n"
-                     "<text x=\"8\" y=\"15\">{3}</text>\n<svg y=\"{4}\" width=\"{0}\" "
-                     "height=\"{5}\"{6}</svg>\n",
-                     width, pixel(height + above), style, escape(caption), pixel(above),
-                     pixel(height), text(title, caption).substr(4));
+                     "{3}<svg y=\"{4}\" width=\"{0}\" height=\"{5}\"{6}</svg>\n",
+                     pixel(width), pixel(height + y), style, above, pixel(y), pixel(height),
+                     text(title, caption).substr(4));
 }
 
 std::string bar(const Bar& b, const Axis& axis, double width, double height) {

@@ -24,7 +24,7 @@ struct Axis {
   double high = 1;
   std::vector<double> ticks;
   int decimals = 0;  // of the ticks' labels
-  std::string label; // "_R" is set as a subscript
+  std::string label; // letters behind "_" are a subscript to a Greek one: "\u03C4_R / MPa"
 };
 
 // low and high are moved outwards to ticks, about `wanted` of them. Values that are not finite, or
@@ -60,7 +60,7 @@ struct Stroke {
   bool halo = false; // white edge, to be seen on dark cells
 };
 
-// The name of a line, at its end.
+// The name of a line, and where the line ends.
 struct EndLabel {
   double y = 0;
   std::string text;
@@ -88,13 +88,17 @@ public:
   // one that would not fit there starts at the point.
   void label(double x, double y, std::string_view text, std::string_view colour);
 
-  // Labels at one abscissa, moved up and down until none covers another: a line of text each, in
-  // the order of their y, inside the drawing area as far as it has room for them. White edge.
-  void labels_apart(double x, std::vector<EndLabel> labels);
+  // Whether two lines at the same x could not be told apart: nowhere a pixel from each other.
+  bool one_line(std::span<const double> a, std::span<const double> b) const;
+
+  // Names of lines that end at x, in a column beside the drawing area in the order of their ends,
+  // moved up and down until none covers another; a thin line leads from each end to its name.
+  void labels_beside(double x, std::vector<EndLabel> labels);
 
   // A figure with <title> and <desc> for those who cannot see it.
   std::string text(std::string_view title, std::string_view description) const;
-  // The same as a file of its own: name space, looks, white ground, the caption above it.
+  // The same as a file of its own: name space, looks, white ground, the caption above it in as many
+  // lines as it takes.
   std::string file(std::string_view title, std::string_view caption) const;
 
 private:
@@ -105,7 +109,8 @@ private:
   double width_, height_;
   Axis x_, y_;
   double left_, right_; // margins
-  std::string body_;
+  std::string body_;    // within the drawing area
+  std::string beside_;  // on its right
 };
 
 // One value with its interval as a horizontal bar on 0..axis.high. Longer bars are cut, with a mark

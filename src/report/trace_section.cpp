@@ -9,6 +9,7 @@
 #include "report/law_plots.h"
 #include "report/numbers.h"
 #include "report/sections.h"
+#include "report/state_plots.h"
 #include "trace/trace_text.h"
 
 namespace frictab::report {
@@ -117,7 +118,7 @@ std::string effect_plots(const ReportInput& input, const trace::Trace& trace,
   const auto r0 = residuals(measured, input.predicted[before]);
   const auto r1 = residuals(measured, input.predicted[after]);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  std::string label = input_of_effect.column;
+  std::string label = axis_name(input_of_effect.column);
   if (effect.placed.form->categorical)
     label += " (0 = " + join(input_of_effect.levels, ", ...") + ")";
   const svg::Axis x_axis = svg::nice_axis(std::min(*low, input_of_effect.low),

@@ -1,4 +1,4 @@
-// The page's first paragraph: what came out, in plain words.
+// The page's first lines: what came out, in plain words.
 #include <algorithm>
 #include <cmath>
 
@@ -46,7 +46,7 @@ std::string choice_sentences(const calibrate::Calibration& calibration) {
   const calibrate::Choice& choice = calibration.choice;
   if (choice.draws == 0) return "";
   return fmt::format(
-      " Chosen by these very tests: {}; {}.",
+      "Chosen by these very tests: {}; {}.",
       svg::escape(calibrate::expectation_sentence(choice, error_decimals(calibration))),
       svg::escape(calibrate::share_sentence(choice)));
 }
@@ -54,7 +54,7 @@ std::string choice_sentences(const calibrate::Calibration& calibration) {
 std::string comparison_sentences(const calibrate::Calibration& calibration) {
   const calibrate::Comparisons& c = calibration.comparisons;
   if (c.laws.size() < 2) return "";
-  return fmt::format(" Pair by pair, {}; {}.", svg::escape(calibrate::pairwise_sentence(c)),
+  return fmt::format("Pair by pair, {}; {}.", svg::escape(calibrate::pairwise_sentence(c)),
                      svg::escape(calibrate::family_sentence(c)));
 }
 
@@ -62,7 +62,7 @@ std::string floor_sentence(const calibrate::Calibration& calibration) {
   const std::string advice = calibrate::noise_floor_advice(calibration);
   std::string text = calibrate::noise_floor_sentence(calibration, error_decimals(calibration));
   text.front() = 'N';
-  return " " + text + (advice.empty() ? "." : "; " + advice + ".");
+  return text + (advice.empty() ? "." : "; " + advice + ".");
 }
 
 std::string literature_sentence(const calibrate::Calibration& calibration) {
@@ -72,10 +72,10 @@ std::string literature_sentence(const calibrate::Calibration& calibration) {
   const std::string low = figures(span->low), high = figures(span->high);
   const double ratio = span->low / calibration.fits.front().validation.mae_MPa;
   std::string text =
-      low == high ? fmt::format(" The fixed constant of the literature ({}) is off by {} MPa",
-                                svg::escape(best->model.law->name), low)
-                  : fmt::format(" The fixed constants of the literature are off by {} to {} MPa",
-                                low, high);
+      low == high
+          ? fmt::format("The fixed constant of the literature ({}) is off by {} MPa",
+                        svg::escape(best->model.law->name), low)
+          : fmt::format("The fixed constants of the literature are off by {} to {} MPa", low, high);
   if (std::isfinite(ratio))
     text += fmt::format(": even the best of them ({}) by {} times as much",
                         svg::escape(best->model.law->name), figures(ratio, 2));
@@ -114,12 +114,16 @@ std::string group_sentence(const Group& group, const std::string& noun) {
 
 } // namespace
 
-std::string verdict(const ReportInput& input) {
+void add_verdict(codegen::TemplateValues& page, const ReportInput& input) {
   const calibrate::Calibration& calibration = input.calibration;
-  if (calibration.fits.empty()) return "No law was calibrated.";
-  return best_sentence(calibration) + choice_sentences(calibration) +
-         comparison_sentences(calibration) + floor_sentence(calibration) +
-         literature_sentence(calibration);
+  std::vector<codegen::TemplateValues>& findings = page.lists["findings"];
+  page.text["verdict"] = "No law was calibrated.";
+  page.flags["has_findings"] = !calibration.fits.empty();
+  if (calibration.fits.empty()) return;
+  page.text["verdict"] = best_sentence(calibration);
+  for (const std::string& text : {choice_sentences(calibration), comparison_sentences(calibration),
+                                  floor_sentence(calibration), literature_sentence(calibration)})
+    if (!text.empty()) findings.push_back({{{"text", text}}, {}, {}});
 }
 
 void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) {

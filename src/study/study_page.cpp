@@ -91,7 +91,7 @@ std::string share_bar(const std::string& name, const LawTally& law, const svg::A
   const std::string text =
       fmt::format("{}: {} %, 95 % interval {} to {} %", name, report::fixed(share, 0),
                   report::fixed(100 * interval.low, 0), report::fixed(100 * interval.high, 0));
-  const svg::Bar bar{share, 100 * interval.low, 100 * interval.high, no_value, "#86b0d6", text};
+  const svg::Bar bar{share, 100 * interval.low, 100 * interval.high, no_value, "#6595c4", text};
   return svg::bar(bar, axis, bar_width, bar_height);
 }
 

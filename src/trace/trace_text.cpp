@@ -108,7 +108,7 @@ void add_effect(std::string& out, const TracedEffect& e) {
   if (!same.empty())
     out += fmt::format("      these experiments cannot tell it from: {}\n", join(same, ", "));
   if (belongs_to_the_experiment(e))
-    out += fmt::format("      no simulation has a {}: it is a property or constant of routines; "
+    out += fmt::format("      no simulation has {}: it is a property or constant of routines; "
                        "[trace] ignore leaves it out\n",
                        e.derived);
   out += design_lines(e.design, "      ");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "core/text.h"
 #include "io/atomic_file.h"
 #include "support/small_campaign.h"
 
@@ -38,6 +39,33 @@ TEST(CommandLine, HelpIsThatOfTheOption) {
   EXPECT_EQ(wrong.err, "error: there is no help on 'tabel'\n  hint: did you mean 'table'?\n");
 }
 
+TEST(CommandLine, WithoutACommandSaysHowToBegin) {
+  const CommandResult bare = run_frictab({});
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_THAT(bare.err, StartsWith("error: no command is given\n  hint: frictab help lists them"));
+  EXPECT_EQ(run_frictab({"table"}).err, "error: frictab table needs a command\n"
+                                        "  hint: one of info, slice, diff, convert\n");
+  EXPECT_THAT(run_frictab({"explain"}).err,
+              StartsWith("error: no NAME is given\n  hint: names: frictab list; "));
+}
+
+TEST(CommandLine, HelpFits80Columns) {
+  std::vector<std::vector<std::string>> all{{"help"}, {"list"}, {"explain", "job"}};
+  for (const cli::Command& command : Registry<cli::Command>::instance().all()) {
+    std::istringstream words("help " + command.name);
+    all.push_back({std::istream_iterator<std::string>(words), {}});
+  }
+  for (const std::vector<std::string>& arguments : all) {
+    std::istringstream lines(out_of(arguments));
+    for (std::string line; std::getline(lines, line);) {
+      const bool stays_whole = line.starts_with("  frictab ") || line.starts_with("Usage: ");
+      if (!stays_whole) {
+        EXPECT_LE(characters(line), 80u) << line;
+      }
+    }
+  }
+}
+
 TEST(CommandLine, BothOptionsTellTheVersion) {
   EXPECT_EQ(out_of({"-V"}), out_of({"--version"}));
 }
@@ -56,6 +84,8 @@ TEST(CommandLine, ExplainKnowsTopicsAndLastPartsOfKeys) {
   EXPECT_THAT(out_of({"explain", "units"}), HasSubstr("[MPa] contact normal stress"));
   EXPECT_THAT(out_of({"explain", "csv"}), HasSubstr("delimiter"));
   EXPECT_EQ(out_of({"explain", "tolerance_MPa"}), out_of({"explain", "table.tolerance_MPa"}));
+  EXPECT_THAT(run_frictab({"explain", "tolerance"}).err,
+              HasSubstr("did you mean 'tolerance_MPa'?"));
   EXPECT_THAT(out_of({"explain", "range"}),
               AllOf(HasSubstr("table.range\n"), HasSubstr("table.axes.*.range\n")));
 }

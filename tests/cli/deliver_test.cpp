@@ -100,9 +100,9 @@ TEST_F(DeliveredLaws, AreAnotherKeyThanAnyOther) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("job.toml:7:11: error: calibration.deliver must be "
                                     "\"training\" or \"all\", not the text \"everything\"\n"));
-  EXPECT_THAT(
-      run({"explain", "calibration.deliver"}).out,
-      HasSubstr("all =\n  the laws fitted again to training and validation experiments together"));
+  EXPECT_THAT(run({"explain", "calibration.deliver"}).out,
+              HasSubstr("all = the laws fitted again to training and validation\n"
+                        "  experiments together"));
 }
 
 struct SlowDeliveredLaws : DeliveredLaws {};

@@ -110,8 +110,8 @@ TEST(ExplainCommand, ShowsALaw) {
 TEST(ExplainCommand, ShowsAJobKeyWithItsDefault) {
   EXPECT_EQ(run_frictab({"explain", "table.tolerance_MPa"}).out,
             "table.tolerance_MPa (job key)\n"
-            "  largest drift of the table from its law, anywhere in the range; the grid is made to "
-            "fit it\n"
+            "  largest drift of the table from its law, anywhere in the range; the grid is\n"
+            "  made to fit it\n"
             "  value:    a number > 0\n"
             "  default:  0.5\n");
   EXPECT_THAT(run_frictab({"explain", "table.axes.psi.nodes"}).out,

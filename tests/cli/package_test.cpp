@@ -68,6 +68,7 @@ TEST(SlowPackage, InstalledOrUnpackedIsAWholeProgramThatNamesItsLibraries) {
     EXPECT_THAT(depends, HasSubstr(library));
   EXPECT_THAT(run_command({"dpkg-deb", "-f", package, "Package", "Version"}).out,
               ContainsRegex("Package: frictab\nVersion: 0\\.1\\.0"));
+  EXPECT_EQ(run_command({"dpkg-deb", "-f", package, "Maintainer"}).out, "The frictab authors\n");
 }
 
 // The Dockerfile is not run here: no test has a daemon. Its steps are those of .ci/build.

@@ -136,14 +136,17 @@ TEST_F(TableCommand, SliceIsDrawnAsAFigureThatStandsAlone) {
             "");
   const std::string svg = directory.read("s.svg");
   EXPECT_THAT(svg, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" "));
-  EXPECT_THAT(svg, HasSubstr("small, lines at v_rel_mm_s, mm/s at sigma_f_MPa = 400, "
+  EXPECT_THAT(svg, HasSubstr("small over psi, lines: v_rel / mm/s; held: sigma_f_MPa = 400, "
                              "sigma_n_MPa = 1000</text>\n"));
   EXPECT_THAT(svg, testing::EndsWith("</svg></svg>\n"));
-  std::size_t lines = 0;
-  for (std::size_t at = svg.find("<path fill=\"none\""); at != svg.npos;
-       at = svg.find("<path fill=\"none\"", at + 1))
-    ++lines;
-  EXPECT_EQ(lines, 7U);
+  const auto count = [&svg](const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = svg.find(what); at != svg.npos; at = svg.find(what, at + 1))
+      ++n;
+    return n;
+  };
+  EXPECT_EQ(count("stroke-width=\"2\" d=\"M0 "), 7U); // lines, each with its name beside it
+  EXPECT_EQ(count(" d=\"M618 "), 7U);
 }
 
 TEST_F(TableCommand, SliceNamesWhatIsMissingUnknownOrOutside) {

@@ -45,9 +45,10 @@ TEST_F(SlowTableLaw, GoesTheWholeWayToEveryTarget) {
   EXPECT_EQ(fit().at("termination"), "not calibrated");
   EXPECT_THAT(directory.read("out/models/paper.json"), HasSubstr("minimum(maximum(v_rel_mm_s, "));
   const CommandResult explained = frictab({"explain", "paper", "--job", "job.toml"});
-  EXPECT_THAT(explained.out, HasSubstr("mu of paper.csv, linear between its nodes\n"));
-  EXPECT_THAT(explained.out, HasSubstr(" over v_rel_mm_s (log, 4 nodes), psi (linear, 3 nodes), "
-                                       "held at their ends\n"));
+  EXPECT_THAT(explained.out, HasSubstr("value = mu of paper.csv, linear\n"
+                                       "                between its nodes over v_rel_mm_s (log, 4 "
+                                       "nodes), psi (linear, 3\n"
+                                       "                nodes), held at their ends\n"));
   EXPECT_THAT(explained.out, HasSubstr("no: a table, taken as it is"));
 
   for (const char* form : {"table", "direct"}) {

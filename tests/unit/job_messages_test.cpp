@@ -328,6 +328,10 @@ TEST(JobMessages, NameTheNearestLawTargetAndQuantity) {
                  "use = \"coulom\""),
             "job.toml:4:7: error: unknown friction law 'coulom' in models.use\n"
             "  hint: did you mean 'coulomb'?");
+  EXPECT_EQ(with("[models]\n"
+                 "use = \"coulomb, shaw\""),
+            "job.toml:4:7: error: unknown friction law 'coulomb, shaw' in models.use\n"
+            "  hint: several are a list: [\"coulomb\", \"shaw\"]");
   EXPECT_EQ(with("[export]\n"
                  "targets = [\"c\", \"abaqus_vfrik\"]"),
             "job.toml:4:17: error: unknown target 'abaqus_vfrik' in export.targets\n"

@@ -8,6 +8,7 @@
 
 #include "report/law_plots.h"
 #include "report/numbers.h"
+#include "report/slice_plot.h"
 #include "report/svg.h"
 
 namespace frictab::report_svg_test {
@@ -107,20 +108,116 @@ TEST(Svg, PlotIsWellFormedAndDescribesItself) {
   EXPECT_THAT(text, HasSubstr("x &amp; y"));
 }
 
-TEST(Svg, LabelsOfLinesThatEndTogetherStandApart) {
+TEST(Svg, LabelsOfLinesThatEndTogetherStandApartBesideThePlot) {
   svg::Plot plot(200, 100, svg::nice_axis(0, 1, 2, ""), svg::nice_axis(0, 10, 2, ""));
-  plot.labels_apart(1,
-                    {{5, "a", "#111"}, {5.01, "b", "#111"}, {4.9, "c", "#111"}, {0, "d", "#111"}});
+  plot.labels_beside(
+      1, {{5, "a", "#111"}, {5.01, "b", "#111"}, {4.9, "c", "#111"}, {0, "1234567", "#111"}});
   const std::string text = plot.text("t", "");
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(text.c_str())) << text;
   std::vector<double> heights;
-  for (const char* name : {"b", "a", "c", "d"}) { // from the top
-    const std::size_t end = text.find(">" + std::string(name) + "</text>");
-    ASSERT_NE(end, text.npos);
-    heights.push_back(std::stod(text.substr(text.rfind(" y=\"", end) + 4)));
+  double right = 0;
+  for (const char* name : {"b", "a", "c", "1234567"}) { // from the top
+    const pugi::xml_node label = document.child("svg").find_child(
+        [&](pugi::xml_node n) { return n.text().get() == std::string(name); });
+    ASSERT_TRUE(label) << name;
+    heights.push_back(label.attribute("y").as_double());
+    right = label.attribute("x").as_double();
   }
   for (std::size_t i = 1; i < heights.size(); ++i)
     EXPECT_GE(heights[i] - heights[i - 1], 12.9);
-  EXPECT_LE(heights.back(), 100);
+  const double left = 58, top = 10; // of the drawing area
+  EXPECT_LE(heights.back(), top + 100 + 4);
+  EXPECT_GT(right, left + 200);
+  const std::string box = document.child("svg").attribute("viewBox").value();
+  EXPECT_GE(std::stod(box.substr(4)), right + 7 * 6); // there is room for the longest
+  EXPECT_THAT(text, HasSubstr("M258 60L268 "));       // from the end of the line at 5
+}
+
+TEST(Svg, LettersBehindAGreekOneAreASubscriptAndNamesOfColumnsAreNot) {
+  const auto labelled = [](const char* label) {
+    return svg::Plot(100, 50, svg::nice_axis(0, 1, 2, label), svg::nice_axis(0, 1, 2, ""))
+        .text("t", "");
+  };
+  EXPECT_THAT(
+      labelled("predicted \u03C4_R / MPa"),
+      HasSubstr("\u03C4<tspan dy=\"3\" class=\"sub\">R</tspan><tspan dy=\"-3\"> / MPa</tspan>"));
+  EXPECT_THAT(labelled("Track_Ra_um"), HasSubstr(">Track_Ra_um</text>"));
+}
+
+TEST(Svg, LinesAreOneWhereNoPixelIsBetweenThem) {
+  const svg::Plot plot(200, 100, svg::nice_axis(0, 1, 2, ""), svg::nice_axis(0, 10, 2, ""));
+  const std::vector<double> a{1, 2, 3}, near{1.05, 2, 2.95}, apart{1, 2, 3.2},
+      none{1, 2, std::nan("")};
+  EXPECT_TRUE(plot.one_line(a, near));
+  EXPECT_FALSE(plot.one_line(a, apart));
+  EXPECT_FALSE(plot.one_line(a, none));
+}
+
+TEST(Svg, AFileHasItsWholeCaption) {
+  const svg::Plot plot(100, 50, svg::nice_axis(0, 1, 2, ""), svg::nice_axis(0, 1, 2, ""));
+  std::string caption = "law over sigma_n_MPa; held:";
+  for (int i = 0; i < 12; ++i)
+    caption += " state_" + std::to_string(i) + " = 1234,";
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(plot.file("t", caption).c_str()));
+  std::string lines;
+  const pugi::xml_node root = document.child("svg");
+  for (const pugi::xml_node line : root.children("text")) {
+    const std::string text = line.text().get();
+    EXPECT_LE(6.2 * static_cast<double>(text.size()), root.attribute("width").as_double());
+    EXPECT_LT(line.attribute("y").as_double(), root.child("svg").attribute("y").as_double());
+    lines += (lines.empty() ? "" : " ") + text;
+  }
+  EXPECT_EQ(lines, caption);
+}
+
+// WCAG 2: contrast of "#rrggbb" on white.
+double contrast_on_white(const std::string& colour) {
+  double luminance = 0;
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double part = std::stoi(colour.substr(1 + 2 * c, 2), nullptr, 16) / 255.0;
+    luminance +=
+        weights[c] * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return 1.05 / (luminance + 0.05);
+}
+
+// tau_R of four values of psi, the last two of which make no difference.
+table::Slice slice_over_psi() {
+  table::Slice slice;
+  slice.model = "law";
+  slice.along = {"sigma_n_MPa", "psi"};
+  slice.units = {"MPa", "1"};
+  slice.held = {{"T_contact_C", 100}};
+  slice.values = {{500, 1000, 2000}, {1, 2, 4, 5}};
+  for (const double sigma : slice.values[0])
+    for (const double factor : {0.05, 0.06, 0.08, 0.08001})
+      slice.tau_MPa.push_back(factor * sigma);
+  return slice;
+}
+
+TEST(SlicePlot, NamesEachLineAndThoseThatAreOneOnce) {
+  const std::string text = report::slice_svg(slice_over_psi());
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(text.c_str())) << text;
+  for (const char* part :
+       {">1</text>", ">2</text>", ">4 to 5</text>",
+        ">law over sigma_n_MPa, lines: \u03C8; held: T_contact_C = 100</text>", "\u03C3<tspan"})
+    EXPECT_THAT(text, HasSubstr(part));
+  std::size_t lines = 0;
+  for (std::size_t at = 0; (at = text.find("stroke-width=\"2\"", at)) != text.npos; ++at)
+    ++lines;
+  EXPECT_EQ(lines, 3u);
+}
+
+TEST(SlicePlot, DrawsNoLineThatIsLostOnWhite) {
+  const std::string text = report::slice_svg(slice_over_psi());
+  std::size_t seen = 0;
+  for (std::size_t at = 0; (at = text.find("stroke=\"#", at)) != text.npos; ++at, ++seen)
+    EXPECT_GE(contrast_on_white(text.substr(at + 8, 7)), 3) << text.substr(at, 16);
+  EXPECT_GE(seen, 6u); // three lines, and what leads to their names
 }
 
 TEST(Svg, NeighbouringCellsOfAClassAreOneRectangle) {

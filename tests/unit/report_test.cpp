@@ -177,6 +177,67 @@ TEST(Report, ShowsEveryStrokeMeasuredAndPredicted) {
     EXPECT_THAT(page, HasSubstr("aria-label=\"test " + std::string(test) + "\""));
 }
 
+// Three laws: the first two alike, the third worse.
+calibrate::Comparisons three_laws() {
+  calibrate::Comparisons c;
+  c.laws = {"a<b", "b", "c"};
+  c.best_p_values = {1, 0.3, 0.0001};
+  c.n_experiments = 30;
+  c.resamples = 1000;
+  c.pairs = {{"a<b", "b", {1, {-1, 3}, 0.3}, {2, {-2, 6}, 0.4}},
+             {"a<b", "c", {9, {7, 11}, 0.0001}, {10, {8, 12}, 0.02}},
+             {"b", "c", {8, {6, 10}, 0.04}, {8, {5, 11}, 0.001}}};
+  return c;
+}
+
+// Orowan's law over stresses of 500 to 2000 MPa, with flow stresses around 500 MPa.
+ReportSample orowan_sample(double m, double flow_stress_span) {
+  ReportSample sample = report_sample(1, 4, 100);
+  ModelFit& fit = sample.calibration.fits[0];
+  fit.model.law = models::held_law(*models::find_law("orowan"));
+  fit.model.parameters = {0.1, m};
+  fit.std_error = {0.01, 0.01};
+  data::Column flow_stress{"sigma_f_MPa", "MPa", {}, {}};
+  for (std::size_t i = 0; i < sample.validation.rows(); ++i)
+    flow_stress.values.push_back(500 + flow_stress_span * static_cast<double>(i % 10) / 9);
+  sample.validation.columns.push_back(flow_stress);
+  return sample;
+}
+
+TEST(Report, DrawsLinesOfALawThatCannotBeToldApartOnce) {
+  const std::string apart = report_html(orowan_sample(0.3, 100).input());
+  EXPECT_EQ(xml_fault(apart), "");
+  EXPECT_THAT(apart, HasSubstr("<p>sigma_f_MPa at 510, 550 and 590 (10, 50 and 90 % of the rows"));
+  EXPECT_THAT(apart, HasSubstr(">590</text>"));
+  // mu sigma_N stays below m k: the flow stress makes no difference.
+  const std::string one = report_html(orowan_sample(1, 100).input());
+  EXPECT_THAT(one,
+              HasSubstr("(10, 50 and 90 % of the rows lie below): one line, the law differs by "
+                        "0 MPa at most"));
+  EXPECT_THAT(one, HasSubstr(">510 to 590</text>"));
+  EXPECT_THAT(one, Not(HasSubstr("stroke=\"#7e22ce\"")));
+  // Nothing but the contact normal stress varies.
+  const std::string alone = report_html(orowan_sample(0.3, 0).input());
+  EXPECT_THAT(alone, HasSubstr("<p>sigma_n_MPa alone</p>"));
+  EXPECT_THAT(alone, Not(HasSubstr("stroke=\"#7e22ce\"")));
+}
+
+TEST(Report, NamesAxesByTheirSymbolsAndUnits) {
+  const std::string page = report_html(report_sample(2, 4, 100).input());
+  EXPECT_THAT(page,
+              HasSubstr("\u03C3<tspan dy=\"3\" class=\"sub\">N</tspan><tspan dy=\"-3\"> / MPa"));
+}
+
+TEST(Report, SaysTheBestLawFirstAndEachFindingInALineOfItsOwn) {
+  ReportSample sample = report_sample(3, 4, 50);
+  sample.calibration.comparisons = three_laws();
+  const std::string page = report_html(sample.input());
+  EXPECT_THAT(page, testing::ContainsRegex(
+                        "<p class=\"verdict\">On 4 experiments[^\n]*MPa\\).</p>\n<ul class"));
+  EXPECT_THAT(page, HasSubstr("\n<li>Pair by pair, "));
+  EXPECT_THAT(page, HasSubstr("\n<li>Noise floor unknown"));
+}
+
 TEST(Report, LinksToItsFilesWithWhatAUrlReservesWrittenOut) {
   ReportSample sample = report_sample(1, 2, 30);
   sample.files = {"models/a b#1.json"};
@@ -383,19 +444,6 @@ TEST(Benchmark, IsThisTextForTwoLaws) {
           "| of these, the Coulomb constant of the abstract | 51.38 | 26.3 (coulomb_0.08) |\n"
           "| calibrated constants | 12 to 15 | \u2013 |\n"
           "| neural network | 9.35 | \u2013 |\n");
-}
-
-// Three laws: the first two alike, the third worse.
-calibrate::Comparisons three_laws() {
-  calibrate::Comparisons c;
-  c.laws = {"a<b", "b", "c"};
-  c.best_p_values = {1, 0.3, 0.0001};
-  c.n_experiments = 30;
-  c.resamples = 1000;
-  c.pairs = {{"a<b", "b", {1, {-1, 3}, 0.3}, {2, {-2, 6}, 0.4}},
-             {"a<b", "c", {9, {7, 11}, 0.0001}, {10, {8, 12}, 0.02}},
-             {"b", "c", {8, {6, 10}, 0.04}, {8, {5, 11}, 0.001}}};
-  return c;
 }
 
 TEST(Report, ShowsAllPairsAsATriangleWithTheirShades) {

@@ -1,0 +1,57 @@
+// Help in 80 columns: descriptions are broken at blanks, and go on below themselves.
+#pragma once
+
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "core/wrapped.h"
+
+namespace frictab::cli {
+
+class HelpFormat : public CLI::Formatter {
+public:
+  // `names`: columns of the names on the left.
+  explicit HelpFormat(std::size_t names) { column_width(names); }
+
+  std::string make_option(const CLI::Option* option, bool by_place) const override {
+    return line(make_option_name(option, by_place) + make_option_opts(option),
+                make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return line(command->get_display_name(true), command->get_description());
+  }
+  // The library says "--no-progress{false}".
+  std::string make_option_name(const CLI::Option* option, bool by_place) const override {
+    return replace_all(CLI::Formatter::make_option_name(option, by_place), "{false}", "");
+  }
+  std::string make_footer(const CLI::App* command) const override {
+    std::istringstream lines(command->get_footer());
+    std::string out;
+    for (std::string text; std::getline(lines, text);)
+      out += footer_line(text) + "\n";
+    return out;
+  }
+
+private:
+  std::string line(const std::string& name, const std::string& description) const {
+    const std::size_t indent = get_column_width();
+    std::string text = "  " + name;
+    text = characters(text) + 2 > indent ? text + "\n" + std::string(indent, ' ')
+                                         : fmt::format("{:<{}}", text, indent);
+    return text + wrapped(description, page_width, indent) + "\n";
+  }
+  // What an example does stands above it where both have no room in a line.
+  static std::string footer_line(const std::string& text) {
+    if (characters(text) <= page_width) return text;
+    const std::size_t mark = text.find("  # ");
+    if (mark == text.npos) return wrapped(text, page_width, 0);
+    return text.substr(mark) + "\n" + text.substr(0, text.find_last_not_of(' ', mark) + 1);
+  }
+};
+
+} // namespace frictab::cli
