@@ -1,6 +1,7 @@
 // report.html: one page, well-formed, self-contained, safe, the same bytes each time.
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include <gmock/gmock.h>
 #include <pugixml.hpp>
@@ -226,6 +227,20 @@ TEST(Report, NamesAxesByTheirSymbolsAndUnits) {
   const std::string page = report_html(report_sample(2, 4, 100).input());
   EXPECT_THAT(page,
               HasSubstr("\u03C3<tspan dy=\"3\" class=\"sub\">N</tspan><tspan dy=\"-3\"> / MPa"));
+}
+
+TEST(Report, MenuFollowsTheOrderOfThePage) {
+  const std::string page = report_html(orowan_sample(0.3, 100).input());
+  const std::string menu = page.substr(page.find("<nav"), page.find("</nav>") - page.find("<nav"));
+  const std::regex link("href=\"#([a-z]+)\"");
+  std::size_t last = 0, links = 0;
+  for (std::sregex_iterator at(menu.begin(), menu.end(), link), end; at != end; ++at, ++links) {
+    const std::size_t section = page.find("<section id=\"" + at->str(1) + "\"");
+    EXPECT_NE(section, page.npos) << at->str(1);
+    EXPECT_GT(section, last) << at->str(1);
+    last = section;
+  }
+  EXPECT_GT(links, 8u);
 }
 
 TEST(Report, SaysTheBestLawFirstAndEachFindingInALineOfItsOwn) {
