@@ -47,7 +47,9 @@ std::string axis_name(const std::string& column) {
        {std::pair("sigma", "\u03C3"), std::pair("tau", "\u03C4"), std::pair("psi", "\u03C8")})
     symbol = replace_all(symbol, name, letter);
   if (quantity->unit == "1") return symbol;
-  return symbol + " / " + (quantity->unit == "degC" ? "\u00B0C" : quantity->unit);
+  if (quantity->unit == "degC") return symbol + " / \u00B0C";
+  const bool fraction = quantity->unit.find('/') != std::string::npos;
+  return symbol + " / " + (fraction ? "(" + quantity->unit + ")" : quantity->unit);
 }
 
 std::optional<std::pair<double, double>> span_of(std::span<const double> values) {

@@ -38,13 +38,21 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Escaped, with what stands behind "_" of a Greek letter as a subscript. Names of columns have
-// marks like these too, and stay as they are.
-std::string axis_label(std::string_view text) {
-  const std::string label = escape(text);
+// Where the subscript of a symbol begins: "_" behind a Greek letter, or behind one letter at the
+// start of a label with a unit. Names of columns have marks like these too, and stay as they are.
+std::size_t subscript_mark(const std::string& label) {
+  if (label.size() > 1 && label[1] == '_' && is_letter(label[0]) && label.find(" / ") != label.npos)
+    return 1;
   std::size_t mark = label.find('_');
   while (mark != label.npos && (mark == 0 || static_cast<unsigned char>(label[mark - 1]) < 0x80))
     mark = label.find('_', mark + 1);
+  return mark;
+}
+
+// Escaped, with subscripts.
+std::string axis_label(std::string_view text) {
+  const std::string label = escape(text);
+  const std::size_t mark = subscript_mark(label);
   if (mark == label.npos) return label;
   const auto end =
       std::find_if_not(label.begin() + static_cast<long>(mark) + 1, label.end(), is_letter);

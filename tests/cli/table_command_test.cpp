@@ -136,8 +136,8 @@ TEST_F(TableCommand, SliceIsDrawnAsAFigureThatStandsAlone) {
             "");
   const std::string svg = directory.read("s.svg");
   EXPECT_THAT(svg, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" "));
-  EXPECT_THAT(svg, HasSubstr("small over psi, lines: v_rel / mm/s; held: sigma_f_MPa = 400, "
-                             "sigma_n_MPa = 1000</text>\n"));
+  EXPECT_THAT(svg, HasSubstr("small over psi, lines: v_rel / (mm/s); held: sigma_f_MPa = "
+                             "400, sigma_n_MPa = 1000</text>\n"));
   EXPECT_THAT(svg, testing::EndsWith("</svg></svg>\n"));
   const auto count = [&svg](const std::string& what) {
     std::size_t n = 0;

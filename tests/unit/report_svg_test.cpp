@@ -134,7 +134,7 @@ TEST(Svg, LabelsOfLinesThatEndTogetherStandApartBesideThePlot) {
   EXPECT_THAT(text, HasSubstr("M258 60L268 "));       // from the end of the line at 5
 }
 
-TEST(Svg, LettersBehindAGreekOneAreASubscriptAndNamesOfColumnsAreNot) {
+TEST(Svg, SymbolsHaveSubscriptsAndNamesOfColumnsHaveNone) {
   const auto labelled = [](const char* label) {
     return svg::Plot(100, 50, svg::nice_axis(0, 1, 2, label), svg::nice_axis(0, 1, 2, ""))
         .text("t", "");
@@ -142,7 +142,9 @@ TEST(Svg, LettersBehindAGreekOneAreASubscriptAndNamesOfColumnsAreNot) {
   EXPECT_THAT(
       labelled("predicted \u03C4_R / MPa"),
       HasSubstr("\u03C4<tspan dy=\"3\" class=\"sub\">R</tspan><tspan dy=\"-3\"> / MPa</tspan>"));
-  EXPECT_THAT(labelled("Track_Ra_um"), HasSubstr(">Track_Ra_um</text>"));
+  EXPECT_THAT(labelled("v_rel / (mm/s)"), HasSubstr("v<tspan dy=\"3\" class=\"sub\">rel</tspan>"));
+  for (const std::string column : {"Track_Ra_um", "T_oil"})
+    EXPECT_THAT(labelled(column.c_str()), HasSubstr(">" + column + "</text>"));
 }
 
 TEST(Svg, LinesAreOneWhereNoPixelIsBetweenThem) {
