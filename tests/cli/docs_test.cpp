@@ -228,6 +228,18 @@ TEST(SlowDocsExample, TheSiteHasEveryPageAndNoLinkIsDead) {
   EXPECT_GE(links, 200u);
 }
 
+TEST(SlowDocsExample, NoSiteIsWrittenWhereThePlotsOfItsPagesAreMissing) {
+  if (test::run_command({FRICTAB_PYTHON, "-c", "import markdown"}).exit_code != 0)
+    GTEST_SKIP() << "Debian's python3-markdown is not installed";
+  const test::TemporaryDirectory directory;
+  directory.write("report.html", "<style></style>");
+  const auto built = test::run_command({FRICTAB_PYTHON, (house / "docs/build").string(),
+                                        directory.path("site"), directory.path("report.html")});
+  EXPECT_EQ(built.exit_code, 1);
+  EXPECT_TRUE(built.err.starts_with("docs/build: error: ")) << built.err;
+  EXPECT_FALSE(fs::exists(directory.path("site")));
+}
+
 TEST(SlowDocsExample, CommandsOfTheGuideRun) {
   const test::TemporaryDirectory directory;
   write_tests(directory);
