@@ -23,8 +23,10 @@ struct Axis {
   double low = 0;
   double high = 1;
   std::vector<double> ticks;
-  int decimals = 0;  // of the ticks' labels
-  std::string label; // letters behind "_" are a subscript to a Greek one: "\u03C4_R / MPa"
+  int decimals = 0; // of the ticks' labels
+  // Letters behind "_" are a subscript to a Greek letter, "\u03C4_R / MPa", and to one letter where
+  // a unit follows, "v_rel / (mm/s)".
+  std::string label;
 };
 
 // low and high are moved outwards to ticks, about `wanted` of them. Values that are not finite, or

@@ -1,10 +1,10 @@
 // The low-discrepancy sequence.
 #include "core/random.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace frictab::random_test {
 namespace {
