@@ -68,15 +68,18 @@ std::string read_text_file(const fs::path& file, const std::string& named,
   std::error_code error;
   std::uint64_t expected = 0;
   if (fs::is_regular_file(file, error)) expected = fs::file_size(file, error);
+  // A small file in one block, with a byte more by which its end is seen.
+  const std::size_t block =
+      expected > 0 && expected < block_bytes ? static_cast<std::size_t>(expected) + 1 : block_bytes;
   std::string text;
   for (std::size_t size = 0; in; size = text.size()) {
     judge.size(size);
-    text.resize(size + block_bytes);
-    in.read(text.data() + size, static_cast<std::streamsize>(block_bytes));
+    text.resize(size + block);
+    in.read(text.data() + size, static_cast<std::streamsize>(block));
     text.resize(size + static_cast<std::size_t>(in.gcount()));
     judge.block(text, size);
     // Memory for the whole file is asked for once its first block looks like text.
-    if (size == 0 && expected <= limits.bytes) text.reserve(expected + block_bytes);
+    if (size == 0 && expected <= limits.bytes) text.reserve(expected + block);
   }
   judge.size(text.size());
   if (in.bad()) throw InputError({named, 0, 0}, "cannot be read to its end", "copy it again");
