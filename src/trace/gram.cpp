@@ -13,22 +13,22 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index lanes = 8, tall = 4, wide = 2;
+constexpr Index doubles = 8, tall = 4, wide = 2;
 constexpr Index part_rows = 512;
 
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));
+typedef double Doubles __attribute__((vector_size(doubles * sizeof(double))));
 
 // Adds a' b over `rows` rows to `sum` for each of four columns a with each of two columns b.
 FRICTAB_WIDE void add_products(const double* const* a, const double* const* b, Index rows,
                                double* sum) {
-  Lanes total[tall][wide] = {};
+  Doubles total[tall][wide] = {};
   Index r = 0;
-  for (; r + lanes <= rows; r += lanes) {
-    Lanes x[tall], y[wide];
+  for (; r + doubles <= rows; r += doubles) {
+    Doubles x[tall], y[wide];
     for (Index i = 0; i < tall; ++i)
-      std::memcpy(&x[i], a[i] + r, sizeof(Lanes));
+      std::memcpy(&x[i], a[i] + r, sizeof(Doubles));
     for (Index j = 0; j < wide; ++j)
-      std::memcpy(&y[j], b[j] + r, sizeof(Lanes));
+      std::memcpy(&y[j], b[j] + r, sizeof(Doubles));
     for (Index i = 0; i < tall; ++i)
       for (Index j = 0; j < wide; ++j)
         total[i][j] += x[i] * y[j];
@@ -36,7 +36,7 @@ FRICTAB_WIDE void add_products(const double* const* a, const double* const* b, I
   for (Index i = 0; i < tall; ++i)
     for (Index j = 0; j < wide; ++j) {
       double all = 0;
-      for (Index l = 0; l < lanes; ++l)
+      for (Index l = 0; l < doubles; ++l)
         all += total[i][j][l];
       for (Index rest = r; rest < rows; ++rest)
         all += a[i][rest] * b[j][rest];
