@@ -20,7 +20,7 @@ protected:
   CommandResult step(const std::string& allowed) const {
     return test::run_command(
         {"sh", folder + "verify.sh", "out", "data/validation.csv", "levanov", allowed},
-        directory.path(), {"FRICTAB=" FRICTAB_BINARY});
+        directory.path(), {"FRICTAB=" + test::program()});
   }
 };
 

@@ -161,7 +161,7 @@ void expect_printed(const std::string& shown, const std::string& printed) {
 
 TEST(SlowDocsExample, TheTutorialPrintsWhatItShows) {
   const test::TemporaryDirectory directory;
-  const std::string program = fs::path(FRICTAB_BINARY).parent_path().string();
+  const std::string program = fs::path(test::program()).parent_path().string();
   std::string printed;
   std::size_t run = 0, compared = 0;
   for (const Block& block : all_blocks(text_of(house / "docs/tutorial.md")))

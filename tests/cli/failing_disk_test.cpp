@@ -46,14 +46,14 @@ protected:
 
   // Its call number `at` fails.
   CommandResult failing(const std::vector<std::string>& arguments, int at, const std::string& how) {
-    return frictab(arguments, {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=" + std::to_string(at),
-                               "FAIL_HOW=" + how});
+    return frictab(arguments, {"LD_PRELOAD=" + test::failing_disk(),
+                               "FAIL_AT=" + std::to_string(at), "FAIL_HOW=" + how});
   }
 
-  // Every third call of the command fails in turn, from call `first` on. The number of calls.
+  // Every `step`-th call of the command fails in turn, from call `first` on. The number of calls.
   int fail_each(const std::vector<std::string>& command, const std::string& how, int first,
-                const Files& before, const Files& after) {
-    for (int n = first; n < 2000; n += 3) {
+                int step, const Files& before, const Files& after) {
+    for (int n = first; n < 2000; n += step) {
       put_back(before);
       const CommandResult result = failing(command, n, how);
       const bool claimed = result.exit_code == 0;
@@ -89,8 +89,8 @@ TEST_F(SlowFailingDisk, CalibrationIsThatOfBeforeOrThatOfAfter) {
   ASSERT_EQ(frictab(again).exit_code, 0);
   const Files after = results();
   ASSERT_NE(before, after);
-  EXPECT_GT(fail_each(again, "EIO", 1, before, after), 30);
-  EXPECT_GT(fail_each(again, "kill", 2, before, after), 30);
+  EXPECT_GT(fail_each(again, "EIO", 1, 3, before, after), 30);
+  EXPECT_GT(fail_each(again, "kill", 2, 3, before, after), 30);
 }
 
 TEST_F(SlowFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
@@ -101,8 +101,8 @@ TEST_F(SlowFailingDisk, TablesHoldTheirValuesOrAreNotWritten) {
   ASSERT_EQ(frictab(again).exit_code, 0);
   const Files after = results();
   ASSERT_NE(before, after);
-  EXPECT_GT(fail_each(again, "EIO", 3, before, after), 20);
-  EXPECT_GT(fail_each(again, "kill", 1, before, after), 20);
+  EXPECT_GT(fail_each(again, "EIO", 3, 5, before, after), 20);
+  EXPECT_GT(fail_each(again, "kill", 1, 5, before, after), 20);
 }
 
 TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
@@ -110,7 +110,8 @@ TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
   const CommandResult result = run_command(
       {"sh", "-c",
        "(flock 9; echo 'process 7 on rig since noon' >&9; sleep 6) 9> out/.frictab.lock &\n"
-       "sleep 0.5; '" FRICTAB_BINARY "' calibrate job.toml"},
+       "sleep 0.5; '" +
+           test::program() + "' calibrate job.toml"},
       directory.path());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "out: error: another frictab is writing here: process 7 on rig since noon\n"
@@ -120,7 +121,7 @@ TEST_F(SlowFailingDisk, TwoAtATimeAreNotLetInAndTheMessageSaysWhoIsThere) {
 
 TEST_F(SlowFailingDisk, WithoutLocksItIsSaidThatNobodyIsKeptOff) {
   const CommandResult result = run_frictab({"calibrate", "job.toml"}, directory.path(),
-                                           {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "NO_LOCKS=1"});
+                                           {"LD_PRELOAD=" + test::failing_disk(), "NO_LOCKS=1"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "out is on a file system without locks: run one frictab at a time there\n");
 }

@@ -55,7 +55,7 @@ TEST_F(SlowInterruptedRun, GoesOnWhereItWasToTheSameBytes) {
   for (const int call : {5, 20, 40, 60, 75, 90, 110, 140}) { // calls that change files
     fs::remove_all(directory.path("out"));
     const CommandResult killed = run(
-        {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=" + std::to_string(call), "FAIL_HOW=kill"});
+        {"LD_PRELOAD=" + test::failing_disk(), "FAIL_AT=" + std::to_string(call), "FAIL_HOW=kill"});
     ASSERT_NE(killed.exit_code, 0) << call;
     const CommandResult again = run();
     ASSERT_EQ(again.exit_code, 0) << again.err;
@@ -73,7 +73,7 @@ TEST_F(SlowInterruptedRun, GoesOnWhereItWasToTheSameBytes) {
 }
 
 TEST_F(SlowInterruptedRun, WorkOfAnotherJobOrOtherDataIsNotTaken) {
-  const std::vector<std::string> kill = {"LD_PRELOAD=" FRICTAB_FAILING_DISK, "FAIL_AT=60",
+  const std::vector<std::string> kill = {"LD_PRELOAD=" + test::failing_disk(), "FAIL_AT=60",
                                          "FAIL_HOW=kill"};
   ASSERT_NE(run(kill).exit_code, 0);
   ASSERT_TRUE(fs::exists(directory.path("out")));
@@ -104,7 +104,7 @@ TEST_F(SlowInterruptedRun, LeavesNothingWhereNothingWasFinished) {
   ASSERT_EQ(run_frictab({"twin", directory.path("data"), "--seed", "3", "--force"}).exit_code, 0)
       << "a campaign that is calibrated for seconds";
   for (const char* signal : {"INT", "TERM", "HUP"}) {
-    const CommandResult stopped = run_command({"timeout", "-s", signal, "0.3", FRICTAB_BINARY,
+    const CommandResult stopped = run_command({"timeout", "-s", signal, "0.3", test::program(),
                                                "run", "job.toml", "--set", "models.use=\"all\""},
                                               directory.path(), {"TMPDIR=" + temporary});
     EXPECT_EQ(stopped.exit_code, 124) << "timeout says that it had to stop it";
@@ -122,10 +122,11 @@ TEST_F(SlowInterruptedRun, StopsItsCompilerAndKeepsWhatWasFinished) {
   const std::string path = std::getenv("PATH");
   const CommandResult stopped = run_command(
       {"sh", "-c",
-       "'" FRICTAB_BINARY "' run job.toml & it=$!\n"
-       "while [ ! -s child ]; do sleep 0.05; done\nkill -TERM $it; wait $it\necho code $?\n"
-       "sleep 0.2; case $(cut -d' ' -f3 /proc/$(cat child)/stat 2>/dev/null) in R|S|D) "
-       "echo alive;; esac"},
+       "'" + test::program() +
+           "' run job.toml & it=$!\n"
+           "while [ ! -s child ]; do sleep 0.05; done\nkill -TERM $it; wait $it\necho code $?\n"
+           "sleep 0.2; case $(cut -d' ' -f3 /proc/$(cat child)/stat 2>/dev/null) in R|S|D) "
+           "echo alive;; esac"},
       directory.path(), {"PATH=" + directory.path("bin") + ":" + path, "TMPDIR=" + temporary});
   EXPECT_THAT(stopped.out, HasSubstr("code 143\n"));
   EXPECT_THAT(stopped.out, testing::Not(HasSubstr("alive")));

@@ -63,7 +63,7 @@ TEST(SlowOutOfMemory, NamesFileOrRowsAndLeavesNothingBehind) {
   const auto within_MiB = [&](int limit) {
     return test::run_command(
         {"sh", "-c",
-         fmt::format("ulimit -v {}; exec '{}' calibrate '{}' -q -j1", limit * 1024, FRICTAB_BINARY,
+         fmt::format("ulimit -v {}; exec '{}' calibrate '{}' -q -j1", limit * 1024, test::program(),
                      directory.path("job.toml"))});
   };
   int named = 0;

@@ -15,7 +15,7 @@ using test::run_command;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-const fs::path build = fs::path(FRICTAB_BINARY).parent_path();
+const fs::path build = fs::path(test::program()).parent_path();
 
 bool has(const std::string& program) {
   return run_command({"sh", "-c", "command -v " + program}).exit_code == 0;

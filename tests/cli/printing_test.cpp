@@ -30,9 +30,8 @@ TEST_F(Printing, OntoAFullDiskEndsWithAMessageAndCode3) {
         "explain coulomb", "explain coulomb --json", "data job.toml", "data job.toml --json",
         "calibrate job.toml", "calibrate job.toml --json", "status job.toml", "doctor", "twin twin",
         "twin twin2 --json", "init new"}) {
-    const CommandResult result =
-        run_command({"sh", "-c", std::string(FRICTAB_BINARY) + " " + arguments + " > /dev/full"},
-                    directory.path());
+    const CommandResult result = run_command(
+        {"sh", "-c", test::program() + " " + arguments + " > /dev/full"}, directory.path());
     EXPECT_EQ(result.exit_code, 3) << arguments;
     EXPECT_THAT(result.err, AllOf(HasSubstr("error: what was to be printed cannot be written"),
                                   HasSubstr("hint: ")))
@@ -44,9 +43,8 @@ TEST_F(Printing, OfATableOntoAFullDiskIsNoSuccess) {
   ASSERT_EQ(frictab({"tabulate", "job.toml", "-q"}).exit_code, 0);
   for (const char* arguments : {"table info out/tables/coulomb.h5",
                                 "table slice out/tables/coulomb.h5 --at sigma_n_MPa=1000"}) {
-    const CommandResult result =
-        run_command({"sh", "-c", std::string(FRICTAB_BINARY) + " " + arguments + " > /dev/full"},
-                    directory.path());
+    const CommandResult result = run_command(
+        {"sh", "-c", test::program() + " " + arguments + " > /dev/full"}, directory.path());
     EXPECT_NE(result.exit_code, 0) << arguments;
     EXPECT_THAT(result.err, HasSubstr("error: ")) << arguments;
   }

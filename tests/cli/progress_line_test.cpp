@@ -43,7 +43,7 @@ protected:
   std::future<CommandResult> on_terminal(unsigned columns, const std::string& terminal,
                                          const std::vector<std::string>& options = {}) const {
     static int runs = 0;
-    std::vector<std::string> words{FRICTAB_BINARY, "verify", "job.toml", "-o",
+    std::vector<std::string> words{test::program(), "verify", "job.toml", "-o",
                                    copy_of_results("out" + std::to_string(++runs))};
     words.insert(words.end(), options.begin(), options.end());
     return std::async(std::launch::async, [=, this] {
@@ -90,7 +90,7 @@ TEST_F(SlowProgress, FitsTheTerminalMovesAndIsErasedBeforeTheResult) {
 
 TEST_F(SlowProgress, IsErasedWhereTheRunIsInterrupted) {
   const CommandResult stopped =
-      test::run_on_terminal({FRICTAB_BINARY, "verify", "job.toml"}, 80, directory.path(),
+      test::run_on_terminal({test::program(), "verify", "job.toml"}, 80, directory.path(),
                             environment("xterm"), "routines of coulomb");
   EXPECT_EQ(stopped.exit_code, 128 + SIGINT) << stopped.out;
   EXPECT_TRUE(stopped.out.ends_with(erase)) << stopped.out;

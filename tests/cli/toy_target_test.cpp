@@ -15,7 +15,7 @@ using test::run_command;
 using testing::HasSubstr;
 
 CommandResult toy(std::vector<std::string> arguments, const std::string& directory = "") {
-  const auto build = std::filesystem::path(FRICTAB_BINARY).parent_path();
+  const auto build = std::filesystem::path(test::program()).parent_path();
   arguments.insert(arguments.begin(), build / "tests" / "frictab_toy");
   return run_command(arguments, directory);
 }

@@ -24,7 +24,7 @@ protected:
   // With the program on PATH.
   CommandResult run(const std::vector<std::string>& command) const {
     const std::string path =
-        fs::path(FRICTAB_BINARY).parent_path().string() + ":" + std::getenv("PATH") + ":/usr/sbin";
+        fs::path(test::program()).parent_path().string() + ":" + std::getenv("PATH") + ":/usr/sbin";
     return test::run_command(command, directory.path(), {"PATH=" + path});
   }
   void expect_whole(const std::string& results) const {

@@ -98,10 +98,10 @@ TEST_F(StudyRun, ReportsTheSameBytesAgain) {
 TEST_F(SlowStudyRun, ThatIsKilledIsFinishedByTheNextToTheSameBytes) {
   directory.write("study.toml", test::twin_study(24));
   ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
-  const std::string script =
-      "mkdir -p study/results\n" FRICTAB_BINARY " study run -j1 -q &\npid=$!\n"
-      "until [ $(ls study/results | wc -l) -ge 3 ]; do sleep 0.01; done\n"
-      "kill -9 $pid; wait $pid; [ $? = 137 ]\n";
+  const std::string script = "mkdir -p study/results\n" + test::program() +
+                             " study run -j1 -q &\npid=$!\n"
+                             "until [ $(ls study/results | wc -l) -ge 3 ]; do sleep 0.01; done\n"
+                             "kill -9 $pid; wait $pid; [ $? = 137 ]\n";
   ASSERT_EQ(test::run_command({"sh", "-c", script}, directory.path()).exit_code, 0);
   ASSERT_GE(results(), 3u);
   const auto json = test::parse_json(frictab({"study", "run", "--json"}).out);
@@ -113,8 +113,8 @@ TEST_F(SlowStudyRun, ThatIsKilledIsFinishedByTheNextToTheSameBytes) {
 TEST_F(SlowStudyRun, OfTwoProcessesAtOnceWritesTheSameBytesAsOne) {
   directory.write("study.toml", test::twin_study(12));
   ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
-  const std::string both = FRICTAB_BINARY " study run -j1 & " FRICTAB_BINARY
-                                          " study run -j1; a=$?; wait $!; [ $a$? = 00 ]";
+  const std::string both = test::program() + " study run -j1 & " + test::program() +
+                           " study run -j1; a=$?; wait $!; [ $a$? = 00 ]";
   const CommandResult result = test::run_command({"sh", "-c", both}, directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(difference("whole/results", "study/results"), "");

@@ -13,6 +13,7 @@
 
 #include "codegen/values_file.h"
 #include "core/text.h"
+#include "support/run_command.h"
 #include "support/sample_tables.h"
 
 namespace frictab::test {
@@ -33,7 +34,7 @@ fs::path kept_library(const SourceBundle& bundle, const BuildVariant& build) {
     for (const auto& [path, text] : *files)
       all += "\n" + path + "\n" + text;
   const std::string name = fmt::format("{:016x}.so", XXH3_64bits(all.data(), all.size()));
-  return fs::path(FRICTAB_BINARY).parent_path() / "tests" / "compiled" / name;
+  return fs::path(test::program()).parent_path() / "tests" / "compiled" / name;
 }
 
 // A file of values lies in a directory of the library's name.

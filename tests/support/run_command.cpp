@@ -29,6 +29,10 @@ void check(int error, const char* what) {
   if (error != 0) throw std::runtime_error(std::string(what) + ": " + std::strerror(error));
 }
 
+fs::path tests_directory() {
+  return fs::read_symlink("/proc/self/exe").parent_path();
+}
+
 struct Pipe {
   std::array<int, 2> end{-1, -1};
   Pipe() { check(::pipe2(end.data(), O_CLOEXEC) == 0 ? 0 : errno, "pipe"); }
@@ -126,9 +130,17 @@ CommandResult run_command(const std::vector<std::string>& argv, const std::strin
   return result;
 }
 
+std::string program() {
+  return tests_directory().parent_path() / "frictab";
+}
+
+std::string failing_disk() {
+  return tests_directory() / "libfrictab_failing_disk.so";
+}
+
 CommandResult run_frictab(std::vector<std::string> arguments, const std::string& directory,
                           const std::vector<std::string>& environment) {
-  arguments.insert(arguments.begin(), FRICTAB_BINARY);
+  arguments.insert(arguments.begin(), program());
   return run_command(arguments, directory, environment);
 }
 

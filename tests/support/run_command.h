@@ -17,6 +17,11 @@ struct CommandResult {
 CommandResult run_command(const std::vector<std::string>& argv, const std::string& directory = "",
                           const std::vector<std::string>& environment = {});
 
+// Of the build that this test program is of: the frictab program, and the library by which calls
+// fail (failing_disk.c).
+std::string program();
+std::string failing_disk();
+
 // run_command of the frictab program.
 CommandResult run_frictab(std::vector<std::string> arguments, const std::string& directory = "",
                           const std::vector<std::string>& environment = {});

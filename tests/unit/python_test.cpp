@@ -40,7 +40,7 @@ protected:
     arguments.insert(arguments.begin(), FRICTAB_PYTHON);
     return test::run_command(arguments, directory.path(),
                              {"PYTHONPATH=" + house + "/python", "PYTHONDONTWRITEBYTECODE=1",
-                              "MPLBACKEND=Agg", "FRICTAB=" FRICTAB_BINARY}); // no window
+                              "MPLBACKEND=Agg", "FRICTAB=" + test::program()}); // no window
   }
 
   void write_rows(const std::string& name, const std::vector<std::string>& header,
