@@ -133,7 +133,7 @@ TEST_F(LoadFuzz, DamagedCsvGivesADatasetOrAnInputError) {
 }
 
 // Runs in a child process: the HDF5 library itself may fall over a damaged file, and
-// then the parent still tells which case it was. 500 files, for each is read by a process of its
+// then the parent still tells which case it was. 240 files, for each is read by a process of its
 // own (io/isolated.h), and to start one is what takes the time.
 TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   {
@@ -151,7 +151,7 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
   Random random(12);
   std::size_t outcomes[4] = {};
   for (int batch = 0; batch < 20; ++batch) {
-    std::vector<std::string> cases(25);
+    std::vector<std::string> cases(12);
     for (std::string& bytes : cases)
       bytes = mutated(valid, random, 1 + static_cast<std::size_t>(batch));
     const std::string told = outcomes_in_child(cases);
@@ -162,7 +162,7 @@ TEST_F(LoadFuzz, DamagedHdf5GivesADatasetOrAnInputError) {
       ++outcomes[static_cast<std::size_t>(outcome)];
     }
   }
-  EXPECT_GT(outcomes[read_well], 12U);
+  EXPECT_GT(outcomes[read_well], 5U);
   EXPECT_GT(outcomes[refused], 50U);
 }
 
@@ -236,7 +236,8 @@ TEST_F(LoadFuzz, RandomBytesGiveAnInputError) {
     std::string bytes(random.below(300), '\0');
     for (char& c : bytes)
       c = static_cast<char>(random.below(256));
-    if (random.below(3) == 0) bytes.insert(0, std::string("\x89HDF\r\n\x1a\n", 8));
+    const bool as_hdf5 = random.below(8) == 0; // these start a process each
+    if (as_hdf5) bytes.insert(0, std::string("\x89HDF\r\n\x1a\n", 8));
     write(bytes);
     ASSERT_EQ(load(file_.string(), {}), refused) << "case " << i;
   }

@@ -98,7 +98,7 @@ TEST(TableFuzz, DamagedFileGivesASoundTableOrAnInputError) {
       table::write_table(sample.table, file, storage);
       const std::string valid = io::read_file(file);
       const std::size_t in_memory = storage.chunked() ? 0 : table::most_bytes_in_memory;
-      std::vector<std::string> cases(15);
+      std::vector<std::string> cases(8);
       for (std::string& bytes : cases)
         bytes = damaged(valid, random);
       const std::string told = outcomes_in_child(cases, file, in_memory);

@@ -1,8 +1,8 @@
 """Rebuilds tau_R from a friction table by its attributes alone and compares it with given values;
 a linear table also by scipy's RegularGridInterpolator and xarray's interp.
 
-Usage: rebuild_tau.py TABLE.h5 STATES.csv   (columns: states, then tau_R_MPa)
-Prints the largest relative difference by h5py and the axes that xarray sees.
+Usage: rebuild_tau.py TABLE.h5 STATES.csv ...   (pairs; columns: states, then tau_R_MPa)
+Prints for each the largest relative difference by h5py and the axes that xarray sees.
 """
 import sys
 
@@ -133,18 +133,18 @@ def rebuild(path, states):
         return np.where(refused, np.nan, tau), others
 
 
-def main():
-    states = pd.read_csv(sys.argv[2], float_precision="round_trip")
+def compare(path, states):
     wanted = states.pop("tau_R_MPa").to_numpy()
-    rebuilt, others = rebuild(sys.argv[1], states)
+    rebuilt, others = rebuild(path, states)
     tau = np.broadcast_to(rebuilt, wanted.shape)
     both = np.isnan(tau) & np.isnan(wanted)
     relative = np.abs(tau - wanted) / np.maximum(np.abs(wanted), 1e-300)
     difference = max(np.max(np.where(both, 0, relative)), others)
-    data = xr.open_dataset(sys.argv[1])
+    data = xr.open_dataset(path)
     axes = [f"{d}[{data.sizes[d]}] {data[d].attrs['units']}" for d in data["value"].dims]
     assert all(d in data.coords for d in data["value"].dims)
     print("ok" if difference < 1e-12 else "differs", f"{difference:.1e}", "; ".join(axes))
 
 
-main()
+for table, states in zip(sys.argv[1::2], sys.argv[2::2]):
+    compare(table, pd.read_csv(states, float_precision="round_trip"))

@@ -1,4 +1,4 @@
-// Writes a table, asks Python what it says.
+// Writes tables, asks Python what it says.
 #include "support/rebuilt.h"
 
 #include <fmt/format.h>
@@ -9,10 +9,10 @@
 #include "table/table_file.h"
 
 namespace frictab::test {
+namespace {
 
-std::string rebuilt_by_python(const table::Table& table) {
-  const TemporaryDirectory directory;
-  table::write_table(table, directory.path("table.h5"));
+// 500 random states and tau_R there.
+std::string states_csv(const table::Table& table) {
   const table::TableFunction function(table);
   auto states = random_states(function.inputs(), 500, 17);
   for (std::size_t c = 0; c < states.size(); ++c) // what an effect brought in
@@ -32,10 +32,27 @@ std::string rebuilt_by_python(const table::Table& table) {
     }
     csv += fmt::format("{}\n", function(state));
   }
-  const std::string file = directory.write("states.csv", csv);
-  const std::string script = std::string(FRICTAB_SOURCE_DIR) + "/tests/support/rebuild_tau.py";
-  const auto result = run_command({FRICTAB_PYTHON, script, directory.path("table.h5"), file});
+  return csv;
+}
+
+} // namespace
+
+std::string rebuilt_by_python(const std::vector<table::Table>& tables) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> command = {FRICTAB_PYTHON,
+                                      FRICTAB_SOURCE_DIR "/tests/support/rebuild_tau.py"};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const std::string name = std::to_string(i);
+    table::write_table(tables[i], directory.path(name + ".h5"));
+    command.push_back(directory.path(name + ".h5"));
+    command.push_back(directory.write(name + ".csv", states_csv(tables[i])));
+  }
+  const auto result = run_command(command);
   return result.exit_code == 0 ? result.out : result.err;
+}
+
+std::string rebuilt_by_python(const table::Table& table) {
+  return rebuilt_by_python(std::vector{table});
 }
 
 } // namespace frictab::test
