@@ -2,6 +2,8 @@
 // gives what frictab's own evaluation gives.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -54,15 +56,65 @@ void compare(const Exporter& exporter, const codegen::ExportRequest& request,
   }
 }
 
-// The core that looks a table up is one text in all targets of a language: every sample goes
-// through one of them. What a solver's routine puts around it takes arguments and histories of
-// every kind, and the core in each of its forms.
+// The core that looks a table up, by which a routine gets tau_R, is one text in all targets that
+// are written in one language and need a gradient or none: every sample goes through one of them.
+// What a solver's routine puts around it takes arguments and histories of every kind, and the core
+// in each of its forms.
+constexpr const char* core_of_fortran = "abaqus_vfric";
+constexpr const char* core_with_gradient = "abaqus_fric";
+
 bool goes_through(const test::NamedTable& sample, const Exporter& exporter,
                   const std::string& units) {
   if (test::has_every_kind_of_argument(sample)) return true;
   if (units == "m-kg-s") return false;
-  return test::stands_for_its_language(exporter) || sample.name == "spline" ||
-         sample.name == "direct";
+  return test::stands_for_its_language(exporter) || exporter.name == core_with_gradient ||
+         sample.name == "spline" || sample.name == "direct";
+}
+
+// Functions of fixed-form Fortran by their names, without comments.
+std::map<std::string, std::string> functions_of(const codegen::SourceBundle& bundle) {
+  std::map<std::string, std::string> functions;
+  for (const auto& [file, text] : bundle) {
+    if (!file.ends_with(".f")) continue;
+    std::istringstream lines(text);
+    std::string name;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('C')) continue;
+      const std::size_t at = line.find(" function ");
+      if (at != line.npos) name = line.substr(at + 10, line.find('(') - at - 10);
+      if (!name.empty()) functions[name] += line + "\n";
+      if (line == "      end") name.clear();
+    }
+  }
+  return functions;
+}
+
+std::map<std::string, std::string> functions_of(const char* target, const table::Table& table) {
+  const Exporter& exporter = *find_exporter(target);
+  return functions_of(exporter.generate(test::SampleRequest(exporter, table, "mm-t-s").get()));
+}
+
+TEST(SharedCore, OfFortranIsOneTextInTheRoutinesOfAllSolvers) {
+  std::size_t compared = 0;
+  for (const test::NamedTable& sample : test::sample_tables()) {
+    SCOPED_TRACE(sample.name);
+    const auto plain = functions_of(core_of_fortran, sample.table),
+               with_gradient = functions_of(core_with_gradient, sample.table);
+    ASSERT_TRUE(plain.count("fttau"));
+    for (const Exporter& exporter : codegen::all_exporters()) {
+      if (!exporter.whole()) continue;
+      for (const auto& [name, text] : functions_of(exporter.name.c_str(), sample.table))
+        if (name == "fttau" || name == "ftintp" || name == "ftpiec") {
+          const auto one = plain.find(name), other = with_gradient.find(name);
+          ++compared;
+          EXPECT_TRUE((one != plain.end() && one->second == text) ||
+                      (other != with_gradient.end() && other->second == text))
+              << exporter.name << "\n"
+              << text;
+        }
+    }
+  }
+  EXPECT_GT(compared, 150u);
 }
 
 // The law alone, in C and in Fortran, over two million states; what stands around the same core in
