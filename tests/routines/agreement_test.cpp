@@ -56,19 +56,14 @@ void compare(const Exporter& exporter, const codegen::ExportRequest& request,
   }
 }
 
-// The core that looks a table up, by which a routine gets tau_R, is one text in all targets that
-// are written in one language and need a gradient or none: every sample goes through one of them.
-// What a solver's routine puts around it takes arguments and histories of every kind, and the core
-// in each of its forms.
-constexpr const char* core_of_fortran = "abaqus_vfric";
-constexpr const char* core_with_gradient = "abaqus_fric";
-
+// Every sample goes through each core. What a solver's routine puts around it takes arguments and
+// histories of every kind, and the core in each of its forms.
 bool goes_through(const test::NamedTable& sample, const Exporter& exporter,
                   const std::string& units) {
   if (test::has_every_kind_of_argument(sample)) return true;
   if (units == "m-kg-s") return false;
-  return test::stands_for_its_language(exporter) || exporter.name == core_with_gradient ||
-         sample.name == "spline" || sample.name == "direct";
+  return test::has_a_core_of_its_own(exporter) || sample.name == "spline" ||
+         sample.name == "direct";
 }
 
 // Functions of fixed-form Fortran by their names, without comments.
@@ -98,8 +93,8 @@ TEST(SharedCore, OfFortranIsOneTextInTheRoutinesOfAllSolvers) {
   std::size_t compared = 0;
   for (const test::NamedTable& sample : test::sample_tables()) {
     SCOPED_TRACE(sample.name);
-    const auto plain = functions_of(core_of_fortran, sample.table),
-               with_gradient = functions_of(core_with_gradient, sample.table);
+    const auto plain = functions_of("abaqus_vfric", sample.table),
+               with_gradient = functions_of("abaqus_fric", sample.table);
     ASSERT_TRUE(plain.count("fttau"));
     for (const Exporter& exporter : codegen::all_exporters()) {
       if (!exporter.whole()) continue;

@@ -89,6 +89,10 @@ bool stands_for_its_language(const codegen::Exporter& exporter) {
   return false;
 }
 
+bool has_a_core_of_its_own(const codegen::Exporter& exporter) {
+  return stands_for_its_language(exporter) || exporter.name == "abaqus_fric";
+}
+
 void add_flags(BuildVariant& variant, const std::vector<std::string>& flags) {
   variant.command.insert(variant.command.begin() + 1, flags.begin(), flags.end());
 }

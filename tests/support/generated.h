@@ -30,6 +30,9 @@ extern const std::vector<std::string> strict, strict_declared;
 // One target for each language that generated code is written in: C, Fortran 2008, Fortran in fixed
 // form, Lua. What a formula becomes is the same in all targets of a language.
 bool stands_for_its_language(const codegen::Exporter& exporter);
+// Those, and one whose routine needs the gradient of tau_R as well: what looks a table up is one
+// text in all other targets of the language (SharedCore).
+bool has_a_core_of_its_own(const codegen::Exporter& exporter);
 
 // Behind the compiler's name.
 void add_flags(codegen::BuildVariant& variant, const std::vector<std::string>& flags);
