@@ -129,7 +129,8 @@ NamedGroups groups_of(const FileRule& rule, const Pattern& pattern, const std::s
 // The groups of one rule's files as columns of these files.
 class FromNames {
 public:
-  FromNames(const FileRule& rule, std::vector<FilePlan*> files) : rule_(rule), files_(files) {
+  FromNames(const FileRule& rule, std::vector<FilePlan*> files)
+      : rule_(rule), files_(std::move(files)) {
     const Pattern pattern(rule.from_name, rule.from_name_place);
     for (const FilePlan* plan : files_)
       groups_.push_back(groups_of(rule, pattern, plan->file));

@@ -403,7 +403,8 @@ private:
       if (find(name))
         faults_.add(header(), fmt::format("'{}' is a column of the file as well", name),
                     "give the constant, label or group another name");
-      out_.columns.push_back({name, "", std::vector<double>(raw_.rows(), value), levels});
+      out_.columns.push_back(
+          {name, "", std::vector<double>(raw_.rows(), value), std::move(levels)});
     };
     for (const auto& [name, value] : options_.constants)
       if (!find_quantity(name)) add(name, value, {});

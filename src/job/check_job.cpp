@@ -259,7 +259,8 @@ void remember_inputs(JobReader& reader) {
 // What is no quantity is there for a law that needs it.
 void check_constants(JobReader& reader) {
   const models::Conventions conventions{.shear_limit = false};
-  for (const auto& [name, value] : reader.job.data.constants) {
+  for (const auto& constant : reader.job.data.constants) {
+    const std::string& name = constant.first;
     const auto& laws = reader.job.models.laws.own();
     const bool needed = std::any_of(laws.begin(), laws.end(), [&](const auto& law) {
       if (!law->build) return false; // its own faults are told
