@@ -1,15 +1,16 @@
 // Reads a data file of either format into named columns.
 #include "data/raw.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
-#include "core/no_value.h"
 #include "core/program.h"
 #include "core/text.h"
+#include "data/hdf5_columns.h"
 #include "data/quantity.h"
 #include "data/wide.h"
 #include "io/atomic_file.h"
@@ -19,120 +20,6 @@
 namespace frictab::data {
 
 namespace {
-
-// ---- HDF5 ----
-
-// Columns end to end: those of the root group, or of one group per experiment.
-class Hdf5Columns {
-public:
-  Hdf5Columns(const std::string& path, const std::string& named, FaultList& faults)
-      : in_(path, named), faults_(faults) {
-    table_.file = named;
-    if (in_.datasets().empty()) groups_ = in_.groups();
-  }
-
-  io::CsvTable read() {
-    if (groups_.empty()) {
-      read_datasets("", nullptr);
-    } else {
-      column("experiment", "", 0);
-      for (const std::string& group : groups_)
-        read_group(group);
-    }
-    if (table_.rows() == 0)
-      throw InputError({table_.file, 0, 0}, "holds no data columns",
-                       "a data file has one 1-D dataset per column, or such groups: one per test");
-    return std::move(table_);
-  }
-
-private:
-  // A group is a test: its attributes are the same in all of its rows.
-  void read_group(const std::string& group) {
-    const std::size_t first = table_.rows();
-    read_datasets(group + "/", &group);
-    const std::size_t rows = table_.rows() - first;
-    repeat("experiment", group, first, rows);
-    for (const std::string& name : in_.attributes(group))
-      if (const auto number = in_.number_attribute(group, name))
-        column(name, "", first).numbers.resize(first + rows, *number);
-      else if (const auto text = in_.text_attribute(group, name))
-        repeat(name, *text, first, rows);
-    for (const io::CsvColumn& one : table_.columns)
-      if (one.numbers.size() != table_.rows())
-        throw InputError({table_.file, 0, 0},
-                         fmt::format("group '{}' has no {}, which others have", group, one.name),
-                         "every test needs the same datasets and attributes");
-  }
-
-  // Every 1-D dataset is a column; other shapes are no data columns.
-  void read_datasets(const std::string& path, const std::string* group) {
-    const std::size_t first = table_.rows();
-    std::string first_name;
-    std::size_t rows = 0;
-    for (const std::string& name : in_.datasets(group ? *group : "/")) {
-      const auto shape = in_.shape(path + name);
-      if (shape.size() != 1) continue;
-      if (first_name.empty()) {
-        first_name = name;
-        rows = shape[0];
-      }
-      if (shape[0] != rows)
-        faults_.add({table_.file, 0, 0}, fmt::format("column '{}' has {} rows, '{}' has {}",
-                                                     path + name, shape[0], first_name, rows));
-      else
-        read_dataset(path + name, name, first, rows);
-    }
-    for (std::size_t i = 0; i < rows; ++i)
-      table_.line.push_back(first + i + 1);
-  }
-
-  void read_dataset(const std::string& path, const std::string& name, std::size_t first,
-                    std::size_t rows) {
-    io::CsvColumn& to = column(name, in_.text_attribute(path, "units").value_or(""), first);
-    if (in_.is_text(path)) {
-      to.numbers.resize(first + rows, no_value);
-      std::size_t row = first;
-      for (std::string& text : in_.texts(path))
-        to.texts.push_back({row++, std::move(text), 0});
-    } else {
-      const std::vector<double> values = in_.values(path);
-      to.numbers.insert(to.numbers.end(), values.begin(), values.end());
-    }
-  }
-
-  void repeat(const std::string& name, const std::string& text, std::size_t first,
-              std::size_t rows) {
-    io::CsvColumn& to = column(name, "", first);
-    to.numbers.resize(first + rows, no_value);
-    for (std::size_t i = 0; i < rows; ++i)
-      to.texts.push_back({first + i, text, 0});
-  }
-
-  // The column of this name; one that comes in behind row `first` lacks the rows before.
-  io::CsvColumn& column(const std::string& name, const std::string& unit, std::size_t first) {
-    const auto [known, is_new] = number_of_.emplace(name, table_.columns.size());
-    if (!is_new) {
-      io::CsvColumn& there = table_.columns[known->second];
-      if (there.unit != unit || there.numbers.size() != first)
-        faults_.add({table_.file, 0, 0},
-                    fmt::format("column '{}' is there twice, or in two units", name));
-      return there;
-    }
-    if (first > 0)
-      faults_.add({table_.file, 0, 0},
-                  fmt::format("column '{}' is not in group '{}'", name, groups_.front()),
-                  "every test needs the same datasets and attributes");
-    return table_.columns.emplace_back(io::CsvColumn{name, unit, {}, {}});
-  }
-
-  io::Hdf5Reader in_;
-  FaultList& faults_;
-  std::vector<std::string> groups_;
-  io::CsvTable table_;
-  std::unordered_map<std::string, std::size_t> number_of_; // of the columns, from 0
-};
-
-// ---- workbooks ----
 
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n')
@@ -218,7 +105,8 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
 
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults) {
-  if (io::looks_like_hdf5(path)) return Hdf5Columns(path, named, faults).read();
+  if (io::looks_like_hdf5(path))
+    return Hdf5Columns(path, named, faults).next(std::numeric_limits<std::uint64_t>::max());
   return io::parse_csv(raw_text(path, named, options.sheet), named, csv_format(path, options),
                        faults);
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "data/hdf5_columns.h"
 #include "data/mapping.h"
 #include "data/wide.h"
 #include "io/hdf5.h"
@@ -18,6 +19,8 @@ namespace {
 
 // Enough rows to be worth a thread, few enough to be held many times over.
 constexpr std::size_t rows_of_a_part = 50'000;
+// Pieces of HDF5 files are larger than those of text: a process is started for each.
+constexpr std::uint64_t hdf5_pieces = 8;
 
 class Cutter {
 public:
@@ -100,26 +103,42 @@ void read_whole(const std::string& path, const std::string& named, const DataOpt
   take(cutter.whole(true));
 }
 
-} // namespace
-
-void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
-                    FaultList& faults, const TakeParts& take) {
-  const bool held = is_workbook(path) || io::looks_like_hdf5(path) || !options.wide.empty() ||
-                    !options.join.files.empty() || options.experiment == "interval";
-  if (held) return read_whole(path, named, options, faults, take);
-  io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
-                       csv_format(path, options), options.piece_bytes);
-  if (!pieces.whole_because().empty()) return read_whole(path, named, options, faults, take);
+// `next`: pieces in the order of the file, none at its end.
+void cut_pieces(const std::function<std::vector<io::CsvTable>()>& next, const DataOptions& options,
+                FaultList& faults, const TakeParts& take) {
   Cutter cutter(options);
   for (bool more = true; more;) {
-    std::vector<io::CsvTable> next = pieces.next(faults);
-    more = !next.empty();
-    for (io::CsvTable& piece : next)
+    std::vector<io::CsvTable> pieces = next();
+    more = !pieces.empty();
+    for (io::CsvTable& piece : pieces)
       if (faults.empty()) cutter.add(std::move(piece), faults);
     if (!faults.empty()) return;
     std::vector<io::CsvTable> parts = cutter.whole(!more);
     if (!parts.empty()) take(std::move(parts));
   }
+}
+
+} // namespace
+
+void read_raw_parts(const std::string& path, const std::string& named, const DataOptions& options,
+                    FaultList& faults, const TakeParts& take) {
+  const bool held = is_workbook(path) || !options.wide.empty() || !options.join.files.empty() ||
+                    options.experiment == "interval";
+  if (held) return read_whole(path, named, options, faults, take);
+  if (io::looks_like_hdf5(path)) {
+    Hdf5Columns columns(path, named, faults);
+    const auto next = [&] {
+      std::vector<io::CsvTable> pieces;
+      io::CsvTable piece = columns.next(hdf5_pieces * options.piece_bytes);
+      if (piece.rows() > 0) pieces.push_back(std::move(piece));
+      return pieces;
+    };
+    return cut_pieces(next, options, faults, take);
+  }
+  io::CsvPieces pieces(std::make_unique<std::ifstream>(io::open_text_file(path, named)), named,
+                       csv_format(path, options), options.piece_bytes);
+  if (!pieces.whole_because().empty()) return read_whole(path, named, options, faults, take);
+  cut_pieces([&] { return pieces.next(faults); }, options, faults, take);
 }
 
 } // namespace frictab::data

@@ -131,7 +131,44 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& dataset) const {
   const Hdf5Dataset& set = data_->dataset(dataset);
   if (!set.fault.empty()) data_->fail(set.fault, set.hint);
   if (!set.is_text) data_->fail("'" + dataset + "' cannot be read as text");
-  return set.texts;
+  if (set.held) return set.texts;
+  const Hdf5Slice all{dataset, 0, set.count()};
+  return std::move(slices({&all, 1}).front().texts);
+}
+
+std::vector<Hdf5Values> Hdf5Reader::slices(std::span<const Hdf5Slice> wanted) const {
+  std::vector<Hdf5Slice> not_held;
+  for (const Hdf5Slice& slice : wanted) {
+    const Hdf5Dataset& set = data_->dataset(slice.dataset);
+    if (!set.fault.empty()) data_->fail(set.fault, set.hint);
+    if (!set.held) not_held.push_back(slice);
+  }
+  std::vector<Hdf5Values> read;
+  std::string fault, hint;
+  if (!not_held.empty())
+    data_->ask([&](ByteSink& out) { scan_slices(data_->file, not_held, out); },
+               [&](ByteSource& in) {
+                 return take_slices(in, data_->file_bytes, not_held, read, fault, hint);
+               });
+  if (!fault.empty()) data_->fail(fault, hint);
+
+  std::vector<Hdf5Values> all;
+  auto next = read.begin();
+  for (const Hdf5Slice& slice : wanted) {
+    const Hdf5Dataset& set = data_->dataset(slice.dataset);
+    if (!set.held) {
+      all.push_back(std::move(*next++));
+      continue;
+    }
+    Hdf5Values& held = all.emplace_back();
+    const auto from = static_cast<std::ptrdiff_t>(slice.first);
+    const auto to = static_cast<std::ptrdiff_t>(slice.first + slice.count);
+    if (set.is_text)
+      held.texts.assign(set.texts.begin() + from, set.texts.begin() + to);
+    else
+      held.numbers.assign(set.values.begin() + from, set.values.begin() + to);
+  }
+  return all;
 }
 
 Hdf5Layout Hdf5Reader::layout(const std::string& dataset) const {

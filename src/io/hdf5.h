@@ -65,12 +65,23 @@ struct Hdf5Layout {
   std::uint64_t stored_bytes = 0;
 };
 
+// Of a dataset with one axis: `count` values from the `first` one on.
+struct Hdf5Slice {
+  std::string dataset;
+  std::size_t first = 0, count = 0;
+};
+
+struct Hdf5Values { // of one slice
+  std::vector<double> numbers;
+  std::vector<std::string> texts; // instead, where the dataset is text
+};
+
 struct Hdf5Contents; // hdf5_scan.h
 
 // What an HDF5 file holds, as a child process reads it: the library can crash or hang on a damaged
-// file, and this process never opens it. Datasets of up to 16 MiB are read with the description,
-// larger ones where they are asked for. Throws InputError where the file is no HDF5 file, is
-// damaged, or lacks what is asked for.
+// file, and this process never opens it. Datasets of up to 16 MiB are read with the description
+// (256 MiB together), others where they are asked for. Throws InputError where the file is no HDF5
+// file, is damaged, or lacks what is asked for.
 class Hdf5Reader {
 public:
   // `named` is how messages call the file.
@@ -92,6 +103,8 @@ public:
   // All values in ascending order, at most `most` at a time.
   void blocks(const std::string& dataset, std::size_t most,
               const std::function<void(std::size_t first, std::span<const double>)>& take) const;
+  // In the order asked for; one child process for all of them.
+  std::vector<Hdf5Values> slices(std::span<const Hdf5Slice> wanted) const;
   Hdf5Layout layout(const std::string& dataset) const;
   // The byte of the file at which the dataset lies as plain little-endian doubles; nullopt where it
   // does not.

@@ -19,12 +19,15 @@ constexpr std::size_t values_at_once = std::size_t{1} << 20;
 constexpr std::uint64_t held_bytes = std::uint64_t{1} << 24; // of one dataset
 constexpr std::uint64_t held_in_all = std::uint64_t{1} << 28;
 constexpr std::size_t longest_text = std::size_t{1} << 20;
+constexpr std::uint64_t bytes_of_a_text = 64; // of a short one, with what stands around it
 // What deflate can make of a byte, at best.
 constexpr std::uint64_t best_ratio = 1100;
 
 struct Unreadable {
   std::string what, hint;
 };
+
+enum Kind : std::uint64_t { is_absent, is_text, is_number }; // among the bytes
 
 // ---- in the child ----
 
@@ -142,8 +145,14 @@ std::optional<std::uint64_t> raw_offset_of(hid_t set, std::uint64_t file_bytes) 
   throw Unreadable{"'" + name + "' cannot be read", "the file may be damaged"};
 }
 
-std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_t count) {
-  const Handle type(H5Dget_type(set), H5Tclose);
+// `count` values from the `first` one on where there is one axis; else all.
+std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_t first,
+                                  std::size_t count) {
+  const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+  const hsize_t start = first, n = count;
+  const Handle rows(H5Screate_simple(1, &n, nullptr), H5Sclose);
+  if (H5Sget_simple_extent_ndims(space) == 1)
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, nullptr, &n, nullptr);
   const Unreadable bad{"'" + name + "' cannot be read as text", ""};
   std::vector<std::string> texts;
   if (H5Tis_variable_str(type) > 0) {
@@ -151,7 +160,7 @@ std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_
     H5Tset_size(memory, H5T_VARIABLE);
     H5Tset_cset(memory, H5Tget_cset(type));
     std::vector<char*> raw(count, nullptr);
-    if (count > 0 && H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0) throw bad;
+    if (count > 0 && H5Dread(set, memory, rows, space, H5P_DEFAULT, raw.data()) < 0) throw bad;
     for (char* text : raw) {
       texts.emplace_back(text ? text : "");
       H5free_memory(text);
@@ -161,7 +170,7 @@ std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_
   const std::size_t width = H5Tget_size(type);
   if (width == 0 || width > longest_text) throw bad;
   std::string packed(width * count, '\0');
-  if (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0) throw bad;
+  if (count > 0 && H5Dread(set, type, rows, space, H5P_DEFAULT, packed.data()) < 0) throw bad;
   for (std::size_t i = 0; i < count; ++i) {
     std::string text = packed.substr(i * width, width);
     text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
@@ -170,13 +179,29 @@ std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_
   return texts;
 }
 
-template <class Take>
-void read_values(const std::string& name, hid_t set, const std::vector<std::size_t>& shape,
-                 std::size_t most, const Take& take) {
-  const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+void check_numeric(const std::string& name, hid_t set) {
+  const Handle type(H5Dget_type(set), H5Tclose);
   const H5T_class_t kind = H5Tget_class(type);
   if (kind != H5T_FLOAT && kind != H5T_INTEGER)
     throw Unreadable{"'" + name + "' is not numeric", ""};
+}
+
+std::vector<double> numbers_of(const std::string& name, hid_t set, hsize_t first, hsize_t count) {
+  check_numeric(name, set);
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr);
+  std::vector<double> values(count);
+  if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
+    cannot_read(name, set);
+  return values;
+}
+
+template <class Take>
+void read_values(const std::string& name, hid_t set, const std::vector<std::size_t>& shape,
+                 std::size_t most, const Take& take) {
+  check_numeric(name, set);
+  const Handle space(H5Dget_space(set), H5Sclose);
   const std::vector<hsize_t> dims(shape.begin(), shape.end());
   std::vector<double> values;
   for_blocks(dims, block_shape(dims, most), [&](const auto& start, const auto& part, hsize_t n) {
@@ -227,15 +252,42 @@ public:
   void values(const std::string& name, std::size_t most, ByteSink& out) const {
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     H5Pset_chunk_cache(access, 12421, std::size_t{1} << 26, 1); // chunks that span several blocks
-    const Handle set(H5Dopen2(file_, name.c_str(), access), H5Dclose);
-    if (!set.ok()) throw Unreadable{"there is no dataset '" + name + "'", ""};
+    const Handle set(opened(name, access), H5Dclose);
     read_values(name, set, shape_of(name, set), most, [&](std::span<const double> values) {
       out.number(values.size());
       out.doubles(values);
     });
   }
 
+  void slice(const Hdf5Slice& wanted, ByteSink& out) const {
+    const Handle set(opened(wanted.dataset, H5P_DEFAULT), H5Dclose);
+    const Handle type(H5Dget_type(set), H5Tclose);
+    const std::vector<std::size_t> shape = shape_of(wanted.dataset, set);
+    if (shape.size() != 1 || wanted.first > shape[0] || wanted.count > shape[0] - wanted.first)
+      throw Unreadable{"'" + wanted.dataset + "' has another shape now", "the file was changed"};
+    const bool as_text = H5Tget_class(type) == H5T_STRING;
+    for (std::size_t done = 0; done < wanted.count; done += values_at_once) {
+      const std::size_t first = wanted.first + done;
+      const std::size_t count = std::min(values_at_once, wanted.count - done);
+      Hdf5Values found;
+      if (as_text)
+        found.texts = texts_of(wanted.dataset, set, first, count);
+      else
+        found.numbers = numbers_of(wanted.dataset, set, first, count);
+      out.number(as_text ? is_text : is_number); // behind what can fail
+      out.doubles(found.numbers);
+      for (const std::string& text : found.texts)
+        out.text(text);
+    }
+  }
+
 private:
+  hid_t opened(const std::string& name, hid_t access) const {
+    const hid_t set = H5Dopen2(file_, name.c_str(), access);
+    if (set < 0) throw Unreadable{"there is no dataset '" + name + "'", ""};
+    return set;
+  }
+
   // `group` is a path with / behind it; empty for the root.
   void add_group(Hdf5Contents& all, const std::string& group) {
     const std::string object = group.empty() ? "/" : group.substr(0, group.size() - 1);
@@ -287,15 +339,14 @@ private:
     const std::size_t count = values_of(out.shape, bytes_);
     if (count == SIZE_MAX)
       throw Unreadable{"'" + name + "' claims more values than the file can hold", ""};
-    if (out.is_text) {
-      out.texts = texts_of(name, set, count);
-      out.held = true;
-      return;
-    }
-    const std::uint64_t needed = sizeof(double) * std::uint64_t{count};
-    if (needed > held_bytes || held_ + needed > held_in_all) return;
+    const std::uint64_t needed =
+        (out.is_text ? bytes_of_a_text : sizeof(double)) * std::uint64_t{count};
+    const bool is_small = needed <= held_bytes && held_ + needed <= held_in_all;
+    if (!is_small && (!out.is_text || out.shape.size() == 1)) return;
     held_ += needed;
-    if (count > 0)
+    if (out.is_text)
+      out.texts = texts_of(name, set, 0, count);
+    else if (count > 0)
       read_values(name, set, out.shape, values_at_once, [&](std::span<const double> values) {
         out.values.insert(out.values.end(), values.begin(), values.end());
       });
@@ -308,8 +359,6 @@ private:
 };
 
 // ---- as bytes ----
-
-enum Kind : std::uint64_t { is_absent, is_text, is_number };
 
 void put(ByteSink& out, const Hdf5Attributes& attributes) {
   out.number(attributes.size());
@@ -494,6 +543,20 @@ void scan_values(const std::filesystem::path& file, const std::string& dataset, 
   out.text(fault.hint);
 }
 
+void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> wanted,
+                 ByteSink& out) {
+  silence();
+  try {
+    const Scan scan(file);
+    for (const Hdf5Slice& slice : wanted)
+      scan.slice(slice, out);
+  } catch (const Unreadable& error) {
+    out.number(is_absent);
+    out.text(error.what);
+    out.text(error.hint);
+  }
+}
+
 bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents) {
   return Taker(in, file_bytes).take(contents);
 }
@@ -515,6 +578,29 @@ bool take_values(ByteSource& in, std::size_t count, std::size_t most,
     first += size;
   }
   return false;
+}
+
+bool take_slices(ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
+                 std::vector<Hdf5Values>& slices, std::string& fault, std::string& hint) {
+  const std::uint64_t longest = file_bytes * best_ratio + 65536;
+  for (const Hdf5Slice& slice : wanted) {
+    Hdf5Values& values = slices.emplace_back();
+    for (std::size_t done = 0; done < slice.count; done += values_at_once) {
+      const std::size_t count = std::min(values_at_once, slice.count - done);
+      std::uint64_t kind = 0;
+      if (!in.number(kind)) return false;
+      if (kind == is_absent) return in.text(fault, longest_text) && in.text(hint, longest_text);
+      if (kind == is_number) {
+        values.numbers.resize(done + count);
+        if (!in.doubles(std::span(values.numbers).subspan(done))) return false;
+      }
+      if (kind == is_text) values.texts.reserve(slice.count);
+      for (std::size_t i = 0; kind == is_text && i < count; ++i)
+        if (!in.text(values.texts.emplace_back(), longest)) return false;
+    }
+    if (values.numbers.size() + values.texts.size() != slice.count) return false;
+  }
+  return true;
 }
 
 } // namespace frictab::io

@@ -44,6 +44,8 @@ void scan_hdf5(const std::filesystem::path& file, ByteSink& out);
 // Values of one dataset, at most `most` at a time.
 void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,
                  ByteSink& out);
+void scan_slices(const std::filesystem::path& file, std::span<const Hdf5Slice> wanted,
+                 ByteSink& out);
 
 // In the parent: false where this is not what a scan of a file of `file_bytes` writes.
 bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& contents);
@@ -51,5 +53,8 @@ bool take_contents(ByteSource& in, std::uint64_t file_bytes, Hdf5Contents& conte
 bool take_values(ByteSource& in, std::size_t count, std::size_t most,
                  const std::function<void(std::size_t, std::span<const double>)>& take,
                  std::string& fault, std::string& hint);
+// What scan_slices writes of slices that lie within datasets of `file_bytes`.
+bool take_slices(ByteSource& in, std::uint64_t file_bytes, std::span<const Hdf5Slice> wanted,
+                 std::vector<Hdf5Values>& slices, std::string& fault, std::string& hint);
 
 } // namespace frictab::io

@@ -12,7 +12,10 @@
 #include "data/load_condensed.h"
 #include "data/overview.h"
 #include "data/plausibility.h"
+#include "data/write_dataset.h"
 #include "io/csv.h"
+#include "io/hdf5.h"
+#include "support/run_command.h"
 #include "unit/load_case.h"
 
 namespace frictab::condense_test {
@@ -250,6 +253,75 @@ TEST_F(CondensedLoad, AnExperimentLargerThanAPieceStaysWhole) {
   const std::uint64_t small = condensed({name}).hash;
   options.piece_bytes = 1 << 20;
   EXPECT_EQ(condensed({name}).hash, small);
+}
+
+TEST_F(CondensedLoad, OfHdf5IsTheCondensedCampaign) {
+  data::write_hdf5_columns(data::load_dataset({file("a.csv", tests(5))}, options),
+                           directory_ / "a.h5");
+  const Dataset rows = data::load_dataset({"a.h5"}, options);
+  for (const std::size_t bytes : {1, 100, 1000, 1 << 20}) { // from a row at a time to all at once
+    options.piece_bytes = bytes;
+    const Dataset blocks = condensed({"a.h5"});
+    EXPECT_EQ(blocks.hash, data::condense(rows, 10, nullptr).hash) << bytes;
+    EXPECT_EQ(blocks.rows_behind(), rows.rows());
+  }
+}
+
+TEST_F(CondensedLoad, OfGroupsOfHdf5IsTheCondensedCampaign) {
+  const auto write = [&](const char* of_the_last) {
+    const std::string script = fmt::format(R"(
+import h5py, numpy
+with h5py.File("a.h5", "w") as f:
+  for test in range(4):
+    g = f.create_group(f"t{{test}}")
+    g["sigma_n_MPa"] = numpy.full(40, 500.0 + test)
+    g["tau_R_MPa"] = 40 + numpy.arange(40) % 7
+    g.attrs["oil"] = "a" if test % 2 else "b"
+    g.attrs["film"] = 0.5 * test
+  {}
+)",
+                                           of_the_last);
+    const auto [code, out, err] = test::run_command({FRICTAB_PYTHON, "-c", script}, directory_);
+    ASSERT_EQ(code, 0) << err;
+  };
+  write("pass");
+  const Dataset rows = data::load_dataset({"a.h5"}, options);
+  for (const std::size_t bytes : {1, 200, 1 << 20}) {
+    options.piece_bytes = bytes;
+    EXPECT_EQ(condensed({"a.h5"}).hash, data::condense(rows, 10, nullptr).hash) << bytes;
+  }
+  options.piece_bytes = 1;
+  const auto fault_with = [&](const char* of_the_last) -> std::string {
+    write(of_the_last);
+    try {
+      condensed({"a.h5"});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  EXPECT_THAT(fault_with("del g['tau_R_MPa']"),
+              HasSubstr("a.h5: error: group 't3' has no tau_R_MPa, which others have"));
+  EXPECT_THAT(fault_with("g['time_s'] = numpy.arange(40)"),
+              HasSubstr("a.h5: error: column 'time_s' is not in group 't0'"));
+  EXPECT_THAT(fault_with("g['time_s'] = numpy.arange(39)"),
+              HasSubstr("a.h5: error: column 't3/time_s' has 39 rows, 't3/sigma_n_MPa' has 40"));
+}
+
+TEST_F(CondensedLoad, RowsOfHdf5ThatAreScatteredAreRefusedByTheirNumber) {
+  const std::size_t rows[] = {3};
+  io::Hdf5Writer out(directory_ / "a.h5");
+  for (const char* name : {"sigma_n_MPa", "tau_R_MPa"})
+    out.dataset(name, rows, std::vector<double>{3, 4, 5});
+  out.dataset("experiment", std::vector<std::string>{"a", "b", "a"});
+  out.close();
+  options.piece_bytes = 1;
+  try {
+    condensed({"a.h5"});
+    FAIL() << "scattered rows were taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.h5: error: experiment 'a' comes again in row 3"));
+  }
 }
 
 TEST_F(CondensedLoad, SeveralFilesAreOneCampaign) {
