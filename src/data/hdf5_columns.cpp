@@ -97,11 +97,13 @@ void Hdf5Columns::read_rows(std::uint64_t bytes) {
 
 void Hdf5Columns::read_groups(std::uint64_t bytes) {
   const std::size_t first_group = next_;
-  for (std::uint64_t taken = 0; next_ < groups_.size(); ++next_) {
+  std::uint64_t taken = 0;
+  for (; next_ < groups_.size(); ++next_) {
     const std::string& group = groups_[next_];
     const std::size_t rows = rows_of(group);
-    taken += bytes_of_a_row(group) * rows;
-    if (taken > bytes && next_ > first_group) break;
+    const std::uint64_t more = bytes_of_a_row(group) * rows;
+    if (taken > 0 && taken + more > bytes) break; // groups without rows are no piece
+    taken += more;
     want(group, 0, rows);
   }
   std::vector<io::Hdf5Values> values = in_.slices(wanted_);
@@ -172,8 +174,7 @@ io::CsvColumn& Hdf5Columns::column(const std::string& name, const std::string& u
     return there;
   }
   if (rows_before_ + first > 0)
-    faults_.add({table_.file, 0, 0},
-                fmt::format("column '{}' is not in group '{}'", name, groups_.front()),
+    faults_.add({table_.file, 0, 0}, fmt::format("column '{}' is not in all groups", name),
                 "every test needs the same datasets and attributes");
   return table_.columns.emplace_back(io::CsvColumn{name, unit, {}, {}});
 }

@@ -74,9 +74,10 @@ Hdf5Reader::~Hdf5Reader() = default;
 std::vector<std::string> Hdf5Reader::datasets(const std::string& group) const {
   const std::string path = group == "/" ? "" : group + "/";
   std::vector<std::string> names;
-  for (const auto& [name, set] : data_->contents.datasets)
-    if (name.starts_with(path) && name.find('/', path.size()) == name.npos)
-      names.push_back(name.substr(path.size()));
+  const auto& all = data_->contents.datasets;
+  for (auto at = all.lower_bound(path); at != all.end() && at->first.starts_with(path); ++at)
+    if (const std::string name = at->first.substr(path.size()); name.find('/') == name.npos)
+      names.push_back(name);
   return names;
 }
 

@@ -272,6 +272,8 @@ TEST_F(CondensedLoad, OfGroupsOfHdf5IsTheCondensedCampaign) {
     const std::string script = fmt::format(R"(
 import h5py, numpy
 with h5py.File("a.h5", "w") as f:
+  f.create_group("a_without_rows")
+  f.create_group("t1_without_rows")
   for test in range(4):
     g = f.create_group(f"t{{test}}")
     g["sigma_n_MPa"] = numpy.full(40, 500.0 + test)
@@ -286,6 +288,7 @@ with h5py.File("a.h5", "w") as f:
   };
   write("pass");
   const Dataset rows = data::load_dataset({"a.h5"}, options);
+  ASSERT_THAT(rows.experiments, ElementsAre("t0", "t1", "t2", "t3"));
   for (const std::size_t bytes : {1, 200, 1 << 20}) {
     options.piece_bytes = bytes;
     EXPECT_EQ(condensed({"a.h5"}).hash, data::condense(rows, 10, nullptr).hash) << bytes;
@@ -303,7 +306,7 @@ with h5py.File("a.h5", "w") as f:
   EXPECT_THAT(fault_with("del g['tau_R_MPa']"),
               HasSubstr("a.h5: error: group 't3' has no tau_R_MPa, which others have"));
   EXPECT_THAT(fault_with("g['time_s'] = numpy.arange(40)"),
-              HasSubstr("a.h5: error: column 'time_s' is not in group 't0'"));
+              HasSubstr("a.h5: error: column 'time_s' is not in all groups"));
   EXPECT_THAT(fault_with("g['time_s'] = numpy.arange(39)"),
               HasSubstr("a.h5: error: column 't3/time_s' has 39 rows, 't3/sigma_n_MPa' has 40"));
 }
