@@ -34,7 +34,6 @@ Hdf5Columns::Hdf5Columns(const std::string& path, const std::string& named, Faul
 }
 
 io::CsvTable Hdf5Columns::next(std::uint64_t bytes) {
-  if (!faults_.empty()) return {};
   wanted_.clear();
   if (groups_.empty())
     read_rows(bytes);
@@ -49,21 +48,30 @@ io::CsvTable Hdf5Columns::next(std::uint64_t bytes) {
   return piece;
 }
 
-// Every 1-D dataset is a column; other shapes are no data columns.
-std::vector<std::string> Hdf5Columns::columns_of(const std::string& group) const {
+// Of another shape they are no data columns.
+std::vector<std::string> Hdf5Columns::with_one_axis(const std::string& group) const {
   std::vector<std::string> names = in_.datasets(group.empty() ? "/" : group);
   std::erase_if(
       names, [&](const std::string& name) { return in_.shape(path_of(group, name)).size() != 1; });
   return names;
 }
 
+// Without those of another length, which are faults (check_lengths).
+std::vector<std::string> Hdf5Columns::columns_of(const std::string& group) const {
+  std::vector<std::string> names = with_one_axis(group);
+  const std::size_t rows = rows_of(group);
+  std::erase_if(
+      names, [&](const std::string& name) { return in_.shape(path_of(group, name))[0] != rows; });
+  return names;
+}
+
 std::size_t Hdf5Columns::rows_of(const std::string& group) const {
-  const std::vector<std::string> names = columns_of(group);
+  const std::vector<std::string> names = with_one_axis(group);
   return names.empty() ? 0 : in_.shape(path_of(group, names.front()))[0];
 }
 
 void Hdf5Columns::check_lengths(const std::string& group) {
-  const std::vector<std::string> names = columns_of(group);
+  const std::vector<std::string> names = with_one_axis(group);
   const std::size_t rows = rows_of(group);
   for (const std::string& name : names)
     if (const std::size_t own = in_.shape(path_of(group, name))[0]; own != rows)

@@ -22,11 +22,12 @@ public:
   Hdf5Columns(const std::string& path, const std::string& named, FaultList& faults);
 
   // The next rows, of no more than about so many bytes, but one row or group at least; none at the
-  // end of the file, or once `faults` of the constructor say that columns do not fit each other.
+  // end of the file. `faults` of the constructor: columns that do not fit each other.
   io::CsvTable next(std::uint64_t bytes);
 
 private:
   // Of a group, or of the root group: "".
+  std::vector<std::string> with_one_axis(const std::string& group) const;
   std::vector<std::string> columns_of(const std::string& group) const;
   std::size_t rows_of(const std::string& group) const;
   std::uint64_t bytes_of_a_row(const std::string& group) const;
