@@ -13,6 +13,7 @@
 #include "calibrate/experiment_errors.h"
 #include "calibrate/metrics.h"
 #include "trace/design.h"
+#include "trace/rows_alike.h"
 
 namespace frictab::trace {
 
@@ -66,10 +67,25 @@ private:
 
   void take_findings(std::size_t effects, std::size_t weights) {
     weights_ = weights;
+    tried_ = effects;
     d_.findings.resize(effects);
     std::iota(d_.findings.begin(), d_.findings.end(), 0);
     d_.baseline = weighted(s_.base);
-    d_.rival = effects == 0 ? d_.baseline : weighted(s_.with_first(effects));
+    d_.rival = effects == 0 ? d_.baseline : s_.with_first(effects);
+    if (weights_ == 1) weigh_alike();
+  }
+
+  // All rows alike; effects that nothing is left of then are no longer in the law.
+  void weigh_alike() {
+    FittedAlike alike = fit_rows_alike(s_.campaign(), d_.rival);
+    d_.rival = std::move(alike.rival);
+    std::vector<std::size_t> kept;
+    for (const std::size_t i : alike.kept)
+      kept.push_back(d_.findings[i]);
+    for (const std::size_t f : d_.findings)
+      if (std::find(kept.begin(), kept.end(), f) == kept.end())
+        against_[f] = {"none within its error where all rows weigh alike, as in the law delivered"};
+    d_.findings = std::move(kept);
   }
 
   calibrate::Metrics errors(const data::Dataset& data, const Rival& rival) const {
@@ -133,7 +149,8 @@ private:
       if (nested) return d_.nested.sums[weights_][effects];
       return no_validation() ? calibrate::sums_of(in_.fit.unseen) : on_validation(rival);
     };
-    const std::vector<calibrate::ErrorSums> with = unseen(d_.rival, d_.findings.size()),
+    const std::vector<calibrate::ErrorSums> with =
+                                                unseen(d_.rival, d_.findings.empty() ? 0 : tried_),
                                             without = unseen(d_.baseline, 0);
     t_.before = {errors(in_.training, d_.baseline),
                  calibrate::metrics(without, in_.bootstrap, in_.seed)};
@@ -172,7 +189,7 @@ private:
   void try_plain_weights() {
     weights_ = 1;
     d_.baseline = weighted(s_.base);
-    d_.rival = weighted(d_.rival);
+    weigh_alike();
     d_.gain_MPa.clear();
     drop_contradicted();
     compare_errors();
@@ -225,6 +242,7 @@ private:
   Trace& t_;
   Delivery d_;
   std::size_t weights_ = 0;
+  std::size_t tried_ = 0;                  // how many findings, of which d_.findings are left
   std::map<std::size_t, Against> against_; // by finding
 };
 

@@ -2,7 +2,10 @@
 #include "trace/effect_curve.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/columns.h"
+#include "effects/extended_law.h"
+#include "trace/factor_band.h"
 
 namespace frictab::trace {
 
@@ -14,40 +17,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t curve_points = 61;
 constexpr std::size_t bins = 5; // partial residuals per experiment
-
-// A row of inputs with the first at x; of the others, towards their upper ends.
-std::vector<double> row_at(const effects::PlacedEffect& effect, double x) {
-  std::vector<double> row{x};
-  for (std::size_t i = 1; i < effect.inputs.size(); ++i)
-    row.push_back(0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
-  return row;
-}
-
-double factor_at(const expr::Program& program, const effects::PlacedEffect& effect, double x) {
-  return program(row_at(effect, x), effects::fitted_values(effect));
-}
-
-// Of the factor at x, from the covariance of its parameters.
-double deviation(const expr::Program& program, const effects::PlacedEffect& effect, double x,
-                 const MatrixXd& covariance) {
-  const std::vector<double> row = row_at(effect, x);
-  std::vector<double> at = effects::fitted_values(effect);
-  VectorXd slope(static_cast<Index>(at.size()));
-  for (std::size_t p = 0; p < at.size(); ++p) {
-    const double step = 1e-5 * std::max(std::abs(at[p]), 1e-3), kept = at[p];
-    at[p] = kept + step;
-    const double up = program(row, at);
-    at[p] = kept - step;
-    const double down = program(row, at);
-    at[p] = kept;
-    slope(static_cast<Index>(p)) = (up - down) / (2 * step);
-  }
-  double variance = 0; // (A parameter that does not act here may be as little known as it likes.)
-  for (Index a = 0; a < slope.size(); ++a)
-    for (Index b = 0; b < slope.size(); ++b)
-      if (slope(a) != 0 && slope(b) != 0) variance += slope(a) * covariance(a, b) * slope(b);
-  return std::sqrt(variance < 0 ? 0 : variance); // NaN where it is not known
-}
 
 // x of a plot: along the first column.
 std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
@@ -63,21 +32,29 @@ std::vector<double> plot_positions(const effects::PlacedEffect& effect) {
   return x;
 }
 
+// Along x; the other inputs towards their upper ends.
+FactorOnRows factor_along(const effects::PlacedEffect& effect, const std::vector<double>& x) {
+  std::vector<std::vector<double>> columns{x};
+  for (std::size_t i = 1; i < effect.inputs.size(); ++i)
+    columns.emplace_back(x.size(), 0.25 * effect.inputs[i].low + 0.75 * effect.inputs[i].high);
+  return factor_on_rows(effect, pointers(columns), static_cast<Index>(x.size()));
+}
+
 } // namespace
 
 EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
                          const Sensitivities& sensitivities, std::size_t index,
                          std::size_t parameter, const MatrixXd& covariance) {
   const effects::PlacedEffect& effect = rival.effects[index];
-  const expr::Program program = effects::factor_program(effect);
   const auto count = static_cast<Index>(effects::fitted_parameters(effect).size());
-  const MatrixXd own =
-      covariance.block(static_cast<Index>(parameter), static_cast<Index>(parameter), count, count);
+  const auto first_one = static_cast<Index>(parameter);
   EffectCurve curve;
-  for (const double x : plot_positions(effect)) {
-    const double f = factor_at(program, effect, x);
-    const double d = 1.96 * deviation(program, effect, x, own);
-    curve.x.push_back(x);
+  curve.x = plot_positions(effect);
+  const FactorOnRows on_curve = factor_along(effect, curve.x);
+  const VectorXd errors =
+      std_errors(on_curve.slope, covariance.block(first_one, first_one, count, count));
+  for (Index i = 0; i < errors.size(); ++i) {
+    const double f = on_curve.factor(i), d = 1.96 * errors(i);
     curve.factor.push_back(f);
     curve.low.push_back(f - d);
     curve.high.push_back(f + d);
@@ -96,12 +73,13 @@ EffectCurve effect_curve(const Campaign& campaign, const Rival& rival,
       const VectorXd s = sensitivity.segment(begin, size);
       if (!(s.squaredNorm() > 1e-6 * sensitivity.squaredNorm() / static_cast<double>(first.back())))
         continue;
-      const double at = x.segment(begin, size).mean();
-      curve.point_x.push_back(at);
-      curve.point_factor.push_back(factor_at(program, effect, at) +
-                                   s.dot(residual.segment(begin, size)) / s.squaredNorm());
+      curve.point_x.push_back(x.segment(begin, size).mean());
+      curve.point_factor.push_back(s.dot(residual.segment(begin, size)) / s.squaredNorm());
     }
   }
+  const VectorXd at_points = factor_along(effect, curve.point_x).factor;
+  for (std::size_t i = 0; i < curve.point_factor.size(); ++i)
+    curve.point_factor[i] += at_points(static_cast<Index>(i));
   return curve;
 }
 

@@ -6,6 +6,7 @@
 #include "calibrate/folds.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "trace/rows_alike.h"
 
 namespace frictab::trace {
 
@@ -101,7 +102,7 @@ FoldErrors fold_errors(const Search& all, const data::Dataset& training,
     }
     const Rival& rival = search->with_first(k);
     evaluate(rival, 0);
-    evaluate(with_weights(search->campaign(), rival, rows_alike(rival.noise)), 1);
+    evaluate(fit_rows_alike(search->campaign(), rival).rival, 1);
   }
   return errors;
 }
