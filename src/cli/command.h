@@ -44,7 +44,7 @@ enum Uses : unsigned {
   uses_progress = 256,
   uses_dry_run = 512,
   stage_uses = uses_output | uses_threads | uses_quiet | uses_json | uses_seed | uses_set |
-               uses_progress | uses_dry_run, // of a command that runs stages of a job
+               uses_progress | uses_dry_run | uses_force, // of a command that runs stages of a job
 };
 
 struct Example {

@@ -11,6 +11,7 @@
 #include "data/write_dataset.h"
 #include "report/data_page.h"
 #include "run/data_summary.h"
+#include "run/results.h"
 
 namespace frictab::cli::data_command {
 
@@ -42,7 +43,8 @@ int run(const Options& options, const CommonOptions& common) {
   if (options.write == "hdf5")
     data::write_hdf5_columns(run::canonical(data), files.stage("data.h5"));
   const std::vector<std::string> written = files.paths();
-  files.commit();
+  run::Stages stages(job, job.directory);
+  run::commit_results(job, stages, files);
   show(common.json ? run::data_json(data) : run::data_text(data));
   std::fflush(stdout); // before the line to stderr
   note(common, fmt::format("wrote {} to {}", join(written, ", "), job.directory));
@@ -67,7 +69,7 @@ const Registered<Command> registered{[] {
       2,
       "Show what was read: each test, what was converted, computed, left out",
       declare,
-      uses_output | uses_threads | uses_quiet | uses_json | uses_seed | uses_set,
+      uses_output | uses_force | uses_threads | uses_quiet | uses_json | uses_seed | uses_set,
       {{"frictab data job.toml", "a line per test; data.html has all strokes"},
        {"frictab data job.toml --write hdf5", "and the data in canonical names and units"}}};
 }};

@@ -98,7 +98,7 @@ const Registered<Command> registered{[] {
       5,
       "Generate the friction subroutines from the tables",
       declare,
-      stage_uses | uses_verbose | uses_force,
+      stage_uses | uses_verbose,
       {{"frictab export job.toml", "the routines of the job's tables"},
        {"frictab export --table out/tables/coulomb.h5 --targets c,marc_ufric -o routines",
         "of one table"},

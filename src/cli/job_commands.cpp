@@ -47,6 +47,7 @@ job::Job read_job(const std::string& file, const CommonOptions& common) {
     job.directory = common.output;
     job.said += " -o " + shell_word(common.output);
   }
+  job.replaces_others = common.force;
   if (common.seed) {
     job.calibration.seed = *common.seed;
     job.said += fmt::format(" --seed {}", *common.seed);

@@ -27,6 +27,7 @@ struct Job {
   verify::VerifyOptions verify;
   trace::TraceOptions trace;
   std::string directory = "out"; // relative to the job file, already joined with its directory
+  bool replaces_others = false;  // --force: files in it that frictab did not write, too
   // What file and overrides say below each section head, as text without places and order: by it a
   // stage knows results that another job has made. Without table.model, which also picks among
   // tables that are there.

@@ -21,6 +21,7 @@
 #include "core/version.h"
 #include "report/report.h"
 #include "run/chosen.h"
+#include "run/results.h"
 #include "table/build.h"
 #include "table/direct.h"
 #include "table/distance.h"
@@ -37,6 +38,7 @@ namespace fs = std::filesystem;
 
 Pipeline::Pipeline(job::Job job)
     : job_(std::move(job)), output_(job_.directory), earlier_(job_), stages_(job_, job_.directory) {
+  check_directory(job_, stages_);
   if (!output_.keeps_others_off())
     notes_.push_back(job_.directory + " is on a file system without locks: run one frictab at a "
                                       "time there");
@@ -173,18 +175,9 @@ std::string Pipeline::kept_text() const {
                      (fs::path(job_.directory) / io::kept_name).string(), job_.arguments());
 }
 
-void Pipeline::record_files() {
-  for (const std::string& path : output_.old())
-    stages_.forget_file(path);
-  for (const std::string& path : output_.paths())
-    if (path != "stages.json" &&
-        !path.starts_with("report.")) // which list what their command wrote
-      stages_.record_file(path, output_.staged(path));
-}
-
 void Pipeline::keep_so_far() {
   if (!kept_) return;
-  record_files();
+  record_files(stages_, output_);
   output_.keep("stages.json", stages_.json());
   keeps_ = true;
 }
@@ -295,33 +288,44 @@ in_order_of(const std::vector<std::string>& names,
   return sorted;
 }
 
+// Of few validation tests, which laws are ranked by, a traced law may come out behind the law that
+// its effects were added to; the left-out tests of the trace, by which they were, are more.
+void put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
+  const auto with_name = [&](const std::string& name) {
+    return std::find_if(fits.begin(), fits.end(),
+                        [&](const ModelFit& fit) { return fit.model.name() == name; });
+  };
+  const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
+  if (trace.unseen == "validation" || traced == fits.end() || traced < own) return;
+  traced->remarks.push_back(fmt::format(
+      "stands before {} by the {} left-out tests of its trace, {:.4g} MPa there against {:.4g}: "
+      "the validation tests are {}",
+      trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
+      trace.before.validation.mae_MPa, traced->validation.n_experiments));
+  std::rotate(own, traced, traced + 1);
+}
+
 } // namespace
 
 void Pipeline::add_traced_laws() {
-  std::vector<ModelFit> nested; // judged on other tests than the laws they came from
   std::vector<ModelFit*> by_validation;
   for (trace::Trace& trace : traces_)
-    if (trace.extended.model.law && trace.extended.unseen.empty() && trace.unseen == "validation")
+    if (trace.extended.model.law && trace.extended.unseen.empty())
       by_validation.push_back(&trace.extended);
   calibrate::judge_on_rows(by_validation, data_->calibration_input(job_));
   for (const trace::Trace& trace : traces_) {
     if (!trace.extended.model.law) continue;
     ModelFit fit = trace.extended;
-    const bool same_tests = trace.unseen == "validation" || !fit.unseen.empty();
     fit.unseen = in_order_of(calibration_->validation_experiments, fit.unseen);
-    (same_tests ? calibration_->fits : nested).push_back(std::move(fit));
+    calibration_->fits.push_back(std::move(fit));
   }
   std::stable_sort(calibration_->fits.begin(), calibration_->fits.end(),
                    [](const ModelFit& a, const ModelFit& b) {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   calibrate::add_comparisons(*calibration_, data_->calibration_input(job_));
-  for (ModelFit& fit : nested) { // in front of their law, which they are better than
-    const auto base = std::find_if(
-        calibration_->fits.begin(), calibration_->fits.end(),
-        [&](const ModelFit& other) { return other.model.law->name == fit.model.base(); });
-    calibration_->fits.insert(base, std::move(fit));
-  }
+  for (const trace::Trace& trace : traces_)
+    put_before_its_law(calibration_->fits, trace);
   write_calibration();
 }
 
@@ -733,9 +737,7 @@ void Pipeline::deliver() {
 }
 
 void Pipeline::commit() {
-  record_files();
-  output_.write("stages.json", stages_.json());
-  output_.commit();
+  commit_results(job_, stages_, output_);
 }
 
 } // namespace frictab::run

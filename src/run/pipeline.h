@@ -90,7 +90,6 @@ private:
   table::Table staged_table(const std::string& model) const; // as it was written
   // What is finished so far outlives the process.
   void keep_so_far();
-  void record_files(); // their fingerprints
 
   void write_calibration();
   void add_traced_laws();

@@ -15,6 +15,7 @@
 #include "io/json.h"
 #include "run/job_data.h"
 #include "run/kept_work.h"
+#include "run/results.h"
 #include "run/stages.h"
 
 namespace frictab::run {
@@ -51,6 +52,7 @@ public:
         laws_(calibrate::names_of_laws(data_.calibration_input(job))) {}
 
   Plan plan(const std::string& command) const {
+    check_directory(job_, stages_);
     Plan plan{job_.directory, {}};
     if (command == "run") {
       for (const char* stage : {"calibrate", "trace", "tabulate", "export", "verify", "report"})

@@ -90,6 +90,8 @@ Stages::Stages(const job::Job& job, const std::filesystem::path& directory)
                      inputs.at("version")};
     open_ = json.value("unfinished", "");
     files_ = json.value("files", std::map<std::string, std::string>()); // none: of 0.1
+    for (const auto& [path, fingerprint] : files_)
+      had_files_.insert(path);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ public:
   void record_file(const std::string& path, const std::filesystem::path& file);
   std::vector<std::string> recorded_in(std::string_view folder) const; // "models/"
   void forget_file(const std::string& path) { files_.erase(path); }
+  // Whether the stages.json that was read has any file, or this one; one recorded since does not
+  // count.
+  bool had_files() const { return !had_files_.empty(); }
+  bool had_file(const std::string& path) const { return had_files_.count(path) > 0; }
   // Whether the file is the one that was recorded; nothing where none was.
   std::optional<bool> is_as_written(const std::string& path) const;
 
@@ -63,6 +68,7 @@ private:
   std::map<std::string, StageInputs> made_;
   std::string open_;                         // the stage that has begun and not ended
   std::map<std::string, std::string> files_; // fingerprints by path
+  std::set<std::string> had_files_;
 };
 
 } // namespace frictab::run

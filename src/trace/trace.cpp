@@ -79,11 +79,12 @@ private:
     return calibrate::metrics(data, predicted, in_.bootstrap, in_.seed);
   }
 
-  // On the validation tests; where there are none, on training tests left out in turn.
+  // On the validation tests, as all laws are, however few; where there are none, on training tests
+  // left out in turn.
   void judge(Trace& trace) const {
     calibrate::ModelFit& fit = trace.extended;
-    fit.validation = trace.after.validation;
     if (in_.validation.experiments.empty()) {
+      fit.validation = trace.after.validation;
       fit.band = calibrate::check_band(fit.model, {}, in_.validation);
       if (delivery_.nested.folds == 0) fit.unseen = in_.fit.unseen;
       for (std::size_t e = 0; fit.unseen.size() < experiments(); ++e)
@@ -92,7 +93,7 @@ private:
       return;
     }
     const std::vector<double> unseen = calibrate::predict(fit.model, in_.validation);
-    if (trace.unseen == "validation") fit.validation = errors(in_.validation, unseen);
+    fit.validation = errors(in_.validation, unseen);
     fit.band = calibrate::check_band(fit.model, unseen, in_.validation);
   }
 

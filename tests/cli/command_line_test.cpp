@@ -102,7 +102,7 @@ TEST(CommandLine, ExitCodesAreThoseOfTheGuide) {
 TEST(CommandLine, HelpShowsOnlyOptionsThatDoSomethingAndAllAreTaken) {
   EXPECT_THAT(out_of({"list", "--help"}),
               AllOf(HasSubstr("--json"), Not(HasSubstr("--seed")), Not(HasSubstr("--set"))));
-  EXPECT_THAT(out_of({"run", "--help"}), AllOf(HasSubstr("--seed"), Not(HasSubstr("--force"))));
+  EXPECT_THAT(out_of({"status", "--help"}), AllOf(HasSubstr("--seed"), Not(HasSubstr("--force"))));
   EXPECT_EQ(out_of({"list", "models", "--seed", "1", "-j", "1", "--force", "-o", "x"}),
             out_of({"list", "models"}));
 }

@@ -518,6 +518,8 @@ TEST(SlowTrace, FewExperimentsProveNothingAndSaySo) {
   const Trace more = traced(options);
   EXPECT_TRUE(names(more, "s_mm")) << trace_text(more); // the contact heats up as it slides
   EXPECT_EQ(more.unseen, "nested_cross_validation") << "three validation tests judge nothing";
+  EXPECT_EQ(more.extended.validation.n_experiments, 3u) << "all laws are ranked on the same tests";
+  EXPECT_EQ(more.after.validation.n_experiments, 12u);
 }
 
 TEST(Trace, OneOrTwoExperimentsGiveLeadsAndNoEffect) {

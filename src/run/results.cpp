@@ -1,0 +1,126 @@
+// The job's files by what they are on the disk; others' are neither in stages.json, as it was
+// found, nor name frictab.
+#include "run/results.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/text.h"
+#include "data/file_list.h"
+
+namespace frictab::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const to_mend = "choose another directory: -o DIR, or output.directory of the job";
+constexpr std::string_view stages_file = "stages.json", report = "report.";
+
+// The job file, those of [data], laws and tables that are laws, as they can be opened.
+std::vector<fs::path> files_read_by(const job::Job& job) {
+  const data::DataOptions& data = job.data;
+  std::vector<fs::path> files{job.file};
+  const auto add = [&](const std::vector<std::string>& named) {
+    for (const std::string& name : data::find_files(named, data.base, data.place))
+      files.push_back(fs::path(data.base) / name);
+  };
+  for (const auto& named : {data.training, data.validation, data.oracle, data.join.files})
+    if (!named.empty()) add(named);
+  std::vector<std::string> others = job.models.files;
+  others.push_back(data.tests);
+  for (const models::LawText& law : job.models.texts)
+    others.push_back(law.table);
+  for (const std::string& name : others)
+    if (!name.empty()) files.push_back(fs::path(data.base) / name);
+  return files;
+}
+
+void check_not_read(const job::Job& job, std::vector<std::string> paths) {
+  const std::vector<fs::path> read = files_read_by(job);
+  for (const std::string& path : paths) {
+    const fs::path target = fs::path(job.directory) / path;
+    std::error_code none; // one of the two is not there
+    if (std::any_of(read.begin(), read.end(),
+                    [&](const fs::path& one) { return fs::equivalent(one, target, none); }))
+      throw InputError({target.string(), 0, 0}, "is read by this job, and a result comes there",
+                       to_mend);
+  }
+}
+
+std::string beginning_of(const fs::path& file) {
+  constexpr std::streamsize enough = std::streamsize{1} << 16; // of HDF5: the first attributes
+  std::string text(enough, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(text.data(), enough);
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+// stages.json knows it, or some of its directory: it never has reports.
+bool is_known(const Stages& stages, const std::string& path) {
+  const bool page = path.starts_with(report) || path == "data.html";
+  return stages.had_file(path) || (page && stages.had_files());
+}
+
+// Results name frictab near their beginning; columns and tables of numbers have its first line.
+bool is_of_frictab(const std::string& beginning) {
+  return beginning.empty() || beginning.find("frictab") != beginning.npos;
+}
+
+bool has_header_of(const std::string& beginning, const fs::path& other) {
+  const std::string line = beginning.substr(0, beginning.find('\n'));
+  const std::string wanted = beginning_of(other);
+  return line == wanted.substr(0, wanted.find('\n'));
+}
+
+[[noreturn]] void refuse(const job::Job& job, const std::vector<std::string>& foreign) {
+  throw InputError({job.directory, 0, 0},
+                   "has files called like results that frictab did not write: " +
+                       join(foreign, ", "),
+                   std::string(to_mend) + "; or --force to replace them");
+}
+
+void check_not_of_others(const job::Job& job, const Stages& stages, const io::OutputFiles& files) {
+  std::vector<std::string> foreign;
+  for (const std::string& path : files.paths()) {
+    const fs::path target = fs::path(job.directory) / path;
+    if (is_known(stages, path) || !fs::is_regular_file(target)) continue;
+    const std::string beginning = beginning_of(target);
+    if (!is_of_frictab(beginning) && !has_header_of(beginning, files.staged(path)))
+      foreign.push_back(path);
+  }
+  if (!foreign.empty()) refuse(job, foreign);
+}
+
+} // namespace
+
+void check_directory(const job::Job& job, const Stages& stages) {
+  if (job.replaces_others) return;
+  std::vector<std::string> foreign;
+  for (const char* name : {"calibration.json", "report.html", "report.md", "stages.json",
+                           "trace.json", "verify.json", "verify.xml"})
+    if (!is_known(stages, name) && !is_of_frictab(beginning_of(fs::path(job.directory) / name)))
+      foreign.emplace_back(name);
+  if (!foreign.empty()) refuse(job, foreign);
+}
+
+void record_files(Stages& stages, const io::OutputFiles& files) {
+  for (const std::string& path : files.old())
+    stages.forget_file(path);
+  for (const std::string& path : files.paths())
+    if (path != stages_file && !path.starts_with(report))
+      stages.record_file(path, files.staged(path));
+}
+
+void commit_results(const job::Job& job, Stages& stages, io::OutputFiles& files) {
+  std::vector<std::string> touched = files.paths();
+  touched.insert(touched.end(), files.old().begin(), files.old().end());
+  check_not_read(job, touched);
+  if (!job.replaces_others) check_not_of_others(job, stages, files);
+  record_files(stages, files);
+  files.write(std::string(stages_file), stages.json());
+  files.commit();
+}
+
+} // namespace frictab::run
