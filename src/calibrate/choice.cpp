@@ -25,12 +25,15 @@ double mae_of(const LawErrors& law, std::span<const double> times) {
   return rows > 0 ? sum / rows : 0;
 }
 
-// The first of equals, as in the ranking.
+// The first of those whose error is the same, as in the ranking.
 std::size_t best_of(Laws laws, std::span<const double> times) {
   std::vector<double> mae;
   for (const LawErrors& law : laws)
     mae.push_back(mae_of(law, times));
-  return static_cast<std::size_t>(std::min_element(mae.begin(), mae.end()) - mae.begin());
+  const double least = *std::min_element(mae.begin(), mae.end());
+  const auto first = std::find_if(mae.begin(), mae.end(),
+                                  [&](double one) { return one <= least * (1 + same_error); });
+  return static_cast<std::size_t>(first - mae.begin());
 }
 
 std::vector<Choice::Share> shares_of(Laws laws, const std::vector<std::size_t>& wins) {

@@ -64,11 +64,11 @@ Problem problem_of(std::span<const LawErrors> laws, Measure measure) {
   return problem;
 }
 
-// A difference in standard errors. Rounding of equal numbers is no difference; a difference without
-// scatter is infinitely clear.
+// A difference in standard errors; `scale` is the sum of the two. A difference without scatter is
+// infinitely clear.
 double studentised(double difference, double error, double scale) {
   const double rounding = 1e-12 * scale;
-  if (std::abs(difference) <= rounding) return 0;
+  if (std::abs(difference) <= same_error * scale / 2) return 0;
   return error > rounding ? difference / error : std::copysign(infinite, difference);
 }
 

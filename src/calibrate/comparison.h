@@ -14,6 +14,10 @@ namespace frictab::calibrate {
 struct Calibration;
 struct CalibrationInput;
 
+// Of the MAE: errors of two laws that are closer are the same. A fit's tolerance leaves a law that
+// is written in two ways 1e-5 apart, without scatter, which is no difference between laws.
+inline constexpr double same_error = 1e-4;
+
 // Sums per validation experiment of one law.
 struct LawErrors {
   std::string law;

@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "data/derived.h"
 #include "data/quantity.h"
+#include "trace/test_dates.h"
 
 namespace frictab::trace {
 
@@ -202,20 +203,33 @@ private:
         order = &column;
     }
     if (!order || order_has_gaps(*order)) return;
-    // Time stamps are text. Levels are sorted, and stamps with the year first sort by time.
-    for (std::size_t e = 0; e < training_.experiments.size(); ++e)
-      found_.order.push_back(order->values[training_.first_row[e]]);
+    const TestDates dates = sort_dates(order->levels); // time stamps are text
+    if (!dates.fault.empty()) {
+      not_an_order(*order, dates.fault, "write dates as 2024-09-01");
+      return;
+    }
+    for (std::size_t e = 0; e < training_.experiments.size(); ++e) {
+      const double value = order->values[training_.first_row[e]];
+      found_.order.push_back(order->levels.empty() ? value
+                                                   : dates.place[static_cast<std::size_t>(value)]);
+    }
     found_.order_column = order->name;
+  }
+
+  // An error where the job names the column; else it is said that it is not used.
+  void not_an_order(const Column& column, const std::string& why, const std::string& hint) {
+    const std::string text = fmt::format("{}, the order of tests: {}", column.name, why);
+    if (column.name == options_.order) throw InputError(options_.order_place, text, hint);
+    found_.notes.push_back(text + ": not used");
   }
 
   bool order_has_gaps(const Column& order) {
     const std::size_t empty = count_empty(order.values);
     if (empty == 0) return false;
-    const std::string text = fmt::format("{}, the order of tests: {} of {} rows without a value",
-                                         order.name, thousands(empty), thousands(training_.rows()));
-    if (order.name == options_.order)
-      throw InputError(options_.order_place, text, "fill them in, or name another column");
-    found_.notes.push_back(text + ": not used");
+    not_an_order(
+        order,
+        fmt::format("{} of {} rows without a value", thousands(empty), thousands(training_.rows())),
+        "fill them in, or name another column");
     return true;
   }
 

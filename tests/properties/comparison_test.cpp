@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/metrics.h"
 #include "core/parallel.h"
@@ -66,6 +67,20 @@ TEST(SlowComparison, OfALawWithItselfIsExactlyZero) {
     EXPECT_FALSE(d.distinguishable());
   }
   EXPECT_THAT(calibrate::possibly_best(c), ElementsAre("a", "b"));
+}
+
+// What a fit's tolerance leaves of a law that is written in two ways is without scatter.
+TEST(SlowComparison, OfALawWrittenInTwoWaysFindsNoBetterOne) {
+  const std::vector<double> mae{13, 18, 11, 12, 15, 16, 12};
+  std::vector<double> again = mae;
+  for (double& one : again)
+    one *= 1 + 2e-5;
+  const std::vector<LawErrors> laws{law("a", mae), law("b", again)};
+  const Comparisons c = compare(laws, 500, 1);
+  EXPECT_EQ(c.pairs[0].mae.p_value, 1);
+  EXPECT_THAT(calibrate::possibly_best(c), ElementsAre("a", "b"));
+  const std::vector<LawErrors> other_rank{laws[1], laws[0]};
+  EXPECT_EQ(calibrate::choose_again(other_rank, 500, 1).best_in[0].share, 1) << "the first of both";
 }
 
 TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
