@@ -48,6 +48,9 @@ std::vector<StageStatus> status_of(const job::Job& job) {
       if (name == "tabulate" && status.why.empty() && job.table.names_laws())
         if (const std::string law = law_without_table(job); !law.empty())
           status.why = "there is no table of " + law;
+      if (const std::string changed = stages.changed_file(name);
+          status.why.empty() && !changed.empty())
+        status.why = changed + " was changed since";
       status.state = status.why.empty() ? "done" : "stale";
       for (const StageStatus& before : out)
         if (status.why.empty() && before.state == "stale") {

@@ -28,6 +28,9 @@ void check_needed(Part& part, const DataOptions& options) {
                         join(part.raw_names(), ", "));
 }
 
+// In the canonical unit of any quantity, seconds since 1970 among them: more is no measurement.
+constexpr double more_than_anything = 1e12;
+
 void check_values(Part& part) {
   FaultsByCause causes;
   for (const Column& column : part.data.columns) {
@@ -43,6 +46,13 @@ void check_values(Part& part) {
                    {part.place(i), "sigma_f_MPa is 0: no metal flows without stress",
                     "was it not measured there? leave such rows out: data.drop = { sigma_f_MPa = { "
                     "below = 1 } }"});
+      if (std::abs(column.values[i]) > more_than_anything)
+        causes.add(
+            "high " + column.name,
+            {part.place(i), fmt::format("{} is {}", column.name, column.values[i]),
+             fmt::format("what a device writes where it measured nothing? Such rows are left "
+                         "out with data.drop = {{ {} = {{ above = 1e6 }} }}",
+                         column.name)});
       if (!(column.values[i] < quantity->lowest)) continue;
       std::string hint =
           fmt::format("a {} cannot be below {}{}", quantity->meaning, quantity->lowest,

@@ -90,6 +90,21 @@ Implausible no_friction(const Dataset& data) {
           "[data.columns]"};
 }
 
+// Friction where the load is exactly 0: a coefficient that no other check sees. (Noise around 0 is
+// friction of nothing.)
+Implausible no_load_channel(const Dataset& data) {
+  const auto tau = data.values("tau_R_MPa"), pressure = data.values("sigma_n_MPa");
+  const double rubbing = offset_share * quantile({tau.begin(), tau.end()}, 0.9);
+  std::vector<double> found;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    if (pressure[i] == 0 && tau[i] > 0 && tau[i] > rubbing) found.push_back(tau[i]);
+  return {
+      "", found.size(), tau.size(),
+      fmt::format("sigma_n_MPa is 0 where tau_R_MPa is not, {:.3g} in the middle", median(found)),
+      "a load channel that was not connected or dropped out? Such rows are left out with "
+      "data.drop = { sigma_n_MPa = { below = 1 } }"};
+}
+
 // Where a file gives the stress and both forces: eq. 1 holds between them.
 Implausible forces(const Dataset& data) {
   if (!data.has("F_R_N") || !data.has("F_N_N")) return {};
@@ -504,6 +519,7 @@ struct Check {
 };
 
 constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
+                            {"no_load", no_load_channel, Sees::rows},
                             {"pressure", pressure, Sees::rows},
                             {"friction_coefficient", friction_coefficient, Sees::rows},
                             {"shear_yield", shear_yield, Sees::rows},

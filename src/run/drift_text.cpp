@@ -27,7 +27,8 @@ std::size_t name_width(const verify::Verification& verification) {
 }
 // What is said of one table and the routines made from it.
 struct DriftLine {
-  double table = 0, on_rows = 0, share = 0;
+  double table = 0;
+  std::optional<double> on_rows, share; // none without rows
   std::optional<double> proven_MPa;
   double routines = 0; // the furthest of them
   std::size_t count = 0, untested = 0;
@@ -51,9 +52,10 @@ void add_to(DriftLine& line, const verify::Verification& verification,
   if (const std::string left = verify::not_posed_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own
-  line.on_rows = std::max(line.on_rows, r.rows.max_abs);
-  if (r.n_rows > 0)
+  if (r.n_rows > 0) {
+    line.on_rows = std::max(line.on_rows.value_or(0), r.rows.max_abs);
     line.share = 100.0 * static_cast<double>(r.n_outside) / static_cast<double>(r.n_rows);
+  }
   if (r.subject != "table") {
     ++line.count;
     line.routines = std::max(line.routines, r.worst_case_MPa);
@@ -86,9 +88,10 @@ std::string proven_text(const DriftLine& line) {
 std::string text_of(const DriftLine& line, const std::string& model, std::size_t width) {
   const std::string routines =
       line.count == 0 ? "-" : fmt::format("{:.3g} ({})", line.routines, line.count);
-  return fmt::format("  {:<{}}{:>12.3g}{:>10}{:>16}{:>12.3g}{:>11.2f} %   {}\n{}", model, width,
-                     line.table, proven_text(line), routines, line.on_rows, line.share,
-                     result_of(line), line.notes);
+  const std::string on_rows = line.on_rows ? fmt::format("{:.3g}", *line.on_rows) : "-";
+  const std::string share = line.share ? fmt::format("{:.2f} %", *line.share) : "-  ";
+  return fmt::format("  {:<{}}{:>12.3g}{:>10}{:>16}{:>12}{:>13}   {}\n{}", model, width, line.table,
+                     proven_text(line), routines, on_rows, share, result_of(line), line.notes);
 }
 
 // One line per axis and side that rows of the data lie beyond; they are the same for every subject.

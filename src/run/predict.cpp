@@ -26,6 +26,7 @@
 #include "report/numbers.h"
 #include "run/chosen.h"
 #include "run/result_directory.h"
+#include "run/stages.h"
 
 namespace frictab::run {
 
@@ -141,9 +142,24 @@ void check_data_range(const calibrate::ModelFit& fit, const std::vector<std::str
                        "calibrate again with this version");
 }
 
+// As later stages ask, but for the data: where rows are predicted, those of the calibration need
+// not be.
+void check_calibration(const job::Job& job) {
+  const Stages stages(job, job.directory);
+  std::string why;
+  if (!stages.is_as_written("calibration.json").value_or(true))
+    why = "was changed since `frictab calibrate` wrote it";
+  else if (stages.is_of_another_job("calibrate"))
+    why = "is stale: [models] or [calibration] of the job has changed since";
+  if (why.empty()) return;
+  throw InputError({(std::filesystem::path(job.directory) / "calibration.json").string(), 0, 0},
+                   why, "`frictab calibrate " + job.arguments() + "` makes it anew");
+}
+
 } // namespace
 
 LawToPredict law_of_job(const job::Job& job, const std::string& name) {
+  check_calibration(job);
   const calibrate::Calibration calibration = ResultDirectory(job).calibration();
   return {fit_named(calibration, name, job.table).delivered(), job.data};
 }

@@ -59,6 +59,16 @@ const Stage& stage_named(const std::string& name) {
                        [&](const Stage& stage) { return name == stage.name; });
 }
 
+// The stage that writes this result; empty for what no stage does.
+std::string_view stage_of(std::string_view path) {
+  constexpr std::pair<std::string_view, std::string_view> beginnings[] = {
+      {"calibration.", "calibrate"}, {"models/", "calibrate"}, {"trace.", "trace"},
+      {"tables/", tabulate},         {"export/", "export"},    {"verify.", "verify"}};
+  for (const auto& [beginning, stage] : beginnings)
+    if (path.starts_with(beginning)) return stage;
+  return "";
+}
+
 std::string sections_text(const Stage& stage) {
   std::vector<std::string> heads;
   for (const std::string& section : stage.sections)
@@ -149,6 +159,12 @@ std::optional<bool> Stages::is_as_written(const std::string& path) const {
   return file_fingerprint(directory_ / path) == known->second;
 }
 
+std::string Stages::changed_file(const std::string& stage) const {
+  for (const auto& [path, fingerprint] : files_)
+    if (stage_of(path) == stage && !is_as_written(path).value_or(true)) return path;
+  return "";
+}
+
 std::string Stages::stale(const std::string& stage, const std::string& data) const {
   const auto found = made_.find(stage);
   if (found == made_.end()) return "";
@@ -162,6 +178,11 @@ std::string Stages::stale(const std::string& stage, const std::string& data) con
     return "table.model of the job has changed since";
   if (made.from != wanted.from) return fmt::format("made before the last `{}`", before(stage));
   return "";
+}
+
+bool Stages::is_of_another_job(const std::string& stage) const {
+  const auto found = made_.find(stage);
+  return found != made_.end() && found->second.job != now(stage, "").job;
 }
 
 std::string Stages::json() const {

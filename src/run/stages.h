@@ -50,11 +50,17 @@ public:
   // Whether the file is the one that was recorded; nothing where none was.
   std::optional<bool> is_as_written(const std::string& path) const;
 
+  // The first file of a stage that is no longer as it was recorded; empty: none.
+  std::string changed_file(const std::string& stage) const;
+
   // In words, how what a stage was made from differs from what it would be made from now: "[table]
   // of the job has changed since"; empty where it does not, or nothing is known of it. A
   // table.model that names laws picks among the tables there are. `data` empty: they were not read,
   // and are not compared.
   std::string stale(const std::string& stage, const std::string& data) const;
+
+  // Whether the stage was made by a job that said something else of it. The data are not looked at.
+  bool is_of_another_job(const std::string& stage) const;
 
   std::string json() const;
 

@@ -200,6 +200,7 @@ private:
     check_memory(axes, options_);
     trial.table =
         sampled_table(law_, pieces_, ranges_, std::move(axes), interpolation_, log_value_);
+    check_finite(trial.table, 0, trial.table.value, options_.place);
     const TableFunction function(trial.table);
     trial.drift = compare(peaks_, function);
     if (trial.drift > enough) return trial;

@@ -2,6 +2,7 @@
 #include "table/sampling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -102,6 +103,32 @@ Table describe_table(const models::AssembledLaw& law, const std::vector<StateRan
   table.record.formula = model.law->formula;
   table.record.shear_yield = models::shear_yield_name(model.conventions.shear_yield);
   return table;
+}
+
+namespace {
+
+std::string state_at(const Table& table, std::size_t node) {
+  std::string text;
+  for (std::size_t a = table.axes.size(); a-- > 0;) {
+    const TableAxis& axis = table.axes[a];
+    const double x = axis.nodes[node % axis.nodes.size()];
+    text = fmt::format("{} = {:g}{}{}", axis.name, x, text.empty() ? "" : ", ", text);
+    node /= axis.nodes.size();
+  }
+  return text;
+}
+
+} // namespace
+
+void check_finite(const Table& table, std::size_t first, std::span<const double> values,
+                  const Place& place) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(table.coordinate(values[i])))
+      throw InputError(place,
+                       fmt::format("{}{} of {} is not finite at {}", table.log_value ? "ln " : "",
+                                   models::quantity_name(table.quantity), table.model,
+                                   state_at(table, first + i)),
+                       "narrower ranges in [table.axes], or another law");
 }
 
 } // namespace frictab::table

@@ -19,6 +19,11 @@ inline constexpr std::size_t sample_block = 4096;
 void sample_nodes(const Pieces& pieces, const std::vector<StateRange>& ranges,
                   const std::vector<TableAxis>& axes, std::size_t first, std::span<double> values);
 
+// Throws InputError at `place` with the first of these nodes, the `first` one of the table and
+// those behind it, where the law is infinite or no number.
+void check_finite(const Table& table, std::size_t first, std::span<const double> values,
+                  const Place& place);
+
 // A table without its values.
 Table describe_table(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
                      std::vector<TableAxis> axes, Interpolation interpolation, bool log_value);

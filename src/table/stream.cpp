@@ -73,17 +73,6 @@ bool is_positive(const Pieces& pieces, const std::vector<StateRange>& ranges,
   return *std::min_element(values.begin(), values.end()) > 0;
 }
 
-std::string state_at(const Table& table, std::size_t node) {
-  std::string text;
-  for (std::size_t a = table.axes.size(); a-- > 0;) {
-    const TableAxis& axis = table.axes[a];
-    const double x = axis.nodes[node % axis.nodes.size()];
-    text = fmt::format("{} = {:g}{}{}", axis.name, x, text.empty() ? "" : ", ", text);
-    node /= axis.nodes.size();
-  }
-  return text;
-}
-
 class Sampler {
 public:
   Sampler(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
@@ -107,14 +96,7 @@ public:
     for (std::size_t i = 0; i < out.size(); i += sample_block) {
       const auto block = std::span(out).subspan(i, std::min(sample_block, out.size() - i));
       sample_nodes(pieces_, ranges_, table.axes, first(chunk) + i, block);
-      for (double& value : block) {
-        if (std::isfinite(table.coordinate(value))) continue;
-        const auto node = first(chunk) + static_cast<std::size_t>(&value - out.data());
-        throw InputError(place_,
-                         fmt::format("{}{} is not finite at {}", table.log_value ? "ln " : "",
-                                     models::quantity_name(table.quantity), state_at(table, node)),
-                         "narrower ranges in [table.axes]");
-      }
+      check_finite(table, first(chunk) + i, block, place_);
     }
     return out;
   }

@@ -31,10 +31,10 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
       record.below && record.below->outside == "law"
           ? fmt::format("; {:.6g} MPa below the range", record.below->max_abs_MPa)
           : "";
-  return fmt::format("worst case {:.6g} MPa over the range at {}; {:.6g} MPa on the rows{}; "
-                     "allowed {:.6g} MPa{}",
-                     record.worst_case_MPa, state, record.rows.max_abs, below, max_drift_MPa,
-                     answered);
+  const std::string on_rows =
+      record.n_rows == 0 ? "" : fmt::format("; {:.6g} MPa on the rows", record.rows.max_abs);
+  return fmt::format("worst case {:.6g} MPa over the range at {}{}{}; allowed {:.6g} MPa{}",
+                     record.worst_case_MPa, state, on_rows, below, max_drift_MPa, answered);
 }
 
 std::string proof_text(const DriftRecord& record, double max_drift_MPa) {

@@ -92,6 +92,17 @@ TEST_F(SlowOwnLaw, GoesTheWholeWayAndIsReadBack) {
   EXPECT_FALSE(std::ifstream(directory.path("out/tables/film.h5")).good());
 }
 
+TEST_F(SlowOwnLaw, ThatIsInfiniteInItsRangeIsToldWithTheState) {
+  write_job("[models]\nuse = [\"mine\"]\n[models.mine]\n"
+            "formula = \"mu*sigma_n_MPa*psi/(psi - 1)\"\n"
+            "parameters = { mu = { range = [0, 1] } }\n[table]\nmodel = \"mine\"\n"
+            "[table.axes]\npsi = { range = [1, 4] }\n[export]\ntargets = []\n");
+  const CommandResult result = frictab({"run", "job.toml", "-q"});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_THAT(result.err, testing::HasSubstr("psi = 1"));
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr(".frictab-")));
+}
+
 TEST_F(SlowOwnLaw, OfConstantsAloneIsNotCalibrated) {
   write_job("[models]\nuse = [\"coulomb\", \"paper\"]\n[models.paper]\n"
             "formula = \"mu*sigma_n_MPa\"\nparameters = { mu = 0.06 }\n");

@@ -108,6 +108,27 @@ TEST_F(Provenance, ChangedCalibrationIsNamed) {
   }
 }
 
+TEST_F(Provenance, StatusNamesAResultThatWasChanged) {
+  for (const char* file : {"models/shear.json", "calibration.json"}) {
+    directory.write(std::string("out/") + file, directory.read(std::string("out/") + file) + " ");
+    EXPECT_THAT(frictab({"status", "job.toml"}).out,
+                HasSubstr("calibrate  stale: " + std::string(file) + " was changed since\n"));
+  }
+}
+
+TEST_F(Provenance, PredictTakesNoCalibrationOfAnotherJob) {
+  const std::vector<std::string> command = {"predict", "job.toml", "data/validation.csv", "-q"};
+  ASSERT_EQ(frictab(command).exit_code, 0);
+  std::vector<std::string> other = command;
+  other.insert(other.end(), {"--set", "models.shear_yield=\"tresca\""});
+  const CommandResult result = frictab(other);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("out/calibration.json: error: is stale: [models] or "
+                                    "[calibration] of the job has changed since\n"));
+  directory.write("out/calibration.json", directory.read("out/calibration.json") + " ");
+  EXPECT_THAT(frictab(command).err, HasSubstr("was changed since `frictab calibrate` wrote it\n"));
+}
+
 TEST_F(Provenance, OtherDataAreNamedByEveryStageWithAndWithoutARecord) {
   replace("data/training.csv", "E001,", "E001_again,");
   for (const char* command : {"trace", "tabulate", "export", "verify", "report"})

@@ -219,6 +219,10 @@ TEST_F(Load, TellsSingleRowsBackwardTimeAndLoadsOfZero) {
               HasSubstr("a.csv:3: error: F_N_N is 0"));
   EXPECT_THAT(fault("sigma_n_MPa,F_R_N,F_N_N\n1,2,3\n1,2,-4\n"),
               HasSubstr("a.csv:3: error: F_N_N is -4"));
+  EXPECT_THAT(
+      fault("sigma_n_MPa,tau_R_MPa\n1,2\n9.99e99,2\n"),
+      HasSubstr("a.csv:3: error: sigma_n_MPa is 9.99e+99\n  hint: what a device writes where "
+                "it measured nothing?"));
 }
 
 TEST_F(Load, TellsWhereASlopeCannotBeTaken) {

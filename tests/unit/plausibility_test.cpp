@@ -126,6 +126,25 @@ TEST(Plausibility, FindsUnitsOfStressesByTheCoefficient) {
               HasSubstr("shear stress in Pa or kPa?"));
 }
 
+TEST(Plausibility, FindsALoadChannelThatIsDeadOrDropsOut) {
+  EXPECT_THAT(found_after([](Dataset& d) { scale(d, "sigma_n_MPa", 0); }),
+              HasSubstr("no_load! sigma_n_MPa is 0 where tau_R_MPa is not"));
+  EXPECT_THAT(found_after([](Dataset& d) {
+                std::vector<double>& pressure = values(d, "sigma_n_MPa");
+                for (std::size_t i = 0; i < pressure.size(); i += 6)
+                  pressure[i] = 0;
+              }),
+              HasSubstr("no_load: sigma_n_MPa is 0 where tau_R_MPa is not"));
+  EXPECT_EQ(found_after([](Dataset& d) { // before contact there is noise
+              std::erase_if(d.columns, [](const auto& c) { return c.name.starts_with("F_"); });
+              for (std::size_t e = 0; e < d.experiments.size(); ++e) {
+                values(d, "sigma_n_MPa")[d.first_row[e]] = 0;
+                values(d, "tau_R_MPa")[d.first_row[e]] = 0.3;
+              }
+            }),
+            "nothing");
+}
+
 TEST(Plausibility, FindsACoefficientInPercentAndForcesTakenForEachOther) {
   const auto swap = [](Dataset& d) {
     std::vector<double>&tau = values(d, "tau_R_MPa"), &sigma = values(d, "sigma_n_MPa");
