@@ -13,6 +13,7 @@
 #include "data/append.h"
 #include "data/condense.h"
 #include "data/file_list.h"
+#include "data/hdf5_columns.h"
 #include "data/load_part.h"
 #include "data/plausibility.h"
 #include "data/raw_parts.h"
@@ -269,22 +270,18 @@ double rows_of_text(const fs::path& path, std::uint64_t bytes) {
                           static_cast<double>(start.size());
 }
 
-double rows_of_hdf5(const fs::path& path) {
-  const io::Hdf5Reader in(path, path.string());
-  double rows = 0;
-  std::vector<std::string> groups = in.groups();
-  if (!in.datasets().empty()) groups = {""};
-  for (const std::string& group : groups) {
-    const std::vector<std::string> names = in.datasets(group.empty() ? "/" : group);
-    if (names.empty()) continue;
-    const auto shape = in.shape((group.empty() ? "" : group + "/") + names.front());
-    if (shape.size() == 1) rows += static_cast<double>(shape[0]);
+// What is wrong with a file is told where it is read.
+double rows_of_hdf5(const fs::path& path, const DataOptions& options) {
+  try {
+    FaultList ignored;
+    return static_cast<double>(Hdf5Columns(path.string(), path.string(), options, ignored).rows());
+  } catch (const InputError&) {
+    return 0;
   }
-  return rows;
 }
 
-double estimated_rows(const fs::path& path, std::uint64_t bytes) {
-  return io::looks_like_hdf5(path) ? rows_of_hdf5(path) : rows_of_text(path, bytes);
+double estimated_rows(const fs::path& path, std::uint64_t bytes, const DataOptions& options) {
+  return io::looks_like_hdf5(path) ? rows_of_hdf5(path, options) : rows_of_text(path, bytes);
 }
 
 } // namespace
@@ -302,7 +299,7 @@ std::size_t blocks_to_condense(const DataOptions& options) {
   if (bytes < many_rows * least_bytes_of_a_row) return 0;
   double rows = 0;
   for (const fs::path& path : paths)
-    rows += estimated_rows(path, size_of(path));
+    rows += estimated_rows(path, size_of(path), options);
   return rows > static_cast<double>(many_rows) ? fine_blocks : 0;
 }
 

@@ -106,7 +106,8 @@ io::CsvFormat csv_format(const std::string& path, const DataOptions& options) {
 io::CsvTable read_raw(const std::string& path, const std::string& named, const DataOptions& options,
                       FaultList& faults) {
   if (io::looks_like_hdf5(path))
-    return Hdf5Columns(path, named, faults).next(std::numeric_limits<std::uint64_t>::max());
+    return Hdf5Columns(path, named, options, faults)
+        .next(std::numeric_limits<std::uint64_t>::max());
   return io::parse_csv(raw_text(path, named, options.sheet), named, csv_format(path, options),
                        faults);
 }

@@ -126,7 +126,7 @@ void read_raw_parts(const std::string& path, const std::string& named, const Dat
                     options.experiment == "interval";
   if (held) return read_whole(path, named, options, faults, take);
   if (io::looks_like_hdf5(path)) {
-    Hdf5Columns columns(path, named, faults);
+    Hdf5Columns columns(path, named, options, faults);
     if (!faults.empty()) return;
     const auto next = [&] {
       std::vector<io::CsvTable> pieces;

@@ -88,12 +88,25 @@ std::vector<std::string> Hdf5Reader::groups() const {
   return names;
 }
 
+std::vector<Hdf5Other> Hdf5Reader::others(const std::string& group) const {
+  const auto found = data_->contents.others.find(group);
+  return found != data_->contents.others.end() ? found->second : std::vector<Hdf5Other>();
+}
+
 bool Hdf5Reader::has(const std::string& dataset) const {
   return data_->contents.datasets.count(dataset) > 0;
 }
 
 bool Hdf5Reader::is_text(const std::string& dataset) const {
   return data_->dataset(dataset).is_text;
+}
+
+std::string Hdf5Reader::other_type(const std::string& dataset) const {
+  return data_->dataset(dataset).other_type;
+}
+
+std::string Hdf5Reader::fault(const std::string& dataset) const {
+  return data_->dataset(dataset).fault;
 }
 
 std::vector<std::size_t> Hdf5Reader::shape(const std::string& dataset) const {
@@ -207,6 +220,17 @@ std::optional<double> Hdf5Reader::number_attribute(const std::string& object,
 std::optional<std::string> Hdf5Reader::scale(const std::string& dataset, std::size_t axis) const {
   const Hdf5Dataset& set = data_->dataset(dataset);
   return axis < set.scales.size() ? set.scales[axis] : std::nullopt;
+}
+
+std::optional<std::size_t> length_of_column(std::span<const std::size_t> shape) {
+  if (shape.empty()) return std::nullopt;
+  std::size_t length = 1, long_axes = 0;
+  for (const std::size_t n : shape)
+    if (n != 1) {
+      length = n;
+      ++long_axes;
+    }
+  return long_axes > 1 ? std::nullopt : std::optional(length);
 }
 
 bool looks_like_hdf5(const std::filesystem::path& file) {

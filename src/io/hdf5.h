@@ -65,7 +65,7 @@ struct Hdf5Layout {
   std::uint64_t stored_bytes = 0;
 };
 
-// Of a dataset with one axis: `count` values from the `first` one on.
+// Of a dataset with one long axis (length_of_column): `count` values from the `first` one on.
 struct Hdf5Slice {
   std::string dataset;
   std::size_t first = 0, count = 0;
@@ -75,6 +75,16 @@ struct Hdf5Values { // of one slice
   std::vector<double> numbers;
   std::vector<std::string> texts; // instead, where the dataset is text
 };
+
+// What stands in a group and is neither a dataset nor an attribute of one number or text.
+struct Hdf5Other {
+  std::string name;
+  std::string what; // "an attribute of 2 values"
+};
+
+// How many values the one long axis has: n for n, n x 1 and 1 x n; nullopt for a scalar and where
+// two axes are longer.
+std::optional<std::size_t> length_of_column(std::span<const std::size_t> shape);
 
 struct Hdf5Contents; // hdf5_scan.h
 
@@ -95,8 +105,14 @@ public:
   // Of a group (a path from the root), sorted by name; as GROUP/NAME the functions below know them.
   std::vector<std::string> datasets(const std::string& group = "/") const;
   std::vector<std::string> groups() const; // of the root group, sorted by name
+  // Of a group ("/" = root): groups within a group, links to nothing, attributes of many values.
+  std::vector<Hdf5Other> others(const std::string& group) const;
   bool has(const std::string& dataset) const;
   bool is_text(const std::string& dataset) const;
+  // What its values are where they are neither numbers nor texts: "records of r, i"; else empty.
+  std::string other_type(const std::string& dataset) const;
+  // Why its values cannot be read, as far as that is known without asking for them; else empty.
+  std::string fault(const std::string& dataset) const;
   std::vector<std::size_t> shape(const std::string& dataset) const;
   std::vector<double> values(const std::string& dataset) const;     // any numeric type
   std::vector<std::string> texts(const std::string& dataset) const; // fixed or variable length

@@ -70,8 +70,16 @@ std::optional<double> number_attribute(hid_t attribute) {
   return value;
 }
 
-// Those that hold one text or one number.
-Hdf5Attributes attributes_of(hid_t object) {
+std::string other_attribute(hid_t attribute) {
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t values = H5Sget_simple_extent_npoints(space);
+  if (values == 0) return "an attribute without a value";
+  return values > 1 ? fmt::format("an attribute of {} values", values)
+                    : "an attribute that is neither a number nor a text";
+}
+
+// Those that hold one text or one number; the rest goes to `others`.
+Hdf5Attributes attributes_of(hid_t object, std::vector<Hdf5Other>* others = nullptr) {
   std::vector<std::string> names;
   const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* into) -> herr_t {
     static_cast<std::vector<std::string>*>(into)->push_back(name);
@@ -86,6 +94,8 @@ Hdf5Attributes attributes_of(hid_t object) {
       attributes[name] = std::move(*text);
     else if (const auto number = number_attribute(attribute))
       attributes[name] = *number;
+    else if (others)
+      others->push_back({name, other_attribute(attribute)});
   }
   return attributes;
 }
@@ -145,14 +155,72 @@ std::optional<std::uint64_t> raw_offset_of(hid_t set, std::uint64_t file_bytes) 
   throw Unreadable{"'" + name + "' cannot be read", "the file may be damaged"};
 }
 
-// `count` values from the `first` one on where there is one axis; else all.
+std::vector<std::size_t> shape_of(const std::string& name, hid_t set) {
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) throw Unreadable{"the shape of '" + name + "' cannot be read", ""};
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  if (rank > 0) H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return {dims.begin(), dims.end()};
+}
+
+bool is_null(hid_t set) {
+  const Handle space(H5Dget_space(set), H5Sclose);
+  return H5Sget_simple_extent_type(space) == H5S_NULL;
+}
+
+// Of a dataset with one long axis: `count` values from the `first` one on.
+void select_rows(hid_t space, hsize_t first, hsize_t count) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(rank, 1)), 1);
+  H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  std::vector<hsize_t> start(dims.size(), 0), part(dims.size(), 1);
+  const auto is_long = std::find_if(dims.begin(), dims.end(), [](hsize_t n) { return n != 1; });
+  const std::size_t axis =
+      is_long == dims.end() ? 0 : static_cast<std::size_t>(is_long - dims.begin());
+  start[axis] = first;
+  part[axis] = count;
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+}
+
+// What a type holds that is neither numbers nor texts; empty where it is one of them.
+std::string other_type_of(hid_t type) {
+  switch (H5Tget_class(type)) {
+  case H5T_FLOAT:
+  case H5T_INTEGER:
+  case H5T_STRING:
+    return "";
+  case H5T_ENUM:
+    return "an enumeration";
+  case H5T_VLEN:
+    return "lists";
+  case H5T_ARRAY:
+    return "arrays";
+  case H5T_REFERENCE:
+    return "references";
+  case H5T_COMPOUND:
+    break;
+  default:
+    return "bits";
+  }
+  constexpr int shown = 4;
+  std::vector<std::string> fields;
+  const int all = H5Tget_nmembers(type);
+  for (int i = 0; i < std::min(all, shown); ++i) {
+    char* const name = H5Tget_member_name(type, static_cast<unsigned>(i));
+    fields.emplace_back(name ? name : "");
+    H5free_memory(name);
+  }
+  return fmt::format("records of {}{}", fmt::join(fields, ", "), all > shown ? ", ..." : "");
+}
+
+// `count` values from the `first` one on where one axis is long; else all.
 std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_t first,
                                   std::size_t count) {
   const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
-  const hsize_t start = first, n = count;
+  const hsize_t n = count;
   const Handle rows(H5Screate_simple(1, &n, nullptr), H5Sclose);
-  if (H5Sget_simple_extent_ndims(space) == 1)
-    H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, nullptr, &n, nullptr);
+  if (length_of_column(shape_of(name, set))) select_rows(space, first, count);
   const Unreadable bad{"'" + name + "' cannot be read as text", ""};
   std::vector<std::string> texts;
   if (H5Tis_variable_str(type) > 0) {
@@ -190,7 +258,7 @@ std::vector<double> numbers_of(const std::string& name, hid_t set, hsize_t first
   check_numeric(name, set);
   const Handle space(H5Dget_space(set), H5Sclose);
   const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr);
+  select_rows(space, first, count);
   std::vector<double> values(count);
   if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
     cannot_read(name, set);
@@ -215,15 +283,6 @@ void read_values(const std::string& name, hid_t set, const std::vector<std::size
   });
 }
 
-std::vector<std::size_t> shape_of(const std::string& name, hid_t set) {
-  const Handle space(H5Dget_space(set), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank < 0) throw Unreadable{"the shape of '" + name + "' cannot be read", ""};
-  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
-  if (rank > 0) H5Sget_simple_extent_dims(space, dims.data(), nullptr);
-  return {dims.begin(), dims.end()};
-}
-
 Unreadable not_opened(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return {"cannot be read", "there is no such file"};
@@ -244,8 +303,8 @@ public:
   Hdf5Contents contents() {
     Hdf5Contents all;
     add_group(all, "");
-    for (const std::string& group : members("/", H5I_GROUP))
-      add_group(all, group + "/");
+    for (const Member& group : members("/"))
+      if (group.type == H5I_GROUP) add_group(all, group.name + "/");
     return all;
   }
 
@@ -263,7 +322,8 @@ public:
     const Handle set(opened(wanted.dataset, H5P_DEFAULT), H5Dclose);
     const Handle type(H5Dget_type(set), H5Tclose);
     const std::vector<std::size_t> shape = shape_of(wanted.dataset, set);
-    if (shape.size() != 1 || wanted.first > shape[0] || wanted.count > shape[0] - wanted.first)
+    const std::size_t rows = length_of_column(shape).value_or(0);
+    if (wanted.first > rows || wanted.count > rows - wanted.first)
       throw Unreadable{"'" + wanted.dataset + "' has another shape now", "the file was changed"};
     const bool as_text = H5Tget_class(type) == H5T_STRING;
     for (std::size_t done = 0; done < wanted.count; done += values_at_once) {
@@ -292,26 +352,34 @@ private:
   void add_group(Hdf5Contents& all, const std::string& group) {
     const std::string object = group.empty() ? "/" : group.substr(0, group.size() - 1);
     const Handle in(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
-    all.groups[object] = attributes_of(in);
-    for (const std::string& own : members(object, H5I_DATASET))
-      all.datasets[group + own] = dataset(group + own);
+    std::vector<Hdf5Other>& others = all.others[object];
+    all.groups[object] = attributes_of(in, &others);
+    for (const Member& own : members(object))
+      if (own.type == H5I_DATASET)
+        all.datasets[group + own.name] = dataset(group + own.name);
+      else if (own.type == H5I_BADID)
+        others.push_back({own.name, "a link to nothing"});
+      else if (own.type == H5I_GROUP && !group.empty())
+        others.push_back({own.name, "a group within a group"});
   }
 
-  std::vector<std::string> members(const std::string& group, int type) const {
-    struct Found {
-      int type;
-      std::vector<std::string> names;
-    } found{type, {}};
+  struct Member {
+    std::string name;
+    H5I_type_t type; // H5I_BADID: a link to nothing
+  };
+
+  std::vector<Member> members(const std::string& group) const {
+    std::vector<Member> found;
     const auto visit = [](hid_t in, const char* name, const H5L_info_t*, void* into) -> herr_t {
-      Found& all = *static_cast<Found*>(into);
       const Handle object(H5Oopen(in, name, H5P_DEFAULT), H5Oclose);
-      if (object.ok() && H5Iget_type(object) == all.type) all.names.push_back(name);
+      static_cast<std::vector<Member>*>(into)->push_back(
+          {name, object.ok() ? H5Iget_type(object) : H5I_BADID});
       return 0;
     };
     const Handle in(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
     if (!in.ok() || H5Literate(in, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &found) < 0)
       throw Unreadable{"its list of datasets cannot be read", "the file may be damaged"};
-    return found.names;
+    return found;
   }
 
   Hdf5Dataset dataset(const std::string& name) {
@@ -321,6 +389,7 @@ private:
       if (!set.ok()) throw Unreadable{"there is no dataset '" + name + "'", ""};
       const Handle type(H5Dget_type(set), H5Tclose);
       out.is_text = H5Tget_class(type) == H5T_STRING;
+      out.other_type = is_null(set) ? "no value" : other_type_of(type);
       out.shape = shape_of(name, set);
       out.attributes = attributes_of(set);
       for (std::size_t axis = 0; axis < out.shape.size(); ++axis)
@@ -341,8 +410,8 @@ private:
       throw Unreadable{"'" + name + "' claims more values than the file can hold", ""};
     const std::uint64_t needed =
         (out.is_text ? bytes_of_a_text : sizeof(double)) * std::uint64_t{count};
-    const bool is_small = needed <= held_bytes && held_ + needed <= held_in_all;
-    if (!is_small && (!out.is_text || out.shape.size() == 1)) return;
+    const bool is_small = needed <= held_bytes && (count == 1 || held_ + needed <= held_in_all);
+    if (!is_small && (!out.is_text || length_of_column(out.shape))) return;
     held_ += needed;
     if (out.is_text)
       out.texts = texts_of(name, set, 0, count);
@@ -405,6 +474,15 @@ void put(ByteSink& out, const Hdf5Dataset& set) {
   put(out, set.texts);
   out.text(set.fault);
   out.text(set.hint);
+  out.text(set.other_type);
+}
+
+void put(ByteSink& out, const std::vector<Hdf5Other>& others) {
+  out.number(others.size());
+  for (const Hdf5Other& other : others) {
+    out.text(other.name);
+    out.text(other.what);
+  }
 }
 
 // Takes what `put` writes; nothing is larger than what a file of these bytes can hold.
@@ -422,6 +500,8 @@ public:
     if (!count(datasets)) return false;
     for (std::uint64_t i = 0; i < datasets; ++i)
       if (!text(name) || !take(all.datasets[name])) return false;
+    for (const auto& [group, attributes] : all.groups)
+      if (!take(all.others[group])) return false;
     return true;
   }
 
@@ -463,6 +543,16 @@ private:
     return true;
   }
 
+  bool take(std::vector<Hdf5Other>& others) {
+    std::uint64_t size = 0;
+    if (!count(size)) return false;
+    for (std::uint64_t i = 0; i < size; ++i) {
+      Hdf5Other& other = others.emplace_back();
+      if (!text(other.name) || !text(other.what)) return false;
+    }
+    return true;
+  }
+
   bool take(std::vector<std::optional<std::string>>& scales) {
     std::uint64_t size = 0, kind = 0;
     if (!count(size) || size > H5S_MAX_RANK) return false;
@@ -486,7 +576,8 @@ private:
     set.is_text = text_kind == 1;
     set.held = held == 1;
     set.values.resize(values);
-    if (!in_.doubles(set.values) || !take(set.texts) || !text(set.fault) || !text(set.hint))
+    if (!in_.doubles(set.values) || !take(set.texts) || !text(set.fault) || !text(set.hint) ||
+        !text(set.other_type))
       return false;
     const std::size_t wanted = set.count();
     return !set.fault.empty() || !set.held ||
@@ -527,6 +618,8 @@ void scan_hdf5(const std::filesystem::path& file, ByteSink& out) {
     out.text(name);
     put(out, set);
   }
+  for (const auto& [name, attributes] : all.groups)
+    put(out, all.others[name]);
 }
 
 void scan_values(const std::filesystem::path& file, const std::string& dataset, std::size_t most,

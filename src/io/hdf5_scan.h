@@ -24,6 +24,7 @@ struct Hdf5Dataset {
   Hdf5Layout layout;
   std::optional<std::uint64_t> raw_offset;
   bool is_text = false;
+  std::string other_type; // not empty: neither numbers nor texts, but this
   bool held =
       false; // its values are here; else they are too many, and read where they are asked for
   std::vector<double> values;
@@ -34,9 +35,10 @@ struct Hdf5Dataset {
 };
 
 struct Hdf5Contents {
-  std::map<std::string, Hdf5Dataset> datasets;  // by path from the root
-  std::map<std::string, Hdf5Attributes> groups; // "/" and those of the root, by name
-  std::string fault, hint;                      // why the file cannot be read
+  std::map<std::string, Hdf5Dataset> datasets;          // by path from the root
+  std::map<std::string, Hdf5Attributes> groups;         // "/" and those of the root, by name
+  std::map<std::string, std::vector<Hdf5Other>> others; // by the same names
+  std::string fault, hint;                              // why the file cannot be read
 };
 
 // In the child.
