@@ -146,8 +146,27 @@ std::optional<std::uint64_t> raw_offset_of(hid_t set, std::uint64_t file_bytes) 
   return offset;
 }
 
+// The first filter of a dataset that this library lacks, as the file calls it: "lzf"; else empty.
+std::string missing_filter(hid_t list) {
+  for (int i = 0; i < H5Pget_nfilters(list); ++i) {
+    unsigned flags = 0;
+    std::size_t options = 0;
+    char name[64] = {};
+    const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &options,
+                                           nullptr, sizeof name, name, nullptr);
+    if (H5Zfilter_avail(id) <= 0) return name[0] ? name : fmt::format("number {}", id);
+  }
+  return "";
+}
+
 [[noreturn]] void cannot_read(const std::string& name, hid_t set) {
   const Handle list(H5Dget_create_plist(set), H5Pclose);
+  if (const std::string filter = missing_filter(list); !filter.empty())
+    throw Unreadable{fmt::format("'{}' cannot be read: it is compressed by the filter {}, which "
+                                 "the HDF5 library here does not have",
+                                 name, filter),
+                     "write it with gzip where that filter is at hand: h5repack -f GZIP=4 OLD NEW, "
+                     "or compression=\"gzip\" in h5py"};
   if (H5Pget_nfilters(list) > 0)
     throw Unreadable{"'" + name +
                          "' cannot be read: a chunk does not fit its checksum or its compression",

@@ -198,5 +198,16 @@ TEST_F(LoadHdf5, WhatFrictabWritesHoldsNothingThatIsNotRead) {
   EXPECT_THAT(read_hdf5().notes, Not(Contains(HasSubstr("not read"))));
 }
 
+TEST_F(LoadHdf5, AFilterThatIsMissingIsNamedAndIsNoDamage) {
+  write("for name, values in columns(0).items(): "
+        "f.create_dataset(name, data=values, compression='lzf')");
+  const std::string told = "'sigma_n_MPa' cannot be read: it is compressed by the filter lzf, "
+                           "which the HDF5 library here does not have";
+  EXPECT_THAT(hdf5_fault(), HasSubstr(told));
+  EXPECT_THAT(hdf5_fault(), HasSubstr("h5repack -f GZIP=4"));
+  EXPECT_THAT(hdf5_fault(), Not(HasSubstr("damaged")));
+  EXPECT_THAT(fault_in_pieces(), HasSubstr(told));
+}
+
 } // namespace
 } // namespace frictab::load_hdf5_test
