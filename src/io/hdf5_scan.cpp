@@ -60,11 +60,26 @@ std::optional<std::string> text_attribute(hid_t attribute) {
   return text;
 }
 
+// numpy's booleans as h5py writes them: an enumeration of 8 bits, FALSE and TRUE.
+bool is_boolean(hid_t type) {
+  if (H5Tget_class(type) != H5T_ENUM || H5Tget_size(type) != 1 || H5Tget_nmembers(type) != 2)
+    return false;
+  for (const auto& [name, wanted] : {std::pair("FALSE", 0), std::pair("TRUE", 1)}) {
+    signed char value = -1;
+    if (H5Tenum_valueof(type, name, &value) < 0 || value != wanted) return false;
+  }
+  return true;
+}
+
 std::optional<double> number_attribute(hid_t attribute) {
   const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
   const H5T_class_t kind = H5Tget_class(type);
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Sget_simple_extent_npoints(space) != 1)
-    return std::nullopt;
+  if (H5Sget_simple_extent_npoints(space) != 1) return std::nullopt;
+  if (is_boolean(type)) {
+    signed char truth = 0;
+    return H5Aread(attribute, type, &truth) < 0 ? std::nullopt : std::optional<double>(truth);
+  }
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
   double value = 0;
   if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
   return value;
@@ -210,7 +225,7 @@ std::string other_type_of(hid_t type) {
   case H5T_STRING:
     return "";
   case H5T_ENUM:
-    return "an enumeration";
+    return is_boolean(type) ? "" : "an enumeration";
   case H5T_VLEN:
     return "lists";
   case H5T_ARRAY:
@@ -269,8 +284,19 @@ std::vector<std::string> texts_of(const std::string& name, hid_t set, std::size_
 void check_numeric(const std::string& name, hid_t set) {
   const Handle type(H5Dget_type(set), H5Tclose);
   const H5T_class_t kind = H5Tget_class(type);
-  if (kind != H5T_FLOAT && kind != H5T_INTEGER)
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER && !is_boolean(type))
     throw Unreadable{"'" + name + "' is not numeric", ""};
+}
+
+// Into all of `values`. The library makes no numbers of booleans.
+bool read_numbers(hid_t set, hid_t memory, hid_t space, std::vector<double>& values) {
+  const Handle type(H5Dget_type(set), H5Tclose);
+  if (!is_boolean(type))
+    return H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0;
+  std::vector<signed char> truths(values.size());
+  const bool done = H5Dread(set, type, memory, space, H5P_DEFAULT, truths.data()) >= 0;
+  std::copy(truths.begin(), truths.end(), values.begin());
+  return done;
 }
 
 std::vector<double> numbers_of(const std::string& name, hid_t set, hsize_t first, hsize_t count) {
@@ -279,8 +305,7 @@ std::vector<double> numbers_of(const std::string& name, hid_t set, hsize_t first
   const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
   select_rows(space, first, count);
   std::vector<double> values(count);
-  if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
-    cannot_read(name, set);
+  if (count > 0 && !read_numbers(set, memory, space, values)) cannot_read(name, set);
   return values;
 }
 
@@ -296,8 +321,7 @@ void read_values(const std::string& name, hid_t set, const std::vector<std::size
     const Handle memory(H5Screate_simple(1, &n, nullptr), H5Sclose);
     if (!dims.empty())
       H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
-    if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
-      cannot_read(name, set);
+    if (!read_numbers(set, memory, space, values)) cannot_read(name, set);
     take(std::span<const double>(values));
   });
 }

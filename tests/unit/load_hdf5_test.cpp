@@ -209,5 +209,39 @@ TEST_F(LoadHdf5, AFilterThatIsMissingIsNamedAndIsNoDamage) {
   EXPECT_THAT(fault_in_pieces(), HasSubstr(told));
 }
 
+TEST_F(LoadHdf5, BooleansAreZeroAndOne) {
+  write(
+      "rows(f)\nf['oiled'] = numpy.arange(40) >= 20\nf['dry'] = (numpy.arange(40) < 20)[:, None]");
+  Values oiled(40, 0);
+  std::fill(oiled.begin() + 20, oiled.end(), 1.0);
+  EXPECT_EQ(column(read_hdf5(), "oiled"), oiled);
+  EXPECT_EQ(read_hdf5().values("dry")[0], 1);
+  EXPECT_EQ(in_pieces().values("oiled").front(), 0);
+  EXPECT_EQ(in_pieces().values("oiled").back(), 1);
+  write("tests(f)\nfor t in (0, 1): f[f't{t}'].attrs['oiled'] = bool(t)");
+  EXPECT_EQ(read_hdf5().values("oiled")[0], 0);
+  EXPECT_EQ(read_hdf5().values("oiled")[39], 1);
+}
+
+TEST_F(LoadHdf5, ColumnsOfOtherTypesAreLeftOutAndTold) {
+  write("rows(f)\nf['z'] = numpy.arange(40) + 1j\n"
+        "f.create_dataset('wave', (40,), dtype=h5py.vlen_dtype('f8'))\n"
+        "f.create_dataset('oil', (40,), dtype=h5py.enum_dtype({'A': 0, 'B': 1}, basetype='i1'))");
+  const std::string note = "HDF5 content that is not read: 'oil' (an enumeration), 'wave' (lists), "
+                           "'z' (records of r, i)";
+  EXPECT_THAT(read_hdf5().notes, Contains(note));
+  EXPECT_FALSE(read_hdf5().has("z"));
+  EXPECT_THAT(in_pieces().notes, Contains(note));
+}
+
+TEST_F(LoadHdf5, AColumnOfAnotherTypeThatIsAskedForIsAnError) {
+  write("rows(f)\nf['z'] = numpy.arange(40) + 1j");
+  options.columns["sigma_f_MPa"].names = {"z"};
+  const std::string told = "a.h5: error: 'z' is no column: it is records of r, i";
+  EXPECT_THAT(hdf5_fault(), HasSubstr(told));
+  EXPECT_THAT(hdf5_fault(), HasSubstr("a column has a number or a text per row"));
+  EXPECT_THAT(fault_in_pieces(), HasSubstr(told));
+}
+
 } // namespace
 } // namespace frictab::load_hdf5_test
