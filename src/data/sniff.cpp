@@ -162,8 +162,11 @@ double worth(const io::CsvTable& table, std::size_t faults, const io::CsvFormat&
     units +=
         convert(io::without_brackets(column.unit), io::without_brackets(column.unit)).has_value();
   }
-  if (format.units_row && 2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
-  return sum;
+  if (!format.units_row) return sum;
+  if (2 * units < std::max<std::size_t>(unit_cells, 1)) return -1;
+  // Units make a header as good as the names above them where every column has one.
+  constexpr double more_than_as_good = 0.5;
+  return sum + more_than_as_good;
 }
 
 class Dialects {

@@ -427,5 +427,24 @@ TEST_F(InitFrom, KeepsAJobFileThatIsThereUnlessForced) {
   EXPECT_THAT(directory.read("job.toml"), HasSubstr("tau_R_MPa = { column = \"COF\""));
 }
 
+TEST_F(InitFrom, UnitsBelowAllNamesAreNotTakenForTheHeader) {
+  int jobs = 0;
+  for (const std::string preamble : {"", "Rig: 3;;\nDate: 3.5.2024;;\n\n", "Rig: 3\n\n"})
+    for (const std::string units : {"[s];[-];[MPa]", "s;-;MPa"}) {
+      std::string text;
+      for (int test = 1; test <= 2; ++test) {
+        text = preamble + "Time;COF;Pressure\n" + units + "\n";
+        for (const Row& row : rows(test))
+          text += fmt::format("{:.1f};{:.4f};{:.1f}\n", row.time_s, row.mu, row.sigma_MPa);
+        directory.write(fmt::format("t{}.csv", test), text);
+      }
+      const std::string name = fmt::format("job{}", jobs++);
+      const CommandResult made = frictab({"init", name, "--from", "t1.csv", "t2.csv"});
+      ASSERT_EQ(made.exit_code, 0) << made.err;
+      EXPECT_THAT(directory.read(name + "/job.toml"), HasSubstr("units_row = true")) << text;
+      EXPECT_THAT(directory.read(name + "/job.toml"), HasSubstr("\"Pressure\"")) << text;
+    }
+}
+
 } // namespace
 } // namespace frictab::init_from_test
