@@ -2,6 +2,7 @@
 #include "data/append.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +15,22 @@ namespace {
 
 void append_values(std::vector<double>& to, const std::vector<double>& from) {
   to.insert(to.end(), from.begin(), from.end());
+}
+
+bool is_text(const Column& column) {
+  return !column.levels.empty();
+}
+
+// Without a value in any row it may be text as well as numbers.
+bool is_empty(const Column& column) {
+  return !is_text(column) && std::all_of(column.values.begin(), column.values.end(),
+                                         [](double value) { return std::isnan(value); });
+}
+
+// The level of its own that empty cells of a text column have.
+void make_empty_text(Column& column) {
+  column.levels = {""};
+  std::fill(column.values.begin(), column.values.end(), 0.0);
 }
 
 // Of two condensed datasets, with the histories that both have.
@@ -48,8 +65,8 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
       faults.add({file, 0, 0}, fmt::format("experiment '{}' is in another file as well", name),
                  "give experiments different names, or join the files");
-  std::unordered_map<std::string_view, const Column*> others; // a file may have many
-  for (const Column& column : more.columns)
+  std::unordered_map<std::string_view, Column*> others; // a file may have many
+  for (Column& column : more.columns)
     others.emplace(column.name, &column);
   std::set<std::string_view> known;
   for (const Column& column : all.columns)
@@ -66,8 +83,10 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
                  "all files of a list need the same columns; see data.bystanders");
       continue;
     }
-    const Column* const other = found->second;
-    if (column.levels.empty() != other->levels.empty()) {
+    Column* const other = found->second;
+    if (is_text(*other) && is_empty(column)) make_empty_text(column);
+    if (is_text(column) && is_empty(*other)) make_empty_text(*other);
+    if (is_text(column) != is_text(*other)) {
       faults.add({file, 0, 0},
                  fmt::format("column {} is text in one file and numbers in another", column.name),
                  "of [[data.files]], `constants` are numbers, `labels` texts, and groups of "

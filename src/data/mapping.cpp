@@ -367,8 +367,10 @@ private:
         std::count_if(raw.texts.begin(), raw.texts.end(),
                       [](const CsvColumn::Text& cell) { return is_missing(cell.text); }));
     const std::size_t words = raw.texts.size() - missing;
+    const auto numeric = static_cast<std::size_t>(std::count_if(
+        raw.numbers.begin(), raw.numbers.end(), [](double value) { return !std::isnan(value); }));
     Column column{raw.name, "", raw.numbers, {}};
-    if (words > 0 && words >= raw_.rows() / 2) {
+    if (words > 0 && words >= (words + numeric) / 2) { // empty cells are neither
       make_categorical(column, raw);
       if (missing > 0) tell_empty(raw.name, missing, ": a level of their own");
       out_.columns.push_back(std::move(column));

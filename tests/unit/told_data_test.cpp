@@ -10,6 +10,7 @@ namespace frictab::told_data_test {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -65,6 +66,31 @@ TEST_F(ToldData, AColumnWithoutANameCanBeTakenByItsNumber) {
             (std::vector<double>{1, 2}));
   EXPECT_THAT(fault("time_s,sigma_n_MPa,tau_R_MPa,\n0,500,50\n1,600,55,2\n"),
               HasSubstr("psi: the cell is empty"));
+}
+
+TEST_F(ToldData, AColumnOfAFewRemarksIsText) {
+  const data::Dataset data =
+      read("time_s,sigma_n_MPa,tau_R_MPa,remark\n0,5,1,\n1,6,2,\n2,7,3,slips\n"
+           "3,7,3,\n4,7,3,NA\n5,7,3,\n6,7,3,\n");
+  EXPECT_THAT(data.find("remark")->levels, ElementsAre("", "NA", "slips"));
+  EXPECT_THAT(data.notes, Contains("remark: 6 of 7 rows without a value: a level of their own"));
+  EXPECT_THAT(fault("time_s,sigma_n_MPa,tau_R_MPa,x\n0,5,1,\n1,6,2,2\n2,7,3,slips\n3,7,3,3\n"
+                    "4,7,3,4\n5,7,3,5\n"),
+              HasSubstr("x: 'slips' is not a number, as most of the column is"));
+}
+
+TEST_F(ToldData, AColumnThatIsEmptyInOneFileIsOfTheKindOfTheOthers) {
+  const std::string head = "time_s,sigma_n_MPa,tau_R_MPa,tool,room\n";
+  const std::string empty = file("empty.csv", head + "0,5,1,,\n1,6,2,,\n");
+  const std::string full = file("full.csv", head + "0,5,1,b,20\n1,6,2,a,21\n");
+  for (const auto& files : {std::vector{empty, full}, std::vector{full, empty}}) {
+    const data::Dataset data = data::load_dataset(files, options);
+    EXPECT_THAT(data.find("tool")->levels, ElementsAre("", "a", "b"));
+    EXPECT_TRUE(data.find("room")->levels.empty());
+    const std::size_t first = files.front() == empty ? 0 : 2;
+    EXPECT_EQ(data.values("tool")[first], 0);
+    EXPECT_EQ(data.values("tool")[first + 1], 0);
+  }
 }
 
 TEST_F(ToldData, EmptyCellsOfATextColumnAreALevelAndCounted) {
