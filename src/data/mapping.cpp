@@ -41,7 +41,7 @@ public:
          FaultList& faults)
       : raw_(raw), options_(options), label_(label), faults_(faults) {
     for (const CsvColumn& column : raw_.columns) {
-      headers_.push_back(io::read_header_name(column.name));
+      headers_.push_back(header_name(column.name));
       whole_names_[column.name].push_back(headers_.size());
       bare_names_[headers_.back().name].push_back(headers_.size());
     }
@@ -79,6 +79,31 @@ public:
   }
 
 private:
+  // Of a column that is taken by the name in front of a unit, also of one that nobody knows: among
+  // the other columns a quantity would be lost without a word. convert_unit tells such a unit.
+  io::HeaderName header_name(const std::string& text) const {
+    const io::HeaderName known = io::read_header_name(text), any = io::split_header_name(text);
+    if (any.name == text || known.name != text || is_named(text) || has_column(any.name))
+      return known;
+    const bool is_own = find_quantity(any.name) && !options_.columns.count(any.name);
+    return is_own || is_named(any.name) ? any : known;
+  }
+
+  // In the job, by its whole name.
+  bool is_named(const std::string& name) const {
+    const auto among = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    return (options_.bystanders && among(*options_.bystanders)) ||
+           std::any_of(options_.columns.begin(), options_.columns.end(),
+                       [&](const auto& source) { return among(source.second.names); });
+  }
+
+  bool has_column(const std::string& name) const {
+    return std::any_of(raw_.columns.begin(), raw_.columns.end(),
+                       [&](const CsvColumn& column) { return column.name == name; });
+  }
+
   Place header() const { return {raw_.file, raw_.header_line, 0}; }
 
   std::vector<std::string> present() const {
@@ -247,7 +272,7 @@ private:
       faults_.add(
           from.place.file.empty() ? header() : from.place,
           fmt::format("{}: the unit '{}' does not convert to {}", quantity.name, unit, wanted),
-          "units that do: " + join(units_like(wanted), ", "));
+          units_hint(unit, units_like(wanted)));
       return;
     }
     const double area = from.area_mm2 > 0 ? from.area_mm2 : 1;
@@ -257,6 +282,12 @@ private:
     if (from.unit.empty())
       out_.notes.push_back(fmt::format("{}: {} as the file says, taken as {}", quantity.name, unit,
                                        area == 1 ? wanted : quantity.unit));
+  }
+
+  static std::string units_hint(const std::string& unit, const std::vector<std::string>& known) {
+    const std::string near = nearest_name(unit, known);
+    return (near.empty() ? "" : "did you mean '" + near + "'? ") +
+           "units that do: " + join(known, ", ");
   }
 
   // The column that names the experiments; nullptr where the file or its intervals do.

@@ -782,10 +782,13 @@ CsvTable rows_of(const CsvTable& table, std::size_t first, std::size_t end) {
   return part;
 }
 
-HeaderName read_header_name(const std::string& text) {
+namespace {
+
+HeaderName cut_header_name(const std::string& text, bool any_unit) {
   const auto split = [&](std::size_t at, std::size_t from, std::size_t end) -> HeaderName {
     const std::string unit(trim(std::string_view(text).substr(from, end - from)));
-    if (at == 0 || at == text.npos || unit.empty() || !convert(unit, unit)) return {text, ""};
+    if (at == 0 || at == text.npos || unit.empty()) return {text, ""};
+    if (!any_unit && !convert(unit, unit)) return {text, ""};
     return {std::string(trim(std::string_view(text).substr(0, at))), unit};
   };
   if (text.empty()) return {text, ""};
@@ -796,6 +799,15 @@ HeaderName read_header_name(const std::string& text) {
       if (HeaderName found = split(at, at + sign.size(), text.size()); !found.unit.empty())
         return found;
   return {text, ""};
+}
+
+} // namespace
+
+HeaderName read_header_name(const std::string& text) {
+  return cut_header_name(text, false);
+}
+HeaderName split_header_name(const std::string& text) {
+  return cut_header_name(text, true);
 }
 
 std::string without_brackets(std::string unit) {

@@ -105,6 +105,8 @@ struct HeaderName {
   std::string name, unit;
 };
 HeaderName read_header_name(const std::string& text);
+// The same whether or not the unit is known: "sigma_f_MPa [Mpa]" as sigma_f_MPa and Mpa.
+HeaderName split_header_name(const std::string& text);
 
 // "[kN]" and "(kN)" of a units row as kN.
 std::string without_brackets(std::string unit);

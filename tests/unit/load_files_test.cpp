@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class LoadFiles : public test::LoadCase {
 protected:
@@ -235,6 +236,26 @@ TEST_F(LoadFiles, OfACertainUnitAreNotConvertedTwice) {
 TEST_F(LoadFiles, WithAUnitOfAnotherKindAreTold) {
   EXPECT_THAT(fault("time_s;F_R_N [mm];F_N_N;sigma_n_MPa\n0;1;10;5\n1;2;10;5\n"),
               HasSubstr("F_R_N: the unit 'mm' does not convert to N"));
+}
+
+TEST_F(LoadFiles, WithAQuantityInAUnitThatNobodyKnowsAreToldWithTheNearest) {
+  EXPECT_THAT(fault("time_s;F_R_N;F_N_N;sigma_n_MPa;sigma_f_MPa [Mpa]\n0;1;10;5;9\n1;2;10;5;9\n"),
+              HasSubstr("a.csv:1: error: sigma_f_MPa: the unit 'Mpa' does not convert to MPa\n"
+                        "  hint: did you mean 'MPa'? units that do: MPa, "));
+  const std::string text =
+      fault("time_s;F_R_N;F_N_N;sigma_n_MPa (Mpa);v_rel_mm_s / mm/sek\n0;1;10;5;1\n1;2;10;5;1\n");
+  EXPECT_THAT(text, HasSubstr("sigma_n_MPa: the unit 'Mpa' does not convert to MPa"));
+  EXPECT_THAT(text, HasSubstr("v_rel_mm_s: the unit 'mm/sek' does not convert to mm/s\n"
+                              "  hint: did you mean 'mm/s'?"));
+  EXPECT_THAT(text, Not(HasSubstr("there is no column")));
+  options.columns["sigma_f_MPa"].names = {"kf"};
+  const std::string mapped = "time_s;F_R_N;F_N_N;sigma_n_MPa;kf [Mpa]\n0;1;10;5;9\n1;2;10;5;9\n";
+  EXPECT_THAT(fault(mapped), HasSubstr("sigma_f_MPa: the unit 'Mpa' does not convert to MPa"));
+  options.columns["sigma_f_MPa"].unit = "MPa"; // the job knows better
+  EXPECT_THAT(column(read(mapped), "sigma_f_MPa"), ElementsAre(9, 9));
+  options.columns["sigma_f_MPa"] = {};
+  options.columns["sigma_f_MPa"].names = {"kf [Mpa]"}; // no unit: part of the name
+  EXPECT_THAT(column(read(mapped), "sigma_f_MPa"), ElementsAre(9, 9));
 }
 
 // ---- cells and lines ----
