@@ -46,7 +46,7 @@ void check_values(Part& part) {
                    {part.place(i), "sigma_f_MPa is 0: no metal flows without stress",
                     "was it not measured there? leave such rows out: data.drop = { sigma_f_MPa = { "
                     "below = 1 } }"});
-      if (std::abs(column.values[i]) > more_than_anything)
+      if (std::isfinite(column.values[i]) && std::abs(column.values[i]) > more_than_anything)
         causes.add(
             "high " + column.name,
             {part.place(i), fmt::format("{} is {}", column.name, column.values[i]),

@@ -54,8 +54,7 @@ protected:
     ASSERT_EQ(run_frictab({"twin", twin, "--design", "v=50,200;T=20,120;points=12;validation=3"})
                   .exit_code,
               0);
-    const auto result = run_frictab({"calibrate", twin + "/job.toml", "-q", "--set",
-                                     "models.use=[\"log_coulomb\", \"orowan\"]"});
+    const auto result = run_frictab({"calibrate", twin + "/job.toml", "-q", "--set", two_laws});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   static void TearDownTestSuite() { delete directory; }
@@ -64,12 +63,14 @@ protected:
   static test::CommandResult predict(const std::string& law, const std::string& data,
                                      std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"predict", law, data});
+    if (law.ends_with(".toml")) more.insert(more.end(), {"--set", two_laws});
     return run_frictab(more);
   }
   static std::string model(const std::string& name) {
     return in_twin("out/models/" + name + ".json");
   }
 
+  static constexpr const char* two_laws = "models.use=[\"log_coulomb\", \"orowan\"]";
   static inline TemporaryDirectory* directory = nullptr;
 };
 
