@@ -165,15 +165,13 @@ private:
     Dataset blocks;
     std::vector<Fault> faults;
     std::vector<Implausible> implausible;
-    std::vector<MappedFile::CountedNote> counted_notes;
+    CountedNotes notes;
   };
 
   void take(PartNumber number, Part& part) {
     Found found;
     found.faults = part.faults.all();
-    found.counted_notes = std::move(part.counted_notes);
-    for (auto note = found.counted_notes.rbegin(); note != found.counted_notes.rend(); ++note)
-      part.data.notes.erase(part.data.notes.begin() + static_cast<std::ptrdiff_t>(note->note));
+    found.notes.take(part);
     part.raw = {};
     part.row = {};
     if (found.faults.empty()) {
@@ -202,7 +200,8 @@ private:
     bool first = true;
     for (auto& [number, found] : parts_) {
       const std::string& file = campaign_->files()[number.file];
-      add_counts(found);
+      notes_.add(found.notes);
+      merge_implausible(found.implausible, implausible_);
       if (found.blocks.rows() == 0) {
         dropped_.insert(dropped_.end(), found.blocks.dropped.begin(), found.blocks.dropped.end());
         continue;
@@ -222,24 +221,10 @@ private:
     return all;
   }
 
-  void add_counts(const Found& found) {
-    for (const MappedFile::CountedNote& note : found.counted_notes) {
-      const auto same = std::find_if(notes_.begin(), notes_.end(),
-                                     [&](const auto& other) { return other.words == note.words; });
-      if (same == notes_.end()) {
-        notes_.push_back(note);
-        continue;
-      }
-      same->rows += note.rows;
-      same->of += note.of;
-    }
-    merge_implausible(found.implausible, implausible_);
-  }
-
   void finish(Dataset& all) {
     add_dropped(all, dropped_);
-    for (const MappedFile::CountedNote& note : notes_)
-      all.notes.push_back(note.text());
+    for (std::string& note : notes_.texts())
+      all.notes.push_back(std::move(note));
     all.notes.insert(all.notes.begin(), campaign_->notes().begin(), campaign_->notes().end());
     if (all.condensed) all.condensed->implausible = std::move(implausible_);
   }
@@ -250,8 +235,8 @@ private:
   std::mutex mutex_;
   std::size_t held_ = 0; // blocks so far
   std::map<PartNumber, Found> parts_;
-  std::vector<FaultList> faults_;              // by file
-  std::vector<MappedFile::CountedNote> notes_; // of all parts
+  std::vector<FaultList> faults_; // by file
+  CountedNotes notes_;            // of all parts
   std::vector<Implausible> implausible_;
   std::vector<Dataset::Dropped> dropped_; // of parts of which nothing is left
 };

@@ -175,6 +175,9 @@ namespace {
 
 Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& files) {
   FaultList faults;
+  CountedNotes counted;
+  for (Part& part : parts)
+    if (parts.size() > 1) counted.take(part);
   Dataset all = std::move(parts.front().data);
   all.sources = {files.front()};
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -182,6 +185,8 @@ Dataset one_campaign(std::vector<Part>& parts, const std::vector<std::string>& f
     faults.throw_if_any();
     all.sources.push_back(files[i]);
   }
+  for (std::string& note : counted.texts())
+    all.notes.push_back(std::move(note));
   return all;
 }
 

@@ -1,6 +1,7 @@
 // Rows of one file, gathered by experiment and left out.
 #include "data/part.h"
 
+#include <algorithm>
 #include <map>
 
 namespace frictab::data {
@@ -51,6 +52,7 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
       sorted.values[i] = column.values[part.row[i]];
     data.columns.push_back(std::move(sorted));
   }
+  part.raw_rows = rows;
   data.notes = std::move(mapped.notes);
   part.cell_faults = std::move(mapped.cell_faults);
   part.counted_notes = std::move(mapped.counted_notes);
@@ -83,6 +85,37 @@ void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   part.row = std::move(row);
   data.experiments = std::move(names);
   data.first_row = std::move(first);
+}
+
+void CountedNotes::take(Part& part) {
+  std::vector<std::string>& notes = part.data.notes;
+  for (auto note = part.counted_notes.rbegin(); note != part.counted_notes.rend(); ++note)
+    notes.erase(notes.begin() + static_cast<std::ptrdiff_t>(note->note));
+  CountedNotes own;
+  own.notes_ = std::move(part.counted_notes);
+  own.raw_rows_ = part.raw_rows;
+  add(own);
+}
+
+void CountedNotes::add(const CountedNotes& more) {
+  for (const MappedFile::CountedNote& note : more.notes_) {
+    const auto same = std::find_if(notes_.begin(), notes_.end(),
+                                   [&](const auto& other) { return other.words == note.words; });
+    if (same == notes_.end())
+      notes_.push_back(note);
+    else
+      same->rows += note.rows;
+  }
+  raw_rows_ += more.raw_rows_;
+}
+
+std::vector<std::string> CountedNotes::texts() const {
+  std::vector<std::string> texts;
+  for (MappedFile::CountedNote note : notes_) {
+    note.of = raw_rows_;
+    texts.push_back(note.text());
+  }
+  return texts;
 }
 
 } // namespace frictab::data

@@ -11,6 +11,7 @@ namespace frictab::data {
 struct Part {
   Dataset data;
   io::CsvTable raw;
+  std::size_t raw_rows = 0;
   std::vector<std::size_t> row; // raw row
   bool measured_tau = true;
   bool whole_file = true; // or some experiments of it
@@ -22,6 +23,18 @@ struct Part {
   Place header() const { return {raw.file, raw.header_line, 0}; }
   Place place(std::size_t i) const { return row_place(raw, row[i]); }
   std::vector<std::string> raw_names() const; // of the file's columns
+};
+
+// Notes that count rows, over several parts: those that say the same are one.
+class CountedNotes {
+public:
+  void take(Part& part); // out of the notes of its data
+  void add(const CountedNotes& more);
+  std::vector<std::string> texts() const; // of all rows of all parts
+
+private:
+  std::vector<MappedFile::CountedNote> notes_;
+  std::size_t raw_rows_ = 0;
 };
 
 // Orders rows so that each experiment is contiguous, in order of first appearance. `label` is the

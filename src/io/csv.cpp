@@ -487,7 +487,8 @@ void find_header(Scanner& lines, std::string_view text, const std::string& file,
   if (lines.at_end())
     throw InputError({file, 0, 0},
                      fmt::format("no header after {} skipped lines", format.skip_rows),
-                     "check data.skip_rows");
+                     format.skip_footer > 0 ? "check data.skip_rows and data.skip_footer"
+                                            : "check data.skip_rows");
   if (format.wanted.empty() || count_names(line_at(text, lines.position()), format) > 0) return;
   constexpr int longest_preamble = 200;
   Scanner ahead = lines, best = lines;

@@ -34,7 +34,8 @@ struct ValueReader {
     if (node.type == Type::text && rule.type == KeyType::flag) return "write true or false";
     if (node.type == Type::text && wants_number &&
         node.text.find_first_not_of("+-.,0123456789eE") == node.text.npos)
-      return "write the number without quotes, with a decimal point";
+      return rule.type == KeyType::whole ? "write the number without quotes"
+                                         : "write the number without quotes, with a decimal point";
     if (wants_text && (node.type == Type::whole || node.type == Type::number))
       return "a text stands in quotes";
     return about();

@@ -516,7 +516,9 @@ Fault said_in_job(Fault fault, const std::string& target, const codegen::ExportO
   for (const std::string& key : {own + "." + fault.place.file.substr(all.size()), fault.place.file})
     if (const auto known = exports.input_places.find(key); known != exports.input_places.end()) {
       fault.place = known->second;
-      if (key.starts_with(all)) fault.hint += "; for this target alone: [" + own + "]";
+      if (key.starts_with(all))
+        fault.hint +=
+            (fault.hint.empty() ? "for" : "; for") + (" this target alone: [" + own + "]");
       break;
     }
   return fault;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "core/text.h"
 #include "data/file_list.h"
@@ -17,35 +18,29 @@ namespace fs = std::filesystem;
 const char* const to_mend = "choose another directory: -o DIR, or output.directory of the job";
 constexpr std::string_view stages_file = "stages.json", report = "report.";
 
-// The job file, those of [data], laws and tables that are laws, as they can be opened.
-std::vector<fs::path> files_read_by(const job::Job& job) {
+// The job file, those of [data], laws and tables that are laws; without links on their way.
+std::set<fs::path> files_read_by(const job::Job& job) {
   const data::DataOptions& data = job.data;
-  std::vector<fs::path> files{job.file};
-  const auto add = [&](const std::vector<std::string>& named) {
-    for (const std::string& name : data::find_files(named, data.base, data.place))
-      files.push_back(fs::path(data.base) / name);
-  };
-  for (const auto& named : {data.training, data.validation, data.oracle, data.join.files})
-    if (!named.empty()) add(named);
-  std::vector<std::string> others = job.models.files;
-  others.push_back(data.tests);
+  std::vector<std::string> names = job.models.files;
+  names.push_back(data.tests);
   for (const models::LawText& law : job.models.texts)
-    others.push_back(law.table);
-  for (const std::string& name : others)
-    if (!name.empty()) files.push_back(fs::path(data.base) / name);
+    names.push_back(law.table);
+  for (const auto* named : {&data.training, &data.validation, &data.oracle, &data.join.files})
+    for (const std::string& name : data::find_files(*named, data.base, data.place))
+      names.push_back(name);
+  std::set<fs::path> files{fs::weakly_canonical(job.file)};
+  for (const std::string& name : names)
+    if (!name.empty()) files.insert(fs::weakly_canonical(fs::path(data.base) / name));
   return files;
 }
 
-void check_not_read(const job::Job& job, std::vector<std::string> paths) {
-  const std::vector<fs::path> read = files_read_by(job);
-  for (const std::string& path : paths) {
-    const fs::path target = fs::path(job.directory) / path;
-    std::error_code none; // one of the two is not there
-    if (std::any_of(read.begin(), read.end(),
-                    [&](const fs::path& one) { return fs::equivalent(one, target, none); }))
+void check_not_read(const job::Job& job, const std::vector<std::string>& paths) {
+  const std::set<fs::path> read = files_read_by(job);
+  for (const std::string& path : paths)
+    if (const fs::path target = fs::path(job.directory) / path;
+        read.count(fs::weakly_canonical(target)) > 0)
       throw InputError({target.string(), 0, 0}, "is read by this job, and a result comes there",
                        to_mend);
-  }
 }
 
 std::string beginning_of(const fs::path& file) {

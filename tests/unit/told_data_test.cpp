@@ -93,6 +93,18 @@ TEST_F(ToldData, AColumnThatIsEmptyInOneFileIsOfTheKindOfTheOthers) {
   }
 }
 
+TEST_F(ToldData, CountsOfSeveralFilesAreOneOverAllTheirRows) {
+  const std::string head = "time_s,sigma_n_MPa,tau_R_MPa,room\n";
+  const std::vector<std::string> files = {file("a.csv", head + "0,5,1,\n1,6,2,20\n"),
+                                          file("b.csv", head + "0,5,1,\n1,6,2,21\n"),
+                                          file("c.csv", head + "0,5,1,22\n1,6,2,21\n")};
+  EXPECT_THAT(data::load_dataset(files, options).notes,
+              Contains("room: 2 of 6 rows without a value"));
+  options.condense = {1};
+  EXPECT_THAT(data::load_dataset(files, options).notes,
+              Contains("room: 2 of 6 rows without a value"));
+}
+
 TEST_F(ToldData, EmptyCellsOfATextColumnAreALevelAndCounted) {
   EXPECT_THAT(read("time_s,sigma_n_MPa,tau_R_MPa,tool\n0,5,1,a\n1,6,2,\n2,7,3,b\n").notes,
               Contains("tool: 1 of 3 rows without a value: a level of their own"));
