@@ -53,7 +53,8 @@ Explanation about_csv() {
                        "[data.columns]"},
            {"needed", "experiment, sigma_n_MPa and tau_R_MPa, or F_R_N and F_N_N beside a contact "
                       "normal stress; more where a law asks for more (frictab explain LAW)"},
-           {"dialect", "delimiter , ; tab or blanks and decimal point or comma are found; "
+           {"dialect", "delimiter , ; tab or blanks is found; a decimal comma is said, or "
+                       "found by frictab init --from; "
                        "data.delimiter, data.decimal, data.thousands, data.skip_rows say them"},
            {"encoding", "UTF-8, UTF-16, Latin-1; any line ends; preambles above the header"},
            {"empty cells", "an error, or rows left out and counted: data.missing = \"drop\""},

@@ -161,15 +161,21 @@ void take_slopes(Part& part, const DataOptions& options) {
       part.faults.add(from.place, canonical + ": a slope needs time_s, which the data do not have");
       continue;
     }
+    std::size_t shorter = 0; // tests
     for (std::size_t e = 0; e < part.data.experiments.size(); ++e) {
       const std::size_t first = part.data.first_row[e], n = part.data.first_row[e + 1] - first;
+      if (n < from.slope_rows) ++shorter;
       const auto slopes = local_slopes({time->values.data() + first, n},
                                        {column->values.data() + first, n}, from.slope_rows);
       for (std::size_t i = 0; i < n; ++i)
         column->values[first + i] = std::abs(slopes[i]);
     }
-    part.data.notes.push_back(
-        fmt::format("{} = slope over {} rows of its column", canonical, from.slope_rows));
+    std::string note =
+        fmt::format("{} = slope over {} rows of its column", canonical, from.slope_rows);
+    if (shorter > 0)
+      note += fmt::format(", over all of {} of {} tests, which have fewer", thousands(shorter),
+                          thousands(part.data.experiments.size()));
+    part.data.notes.push_back(std::move(note));
   }
 }
 

@@ -31,8 +31,11 @@ bool is_not_finite(const std::string& text) {
 }
 
 // A cell without a value: empty, or the word that spreadsheets and pandas put there.
+// Words of spreadsheets and statistics programs for a cell without a value.
 bool is_missing(const std::string& text) {
-  return text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "n/a";
+  const std::string word = lower_case(text);
+  return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" ||
+         word == "null";
 }
 
 class Mapper {
@@ -167,7 +170,7 @@ private:
   }
 
   // What can be wrong with a cell.
-  enum class Cause { no_number, empty, not_finite };
+  enum class Cause { no_number, empty, word_for_empty, not_finite };
 
   // `what` follows the column's name and, in HDF5, the row.
   void cell_fault(std::size_t row, std::size_t cell_column, const std::string& name, Cause cause,
@@ -177,7 +180,7 @@ private:
         {row,
          {row_place(raw_, row, cell_column), fmt::format("{}{}: {}", name, where, what), hint},
          fmt::format("{} {}", name, static_cast<int>(cause)),
-         cause == Cause::empty});
+         cause == Cause::empty || cause == Cause::word_for_empty});
   }
 
   std::string number_hint(const std::string& text) const {
@@ -200,11 +203,10 @@ private:
   // All cells of a column as numbers; a fault for each that is none.
   std::vector<double> numbers(const CsvColumn& column, const std::string& canonical) {
     for (const CsvColumn::Text& cell : column.texts)
-      if (is_not_finite(cell.text))
+      if (is_missing(cell.text))
+        no_value(cell.row, cell.column, canonical, cell.text);
+      else if (is_not_finite(cell.text))
         not_finite(cell.row, cell.column, canonical, cell.text);
-      else if (cell.text.empty())
-        cell_fault(cell.row, cell.column, canonical, Cause::empty, "the cell is empty",
-                   "repair it, or data.missing = \"drop\" leaves such rows out");
       else
         cell_fault(cell.row, cell.column, canonical, Cause::no_number,
                    fmt::format("'{}' is not a number", cell.text), number_hint(cell.text));
@@ -213,10 +215,20 @@ private:
       while (text < column.texts.size() && column.texts[text].row < i)
         ++text;
       const bool is_text = text < column.texts.size() && column.texts[text].row == i;
-      if (!is_text && !std::isfinite(column.numbers[i]))
+      if (is_text || std::isfinite(column.numbers[i])) continue;
+      if (std::isnan(column.numbers[i])) // all that HDF5 has for it
+        no_value(i, 0, canonical, "NaN");
+      else
         not_finite(i, 0, canonical, shortest(column.numbers[i]));
     }
     return column.numbers;
+  }
+
+  void no_value(std::size_t row, std::size_t cell_column, const std::string& canonical,
+                const std::string& text) {
+    cell_fault(row, cell_column, canonical, text.empty() ? Cause::empty : Cause::word_for_empty,
+               text.empty() ? "the cell is empty" : text + " stands for no value",
+               "repair it, or data.missing = \"drop\" leaves such rows out");
   }
 
   void not_finite(std::size_t row, std::size_t cell_column, const std::string& canonical,

@@ -146,7 +146,7 @@ TEST_F(Load, TellsTheFaultsOfAllCellsAtOnceInTheOrderOfTheFile) {
   EXPECT_THAT(text, HasSubstr("a.csv:3: error: v_rel_mm_s is -1"));
   EXPECT_THAT(text, HasSubstr("a.csv:3: error: T_contact_C is -300"));
   EXPECT_THAT(text, HasSubstr("a.csv:3: error: tau_R_MPa is -2"));
-  EXPECT_THAT(text, HasSubstr("a.csv:4:1: error: sigma_n_MPa: nan is not a finite number"));
+  EXPECT_THAT(text, HasSubstr("a.csv:4:1: error: sigma_n_MPa: nan stands for no value"));
   EXPECT_THAT(text, HasSubstr("a.csv:4:7: error: v_rel_mm_s: inf is not a finite number"));
   EXPECT_THAT(text, HasSubstr("a.csv:4:14: error: tau_R_MPa: 1e999 is not a finite number"));
   EXPECT_THAT(text, HasSubstr("a.csv:5:1: error: sigma_n_MPa: '1,5' is not a number\n"
@@ -232,6 +232,14 @@ TEST_F(Load, TellsWhereASlopeCannotBeTaken) {
               HasSubstr("v_rel_mm_s cannot be computed here"));
 }
 
+TEST_F(Load, TellsWhereATestHasFewerRowsThanASlopeIsTakenOver) {
+  options.columns["v_rel_mm_s"].names = {"x"};
+  options.columns["v_rel_mm_s"].slope_rows = 5;
+  EXPECT_THAT(read("time_s,x,sigma_n_MPa,tau_R_MPa\n1,1,9,1\n2,2,9,1\n3,3,9,1\n").notes,
+              testing::Contains("v_rel_mm_s = slope over 5 rows of its column, over all of 1 of 1 "
+                                "tests, which have fewer"));
+}
+
 TEST_F(Load, JoinsFilesAndTellsColumnsThatOneLacks) {
   const std::string one = file("one.csv", "sigma_n_MPa,tau_R_MPa,lot\n1,2,b\n3,4,c\n");
   const std::string two = file("two.csv", "tau_R_MPa,sigma_n_MPa,lot\n6,5,a\n8,7,b\n");
@@ -269,7 +277,9 @@ TEST_F(Load, ReadsHdf5ColumnsAndTellsTheirFaults) {
   EXPECT_EQ(column(data, "sigma_n_MPa"), (Values{1000, 2000}));
   EXPECT_EQ(data.experiments, std::vector<std::string>{"a"});
   write(std::nan(""), 2);
-  EXPECT_THAT(fault_of({"a.h5"}), HasSubstr("sigma_n_MPa (row 2): nan is not a finite number"));
+  EXPECT_THAT(fault_of({"a.h5"}), HasSubstr("sigma_n_MPa (row 2): NaN stands for no value"));
+  options.missing = data::Missing::drop;
+  EXPECT_THAT(fault_of({"a.h5"}), HasSubstr("no fault"));
   write(2, 3);
   EXPECT_THAT(fault_of({"a.h5"}), HasSubstr("column 'tau_R_MPa' has 3 rows"));
   EXPECT_THAT(fault_of({"a.h5"}), Not(HasSubstr("no column sigma_n_MPa"))); // this one fits
