@@ -82,6 +82,13 @@ TEST(InputColumns, RefuseLevelsTheLawDoesNotKnowAndNumbersForText) {
   EXPECT_EQ(refusal([&] { predict(model, data); }),
             "sample: error: column tool has the level 'D', of which the law knows nothing\n"
             "  hint: known: A, B, C");
+  Dataset empty = data; // of a part of the files: elsewhere the column is text
+  column(empty, "tool").levels.clear();
+  for (double& number : column(empty, "tool").values)
+    number = std::nan("");
+  EXPECT_EQ(refusal([&] { predict(model, empty); }),
+            "sample: error: column tool has the level '', of which the law knows nothing\n"
+            "  hint: known: A, B, C");
   column(data, "tool").levels.clear();
   EXPECT_EQ(refusal([&] { predict(model, data); }),
             "sample: error: column tool holds numbers\n"
