@@ -51,12 +51,9 @@ Place place_of(const Dataset& data) {
 // A text column's numbers by the law's levels: files number those that they have.
 std::vector<double> renumbered(const data::Column& column, const std::vector<std::string>& levels,
                                const Dataset& data) {
-  const bool is_empty = std::all_of(column.values.begin(), column.values.end(),
-                                    [](double value) { return std::isnan(value); });
-  if (column.levels.empty() && is_empty) { // in these rows; elsewhere it is text
+  if (data::is_empty(column)) { // in these rows; elsewhere it is text
     data::Column text = column;
-    text.levels = {""}; // the level of its own that empty cells have
-    std::fill(text.values.begin(), text.values.end(), 0.0);
+    data::make_empty_text(text);
     return renumbered(text, levels, data);
   }
   if (column.levels.empty())

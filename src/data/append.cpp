@@ -2,7 +2,6 @@
 #include "data/append.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string_view>
 #include <unordered_map>
@@ -19,18 +18,6 @@ void append_values(std::vector<double>& to, const std::vector<double>& from) {
 
 bool is_text(const Column& column) {
   return !column.levels.empty();
-}
-
-// Without a value in any row it may be text as well as numbers.
-bool is_empty(const Column& column) {
-  return !is_text(column) && std::all_of(column.values.begin(), column.values.end(),
-                                         [](double value) { return std::isnan(value); });
-}
-
-// The level of its own that empty cells of a text column have.
-void make_empty_text(Column& column) {
-  column.levels = {""};
-  std::fill(column.values.begin(), column.values.end(), 0.0);
 }
 
 // Of two condensed datasets, with the histories that both have.

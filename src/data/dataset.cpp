@@ -146,4 +146,14 @@ Split hold_out(const Dataset& data, double share, std::uint64_t seed) {
   return split;
 }
 
+bool is_empty(const Column& column) {
+  return column.levels.empty() && std::all_of(column.values.begin(), column.values.end(),
+                                              [](double value) { return std::isnan(value); });
+}
+
+void make_empty_text(Column& column) {
+  column.levels = {""};
+  std::fill(column.values.begin(), column.values.end(), 0.0);
+}
+
 } // namespace frictab::data

@@ -21,6 +21,11 @@ struct Column {
   std::vector<std::string> levels; // not empty: a text column; sorted
 };
 
+// A column without a value in any row may be text as well as numbers. As text, its cells have the
+// level of their own that empty cells of a text column have.
+bool is_empty(const Column& column);
+void make_empty_text(Column& column);
+
 // Where two clocks of an experiment agree best (data/join.h).
 struct ClockOffset {
   std::string experiment;

@@ -149,8 +149,8 @@ void check_calibration(const job::Job& job) {
   std::string why;
   if (!stages.is_as_written("calibration.json").value_or(true))
     why = "was changed since `frictab calibrate` wrote it";
-  else if (stages.is_of_another_job("calibrate"))
-    why = "is stale: [models] or [calibration] of the job has changed since";
+  else if (const std::string other = stages.other_job("calibrate"); !other.empty())
+    why = "is stale: " + other;
   if (why.empty()) return;
   throw InputError({(std::filesystem::path(job.directory) / "calibration.json").string(), 0, 0},
                    why, "`frictab calibrate " + job.arguments() + "` makes it anew");

@@ -172,17 +172,17 @@ std::string Stages::stale(const std::string& stage, const std::string& data) con
   if (made.version != wanted.version)
     return fmt::format("made by frictab {}, this is {}", made.version, wanted.version);
   if (!data.empty() && made.data != wanted.data) return "the data have changed since";
-  if (made.job != wanted.job)
-    return sections_text(stage_named(stage)) + " of the job has changed since";
+  if (const std::string other = other_job(stage); !other.empty()) return other;
   if (made.laws != wanted.laws && !job_.table.names_laws())
     return "table.model of the job has changed since";
   if (made.from != wanted.from) return fmt::format("made before the last `{}`", before(stage));
   return "";
 }
 
-bool Stages::is_of_another_job(const std::string& stage) const {
+std::string Stages::other_job(const std::string& stage) const {
   const auto found = made_.find(stage);
-  return found != made_.end() && found->second.job != now(stage, "").job;
+  if (found == made_.end() || found->second.job == now(stage, "").job) return "";
+  return sections_text(stage_named(stage)) + " of the job has changed since";
 }
 
 std::string Stages::json() const {

@@ -59,8 +59,8 @@ public:
   // and are not compared.
   std::string stale(const std::string& stage, const std::string& data) const;
 
-  // Whether the stage was made by a job that said something else of it. The data are not looked at.
-  bool is_of_another_job(const std::string& stage) const;
+  // The same, as far as it is the job that says something else of the stage.
+  std::string other_job(const std::string& stage) const;
 
   std::string json() const;
 

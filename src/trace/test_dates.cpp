@@ -80,7 +80,19 @@ std::optional<double> time_of(const Stamp& stamp, const Reading& as) {
   return 86400.0 * static_cast<double>(days) + stamp.seconds;
 }
 
-// Places in the order of time; nothing where the reading fits not all of them.
+// Of each value its place among all, from 0; equal ones share theirs.
+template <class Value> std::vector<double> places_of(const std::vector<Value>& values) {
+  std::vector<Value> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  std::vector<double> places;
+  for (const Value& value : values)
+    places.push_back(static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), value) -
+                                         sorted.begin()));
+  return places;
+}
+
+// In the order of time; nothing where the reading fits not all of them.
 std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, const Reading& as) {
   std::vector<double> times;
   for (const Stamp& stamp : stamps) {
@@ -88,13 +100,7 @@ std::optional<std::vector<double>> places(const std::vector<Stamp>& stamps, cons
     if (!time) return std::nullopt;
     times.push_back(*time);
   }
-  std::vector<double> sorted = times;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  for (double& time : times)
-    time =
-        static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), time) - sorted.begin());
-  return times;
+  return places_of(times);
 }
 
 } // namespace
@@ -107,13 +113,7 @@ TestDates sort_dates(const std::vector<std::string>& texts) {
       stamps.push_back(*stamp);
     else
       no_date = &text;
-  if (stamps.empty()) {
-    TestDates sorted;
-    for (const std::string& text : texts)
-      sorted.place.push_back(static_cast<double>(std::count_if(
-          texts.begin(), texts.end(), [&](const auto& other) { return other < text; })));
-    return sorted;
-  }
+  if (stamps.empty()) return {places_of(texts), ""};
   if (no_date) return {{}, fmt::format("'{}' is no date, as others are", *no_date)};
   std::vector<std::vector<double>> found;
   for (const Reading& as : readings)
