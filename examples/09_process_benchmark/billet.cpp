@@ -19,7 +19,7 @@ const std::string test_strain =
     "[Grad_Test_u(1,1),Grad_Test_u(1,2),Grad_Test_u(2,1),Grad_Test_u(2,2),Test_u(1)/X(1)]";
 const std::string volume_ratio = "(((1+Grad_u(1,1))*(1+Grad_u(2,2))-Grad_u(1,2)*Grad_u(2,1))"
                                  "*(1+u(1)/X(1)))";
-const std::string ring = "2*pi*X(1)*"; // a point stands for a ring of this length
+const std::string ring_length = "2*pi*X(1)*"; // a point stands for a ring
 
 constexpr double tolerance = 1e-9; // of the largest force at a node
 constexpr int most_iterations = 25;
@@ -90,12 +90,13 @@ void Billet::make_model(double temperature) {
   friction_work_.resize(contact_points_.nb_filtered_index());
   old_tau_.resize(friction_work_.size());
   getfem::add_nonlinear_term(model_, mim_,
-                             ring + "(Nominal_stress(" + strain + ",pressure,history)." +
+                             ring_length + "(Nominal_stress(" + strain + ",pressure,history)." +
                                  test_strain + "+(log(" + volume_ratio +
                                  ")-pressure/K)*Test_pressure)");
-  getfem::add_nonlinear_term(
-      model_, mim_, "-" + ring + "Die_traction(" + strain + ",u,X,u_before,Normal,memory).Test_u",
-      contact_region);
+  getfem::add_nonlinear_term(model_, mim_,
+                             "-" + ring_length + "Die_traction(" + strain +
+                                 ",u,X,u_before,Normal,memory).Test_u",
+                             contact_region);
 }
 
 void Billet::make_weights() {
@@ -105,7 +106,7 @@ void Billet::make_weights() {
     one[i] = 1;
     getfem::ga_workspace workspace(model_);
     workspace.add_im_data("one", contact_points_, one);
-    workspace.add_expression(ring + "one", mim_, mesh_.region(contact_region), 0);
+    workspace.add_expression(ring_length + "one", mim_, mesh_.region(contact_region), 0);
     workspace.assembly(0);
     weights_[i] = workspace.assembled_potential();
     one[i] = 0;
@@ -289,7 +290,7 @@ std::vector<ContactRecord> Billet::contact() const {
 
 double Billet::integral(const std::string& expression, size_type region) const {
   getfem::ga_workspace workspace(model_);
-  workspace.add_expression(ring + "(" + expression + ")", mim_, mesh_.region(region), 0);
+  workspace.add_expression(ring_length + "(" + expression + ")", mim_, mesh_.region(region), 0);
   workspace.assembly(0);
   return workspace.assembled_potential();
 }
@@ -297,7 +298,7 @@ double Billet::integral(const std::string& expression, size_type region) const {
 double Billet::volume_integral(const Vector& values) const {
   getfem::ga_workspace workspace(model_);
   workspace.add_im_data("values", volume_points_, values);
-  workspace.add_expression(ring + "values", mim_, getfem::mesh_region::all_convexes(), 0);
+  workspace.add_expression(ring_length + "values", mim_, getfem::mesh_region::all_convexes(), 0);
   workspace.assembly(0);
   return workspace.assembled_potential();
 }
@@ -324,7 +325,8 @@ double Billet::bottom_force() const {
 
 double Billet::volume() const {
   getfem::ga_workspace workspace(model_);
-  workspace.add_expression(ring + volume_ratio, mim_, getfem::mesh_region::all_convexes(), 0);
+  workspace.add_expression(ring_length + volume_ratio, mim_, getfem::mesh_region::all_convexes(),
+                           0);
   workspace.assembly(0);
   return workspace.assembled_potential();
 }

@@ -9,7 +9,6 @@
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int most_halvings = 6;
 
 // One process while it runs.
@@ -48,7 +47,7 @@ private:
     if (s.process != "rod") return Die::platen(s.height / 2);
     // The bar is pressed into the container, up to where its corner begins.
     return Die::nozzle(s.height + s.corner, s.outer_diameter / 2 - s.press_fit, s.exit_diameter / 2,
-                       s.half_angle * pi / 180, s.corner);
+                       s.half_angle * M_PI / 180, s.corner);
   }
   static Shape shape(const Setup& s) {
     const double inner_radius = s.process == "ring" ? s.inner_diameter / 2 : 0;

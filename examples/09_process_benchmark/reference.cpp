@@ -4,7 +4,6 @@
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int radial_points = 400, increments = 400;
 
 // The power J/(2 pi) per V, sigma_f and unit of the height's rate.
@@ -45,7 +44,7 @@ RingSize frictionless_ring(RingSize start, double reduction) {
 double frictionless_force(RingSize start, double reduction, const Material& material) {
   const RingSize now = frictionless_ring(start, reduction);
   const double area =
-      pi * (now.outer_radius * now.outer_radius - now.inner_radius * now.inner_radius);
+      M_PI * (now.outer_radius * now.outer_radius - now.inner_radius * now.inner_radius);
   return material.flow_stress(-std::log(1 - reduction), 20) * area / 1e3;
 }
 
