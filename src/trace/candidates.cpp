@@ -89,7 +89,7 @@ double likeness(const VectorXd& a, const VectorXd& b) {
   return size > 0 ? xy * xy / size : 0;
 }
 
-constexpr double the_same = 1 - 1e-9, alike = 0.98; // likeness
+constexpr double the_same = 1 - 1e-9, much_alike = 0.98; // likeness
 
 // Multiples of the golden ratio: even, and never periodic. No column has this direction by chance.
 VectorXd golden_direction(Index size) {
@@ -427,7 +427,7 @@ namespace {
 
 // Columns that run side by side are one quantity: their product is a parabola.
 bool run_alike(const CandidateColumn& a, const CandidateColumn& b) {
-  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > alike;
+  return a.levels.empty() && b.levels.empty() && likeness(a.values, b.values) > much_alike;
 }
 
 } // namespace
