@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "models/law.h"
+#include "support/law_parameter.h"
 #include "support/polynomial_model.h"
 #include "support/sample_data.h"
 #include "table/bound.h"
@@ -49,13 +50,6 @@ Case of_law(const std::string& name, Interpolation interpolation, double toleran
                     interpolation, tolerance);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (c == '.') c = '_';
-  return name;
-}
-
 class SlowBoundOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
@@ -71,7 +65,7 @@ TEST_P(SlowBoundOfEveryLaw, IsAboveTheLargestDriftFoundByHalfOfItAtMost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, SlowBoundOfEveryLaw, testing::ValuesIn(models::law_names()),
-                         test_name);
+                         test::law_test_name);
 
 // Away from its law by a known amount: what is added to a node must come out again.
 TEST(Bound, IsAboveATableThatIsWrong) {

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "models/law.h"
 #include "support/generated.h"
+#include "support/law_parameter.h"
 #include "support/polynomial_model.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
@@ -80,22 +81,16 @@ void expect_law(const models::Model& model, bool by_language = false) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
-class SlowDirectFormOfEveryLaw : public testing::TestWithParam<std::string> {};
+class SlowDirectFormOfEveryFormula : public testing::TestWithParam<std::string> {};
 
 // What stands around the formula is no law's own: one law goes through every target, with those of
 // SlowDirectForm.
-TEST_P(SlowDirectFormOfEveryLaw, IsTheLawTo1e12InEveryLanguage) {
+TEST_P(SlowDirectFormOfEveryFormula, IsTheLawTo1e12InEveryLanguage) {
   const bool by_language = GetParam() != "log_coulomb";
   expect_law(test::plausible_model(*models::find_law(GetParam())), by_language);
 }
 
-TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
+TEST_P(SlowDirectFormOfEveryFormula, HasTheLawsOwnGradient) {
   const AssembledLaw law(test::plausible_model(*models::find_law(GetParam())));
   const Table table = direct_of(law);
   const table::TableFunction direct(table);
@@ -112,8 +107,8 @@ TEST_P(SlowDirectFormOfEveryLaw, HasTheLawsOwnGradient) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryLaw, testing::ValuesIn(models::law_names()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowDirectFormOfEveryFormula,
+                         testing::ValuesIn(test::laws_by_formula()), test::law_test_name);
 
 TEST(SlowDirectForm, OfAnEnsembleOfTwentyNetsIsTheLawTo1e12InEveryTarget) {
   expect_law(test::network_model(20, 8));

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "data/quantity.h"
 #include "models/law.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 
 namespace frictab::laws_test {
@@ -23,13 +24,6 @@ class EveryLaw : public testing::TestWithParam<std::string> {
 protected:
   const models::Law& law() const { return *models::find_law(GetParam()); }
 };
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (c == '.') c = '_';
-  return name;
-}
 
 std::vector<const double*> pointers(const std::vector<std::vector<double>>& states) {
   std::vector<const double*> columns;
@@ -150,7 +144,8 @@ TEST_P(EveryLaw, WithoutTheShearLimitNeedsNoFlowStressUnlessItsFormulaDoes) {
   EXPECT_NE(std::find(limited.begin(), limited.end(), "sigma_f_MPa"), limited.end());
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryLaw, testing::ValuesIn(models::law_names()),
+                         test::law_test_name);
 
 TEST(Laws, HaveTheNamesOfTheContract) {
   const std::vector<std::string> contract = {

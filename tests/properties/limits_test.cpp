@@ -12,6 +12,7 @@
 #include "expr/program.h"
 #include "job/literature.h"
 #include "models/assembled_law.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 
 namespace frictab::limits_test {
@@ -86,12 +87,6 @@ std::string words(const std::vector<double>& values) {
   for (const double x : values)
     text += std::to_string(x) + " ";
   return text;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
 }
 
 TEST_P(EveryLawFarOut, StaysFiniteAndBetweenZeroAndK) {
@@ -187,10 +182,10 @@ std::vector<std::string> names_of_the_literature() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Literature, EveryLawOfTheLiteratureFarOut,
-                         testing::ValuesIn(names_of_the_literature()), test_name);
+                         testing::ValuesIn(names_of_the_literature()), test::law_test_name);
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryLawFarOut, testing::ValuesIn(models::law_names()),
-                         test_name);
+                         test::law_test_name);
 
 } // namespace
 } // namespace frictab::limits_test

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "models/law.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 #include "table/bound.h"
 
@@ -38,13 +39,6 @@ table::ProvenDrift drift_of(const Made& made, double allowed) {
       allowed);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (c == '.') c = '_';
-  return name;
-}
-
 class SlowToleranceOfEveryLaw : public testing::TestWithParam<std::string> {};
 
 TEST_P(SlowToleranceOfEveryLaw, IsProvenOverTheWholeRange) {
@@ -74,7 +68,7 @@ TEST_P(SlowToleranceOfEveryLaw, PlainTablesTakeNoLogarithm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, SlowToleranceOfEveryLaw, testing::ValuesIn(models::law_names()),
-                         test_name);
+                         test::law_test_name);
 
 TEST(Budget, IsKeptAndMoreNodesAreCloser) {
   for (const char* law : {"wanheim_bay", "levanov"}) {

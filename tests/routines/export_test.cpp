@@ -9,6 +9,7 @@
 #include "models/law.h"
 #include "support/generated.h"
 #include "support/json.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/build.h"
@@ -67,7 +68,7 @@ TEST(SlowExport, FixedFormSourcesAreFortran2008) {
 
 class SlowSourcesOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {
+TEST_P(SlowSourcesOf, EveryFormulaCompileWithoutAWarningInCAndFortranInBothForms) {
   const models::Model model = test::plausible_model(*models::find_law(GetParam()));
   const models::AssembledLaw law(model);
   const Table table =
@@ -88,12 +89,8 @@ TEST_P(SlowSourcesOf, EveryLawCompileWithoutAWarningInCAndFortranInBothForms) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowSourcesOf, testing::ValuesIn(models::law_names()),
-                         [](const auto& law) {
-                           std::string name = law.param;
-                           std::replace(name.begin(), name.end(), '.', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Registry, SlowSourcesOf, testing::ValuesIn(test::laws_by_formula()),
+                         test::law_test_name);
 
 TEST(Export, ReportsEveryFaultOfTheJobsInputsInOneGo) {
   const Table table = test::four_axis_table();

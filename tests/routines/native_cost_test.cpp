@@ -9,6 +9,7 @@
 #include "codegen/compile.h"
 #include "models/law.h"
 #include "support/json.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 #include "table/direct.h"
 #include "verify/beyond.h"
@@ -78,15 +79,9 @@ std::pair<double, double> cost(const Case& c, const std::string& target) {
   return {sum / static_cast<double>(tau.size()), largest};
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
+class SlowNativeTableOfEveryFormula : public testing::TestWithParam<std::string> {};
 
-class SlowNativeTableOfEveryLaw : public testing::TestWithParam<std::string> {};
-
-TEST_P(SlowNativeTableOfEveryLaw, MeetsTheToleranceWhereTheSearchFindsItFurthestFromTheLaw) {
+TEST_P(SlowNativeTableOfEveryFormula, MeetsTheToleranceWhereTheSearchFindsItFurthestFromTheLaw) {
   const Case c(GetParam());
   for (const char* target : {"abaqus_table", "lsdyna_table", "ansys_table", "deform_table"}) {
     const DriftRecord record = c.verified(target);
@@ -102,8 +97,8 @@ TEST_P(SlowNativeTableOfEveryLaw, MeetsTheToleranceWhereTheSearchFindsItFurthest
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowNativeTableOfEveryLaw,
-                         testing::ValuesIn(models::law_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, SlowNativeTableOfEveryFormula,
+                         testing::ValuesIn(test::laws_by_formula()), test::law_test_name);
 
 TEST(SlowNativeCost, IsTheDifferenceFromTheLawAtTheRowsOwnStates) {
   for (const char* law : {"log_coulomb", "orowan", "wanheim_bay"})

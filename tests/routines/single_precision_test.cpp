@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "support/generated.h"
 #include "support/json.h"
+#include "support/law_parameter.h"
 #include "support/sample_data.h"
 #include "support/sample_tables.h"
 #include "table/build.h"
@@ -234,12 +235,8 @@ TEST_P(SlowSinglePrecisionOf, TheLawIsWithinItsStatedBoundOfDoublePrecisionAndIs
   EXPECT_LE(records[2].max_vs_table_MPa, stated.MPa);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowSinglePrecisionOf, testing::ValuesIn(models::law_names()),
-                         [](const testing::TestParamInfo<std::string>& given) {
-                           std::string name = given.param;
-                           std::replace(name.begin(), name.end(), '.', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Registry, SlowSinglePrecisionOf,
+                         testing::ValuesIn(test::laws_by_formula()), test::law_test_name);
 
 TEST(SinglePrecision, IsAddedToTheFilesOfDoublePrecisionAndChangesNoneOfThem) {
   const Table table = test::four_axis_table();

@@ -15,6 +15,7 @@
 #include "support/calls/vfric.h"
 #include "support/generated.h"
 #include "support/json.h"
+#include "support/law_parameter.h"
 #include "support/polynomial_model.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
@@ -274,12 +275,8 @@ TEST_P(SlowTracedLawFrom, IsTabulatedExportedAndReadBack) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(models::law_names()),
-                         [](const auto& given) {
-                           std::string name = given.param;
-                           std::replace(name.begin(), name.end(), '.', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Registry, SlowTracedLawFrom, testing::ValuesIn(test::laws_by_formula()),
+                         test::law_test_name);
 
 TEST(TracedLaw, CTakesFurtherArgumentsInTheOrderOfItsRecipe) {
   const Case& c = with_all_effects();

@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "io/hdf5.h"
 #include "models/law.h"
+#include "support/law_parameter.h"
 #include "support/rebuilt.h"
 #include "support/run_command.h"
 #include "support/sample_data.h"
@@ -43,13 +44,6 @@ double worst_of(const std::string& law, const Table& table) {
   return table::worst_case(table::LawFunction(AssembledLaw(model), function.inputs()), function,
                            ranges, table::probe_points(ranges, table.axes, 50000))
       .drift_MPa;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (c == '.') c = '_';
-  return name;
 }
 
 class TableOfEveryLaw : public testing::TestWithParam<std::string> {};
@@ -109,7 +103,7 @@ TEST(SlowTable, OthersRebuildTauOfEveryLawFromTheAttributesAloneTo1e12) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, TableOfEveryLaw, testing::ValuesIn(models::law_names()),
-                         test_name);
+                         test::law_test_name);
 
 TEST(Table, ATitleThatSomeoneGaveStaysAndOursIsWrittenAnew) {
   Table table = table_of("orowan");
