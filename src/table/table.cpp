@@ -14,6 +14,7 @@
 #include "table/kernel.h"
 #include "table/outside.h"
 #include "table/spline.h"
+#include "table/stored_cell.h"
 
 namespace frictab::table {
 
@@ -134,49 +135,10 @@ struct TableFunction::Data {
   double raw(const double* u, double* by_u, unsigned* outside) const;
   void pieces(std::span<const double* const> columns, std::size_t first, std::size_t count,
               double* value, unsigned* outside) const;
+  // Of all rows, values on disk.
+  std::vector<double> stored_pieces(std::size_t rows, std::span<const double* const> columns,
+                                    unsigned* outside) const;
 };
-
-namespace {
-
-// The cell of u as a grid of two nodes per axis: the kernel gives there, bit for bit, what it gives
-// on the whole grid, however many nodes that has.
-struct StoredCell {
-  ft_axis axis[FT_MAX_AXES];
-  double value[1 << FT_MAX_AXES];
-
-  StoredCell(const io::StoredValues& stored, bool log_value, const std::vector<ft_axis>& grid,
-             const double* u) {
-    std::size_t stride[FT_MAX_AXES], first = 0, size = 1;
-    const std::size_t axes = grid.size();
-    for (std::size_t d = axes; d-- > 0;) {
-      int cell = 0;
-      double weight = 0;
-      ft_locate(&grid[d], u[d], &cell, &weight);
-      axis[d] = {2, 1L << (axes - 1 - d), grid[d].u + cell, grid[d].per_cell + cell, 0, 0, nullptr};
-      stride[d] = size;
-      first += static_cast<std::size_t>(cell) * size;
-      size *= static_cast<std::size_t>(grid[d].n);
-    }
-    // Neighbours along the last axis in one go, and those along the last but one where they are
-    // near.
-    constexpr std::size_t near = 512; // copying them takes less time than another call
-    const bool four = axes > 1 && stride[axes - 2] <= near;
-    double row[near + 2];
-    for (std::size_t corner = 0; corner < (std::size_t{1} << axes); corner += four ? 4 : 2) {
-      std::size_t at = first;
-      for (std::size_t d = 0; d + 1 < axes; ++d)
-        if (corner >> (axes - 1 - d) & 1) at += stride[d];
-      const std::size_t step = four ? stride[axes - 2] : 0;
-      stored.read(at, {row, step + 2});
-      for (std::size_t i = 0; i < (four ? 4U : 2U); ++i)
-        value[corner + i] = row[(i / 2) * step + i % 2];
-    }
-    for (std::size_t corner = 0; log_value && corner < (std::size_t{1} << axes); ++corner)
-      value[corner] = std::log(value[corner]);
-  }
-};
-
-} // namespace
 
 double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside) const {
   const int n = static_cast<int>(axes.size());
@@ -185,7 +147,8 @@ double TableFunction::Data::raw(const double* u, double* by_u, unsigned* outside
                 : interpolate(n, axis, values, u, outside);
   };
   if (stored) {
-    const StoredCell cell(*stored, log_value, linear, u);
+    CornerReader corners(*stored);
+    const StoredCell cell(corners, log_value, linear, u);
     return at(cell.axis, cell.value);
   }
   return is_cubic ? at(cubic.data(), value.data()) : at(linear.data(), value.data());
@@ -299,9 +262,52 @@ void TableFunction::Data::pieces(std::span<const double* const> columns, std::si
     out[i] = std::exp(out[i]);
 }
 
+// In the order of their cells, in which the file is read from its beginning to its end.
+std::vector<double> TableFunction::Data::stored_pieces(std::size_t rows,
+                                                       std::span<const double* const> columns,
+                                                       unsigned* outside) const {
+  const auto coordinates_of = [&](std::size_t row, double* u) {
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const double x = columns[axes[a].input][row];
+      u[a] = axes[a].log ? ft_log(x) : x;
+    }
+  };
+  constexpr std::size_t per_task = 32 * Program::block;
+  const std::size_t tasks = (rows + per_task - 1) / per_task;
+  std::vector<std::pair<std::size_t, std::size_t>> order(rows); // first corner, row
+  parallel_for(tasks, [&](std::size_t task) {
+    for (std::size_t i = task * per_task; i < std::min(rows, (task + 1) * per_task); ++i) {
+      double u[FT_MAX_AXES];
+      coordinates_of(i, u);
+      order[i] = {first_corner(linear, u), i};
+    }
+  });
+  std::sort(order.begin(), order.end());
+  std::vector<double> found(rows);
+  parallel_for(tasks, [&](std::size_t task) {
+    CornerReader corners(*stored, axes.size(), rows);
+    for (std::size_t i = task * per_task; i < std::min(rows, (task + 1) * per_task); ++i) {
+      const std::size_t row = order[i].second;
+      double u[FT_MAX_AXES];
+      coordinates_of(row, u);
+      const StoredCell cell(corners, log_value, linear, u);
+      const double x = interpolate(static_cast<int>(axes.size()), cell.axis, cell.value, u,
+                                   outside ? outside + row : nullptr);
+      found[row] = log_value ? std::exp(x) : x;
+    }
+  });
+  return found;
+}
+
 void TableFunction::evaluate(std::size_t rows, std::span<const double* const> columns,
                              std::span<double> tau, std::span<unsigned> outside) const {
   constexpr std::size_t per_task = 32 * Program::block;
+  const bool count_bits = !outside.empty() || data_->rule;
+  std::vector<unsigned> own_bits(outside.empty() && data_->rule ? rows : 0);
+  unsigned* const all_bits = outside.empty() ? own_bits.data() : outside.data();
+  const std::vector<double> from_file =
+      data_->stored ? data_->stored_pieces(rows, columns, count_bits ? all_bits : nullptr)
+                    : std::vector<double>();
   parallel_for((rows + per_task - 1) / per_task, [&](std::size_t task) {
     const std::size_t first = task * per_task, count = std::min(rows - first, per_task);
     double state[most_inputs];
@@ -315,14 +321,12 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
         tau[i] = (*this)(read_state(i), outside.empty() ? nullptr : &outside[i]);
       return;
     }
-    std::vector<double> value(count);
-    std::vector<unsigned> own_bits(outside.empty() && data_->rule ? count : 0);
-    unsigned* const bits = outside.empty() ? own_bits.data() : &outside[first];
-    const bool count_bits = !outside.empty() || data_->rule;
-    for (std::size_t i = 0; i < count; i += Program::block)
+    std::vector<double> value(data_->stored ? 0 : count);
+    unsigned* const bits = all_bits + first;
+    for (std::size_t i = 0; i < value.size(); i += Program::block)
       data_->pieces(columns, first + i, std::min(count - i, Program::block), value.data() + i,
                     count_bits ? bits + i : nullptr);
-    std::vector<const double*> row{value.data()};
+    std::vector<const double*> row{data_->stored ? from_file.data() + first : value.data()};
     for (const double* column : columns)
       row.push_back(column + first);
     data_->of_all->evaluate(count, row, {}, tau.data() + first);

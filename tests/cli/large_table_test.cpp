@@ -135,17 +135,18 @@ TEST_F(SlowLargeTable, IsVerifiedByTheJobAndAlone) {
 }
 
 TEST_F(SlowLargeTable, TargetsThatCannotHoldItAreRefusedBeforeItIsSampled) {
-  // 12,000,000 values, nodes and constants
-  const std::string what = "error: the table of log_coulomb needs 12,000,5";
+  // Values, nodes and constants.
+  const std::string what = "error: the table of log_coulomb needs 3,000,";
   const std::string why =
       " numbers in the source; a compiler takes 300,000 in reasonable time and memory\n";
-  const CommandResult whole = run("run", {"--set", "export.targets=\"qform_lua\""});
+  const CommandResult whole =
+      run("run", {"--set", quarter, "--set", "export.targets=\"qform_lua\""});
   EXPECT_EQ(whole.exit_code, 2);
   EXPECT_THAT(whole.err, testing::AllOf(testing::StartsWith(what), testing::HasSubstr(why)));
   EXPECT_FALSE(fs::exists(directory.path("out/tables")));
-  ASSERT_EQ(run("tabulate").exit_code, 0);
-  const CommandResult sources =
-      run("export", {"--set", "export.targets=\"c\"", "--set", "export.options.values=\"source\""});
+  ASSERT_EQ(run("tabulate", {"--set", quarter}).exit_code, 0);
+  const CommandResult sources = run("export", {"--set", quarter, "--set", "export.targets=\"c\"",
+                                               "--set", "export.options.values=\"source\""});
   EXPECT_EQ(sources.exit_code, 2);
   EXPECT_THAT(sources.err, testing::AllOf(testing::StartsWith(what), testing::HasSubstr(why)));
 }
@@ -165,7 +166,7 @@ TEST_F(SlowLargeTable, SourceReadsItsValuesFromAFileAndIsVerifiedWithThem) {
 }
 
 TEST_F(SlowLargeTable, ProgressSaysHowMuchIsLeftAndQuietIsSilent) {
-  EXPECT_EQ(run("tabulate", {"-q", "--progress"}).err, "");
+  EXPECT_EQ(run("tabulate", {"-q", "--progress", "--set", quarter}).err, "");
   const CommandResult shown =
       run("tabulate", {"--progress", "-j", "1", "--set", "table.axes.psi.nodes=100"});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;

@@ -1,4 +1,5 @@
 // Tables that are sampled to disk in chunks: the bytes of the one in memory, however interrupted.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -80,6 +81,15 @@ protected:
 
 using SlowStreamedTableFile = StreamedTableFile;
 
+// Some of them beyond the axes.
+table::States states_of(const Case& c, const Table& table, std::size_t samples) {
+  table::States states = table::probe_points(c.ranges, table.axes, samples);
+  for (std::vector<double>& column : states)
+    for (std::size_t i = 0; i < column.size(); i += 7)
+      column[i] *= 1.5;
+  return states;
+}
+
 TEST_F(StreamedTableFile, HoldsTheBytesOfTheTableInMemory) {
   const Case c;
   ASSERT_TRUE(table::is_streamed(AssembledLaw(c.model), c.ranges, c.options));
@@ -100,16 +110,40 @@ TEST_F(StreamedTableFile, AnswersWithTheSameBitsAsTheTableInMemory) {
   const Table inside = table::build_table(AssembledLaw(c.model), c.ranges, c.options);
   const StreamedTable streamed = stream(c);
   const table::TableFunction one(inside), two(streamed.table);
-  const auto points = table::probe_points(c.ranges, inside.axes, 3000);
+  const table::States points = states_of(c, inside, 3000);
   for (std::size_t i = 0; i < points.front().size(); ++i) {
     std::vector<double> state, slope_one(c.ranges.size()), slope_two(c.ranges.size());
     for (std::size_t d = 0; d < points.size(); ++d)
-      state.push_back(points[d][i] * (i % 7 == 0 ? 1.5 : 1.0)); // some beyond the axes
+      state.push_back(points[d][i]);
     unsigned outside_one = 0, outside_two = 0;
     ASSERT_EQ(one(state, &outside_one), two(state, &outside_two)) << i;
     ASSERT_EQ(outside_one, outside_two) << i;
     ASSERT_EQ(one.gradient(state, slope_one), two.gradient(state, slope_two)) << i;
     ASSERT_EQ(slope_one, slope_two) << i;
+  }
+}
+
+// Few states are read one by one, many of them in the order of their cells.
+TEST_F(StreamedTableFile, AnswersManyRowsWithTheSameBitsAsTheTableInMemory) {
+  const Case c;
+  const Table inside = table::build_table(AssembledLaw(c.model), c.ranges, c.options);
+  const StreamedTable streamed = stream(c);
+  const table::TableFunction one(inside), two(streamed.table);
+  for (const std::size_t samples : {100UL, 200000UL}) {
+    table::States states = states_of(c, inside, samples);
+    states[1][samples / 2] = std::nan("");
+    std::vector<const double*> columns;
+    for (const std::vector<double>& column : states)
+      columns.push_back(column.data());
+    const std::size_t rows = states[0].size();
+    std::vector<double> tau_one(rows), tau_two(rows);
+    std::vector<unsigned> bits_one(rows), bits_two(rows);
+    one.evaluate(rows, columns, tau_one, bits_one);
+    two.evaluate(rows, columns, tau_two, bits_two);
+    EXPECT_EQ(bits_one, bits_two);
+    for (std::size_t i = 0; i < rows; ++i)
+      ASSERT_TRUE(tau_one[i] == tau_two[i] || (std::isnan(tau_one[i]) && std::isnan(tau_two[i])))
+          << i;
   }
 }
 
