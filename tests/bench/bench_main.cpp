@@ -111,6 +111,9 @@ void print_ratios(const Times& times) {
   for (const char* table : {"linear/4800", "linear/210681", "cubic/4800", "cubic/210681"})
     print_pair(times, fmt::format("five arbitrary axes {}: float to double", table).c_str(),
                fmt::format("single/{}/f32", table), fmt::format("single/{}/double", table), "");
+  for (const char* other : {"file, one by one", "memory"})
+    print_pair(times, fmt::format("values on disk, all states in one call, to {}", other).c_str(),
+               "stored/210681/file", fmt::format("stored/210681/{}", other), "");
   const double nested = time_of(times, "linear/uniform/nested/210681/O2");
   if (nested == 0) return;
   const double speed = nested / quoted_nested;
