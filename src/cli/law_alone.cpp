@@ -85,16 +85,24 @@ std::vector<double> parameters_of(const models::Law& law, const std::vector<std:
 
 // ---- its ranges ----
 
-table::StateRange asked_range(const data::Quantity& quantity, const std::string& text) {
+std::string in_unit(const data::Quantity* quantity) {
+  return quantity ? " in " + quantity->unit : "";
+}
+
+// `quantity` is null where frictab knows no more than the name: a column of the laboratory's, a
+// history.
+table::StateRange asked_range(const std::string& name, const data::Quantity* quantity,
+                              const std::string& text) {
   const std::size_t dots = text.find("..");
   double low = 0, high = 0;
   if (dots == text.npos || !io::read_number(std::string_view(text).substr(0, dots), '.', low) ||
       !io::read_number(std::string_view(text).substr(dots + 2), '.', high) || !(low < high) ||
-      low < quantity.lowest || (quantity.log_axis && !(low > 0)))
-    throw InputError({}, fmt::format("'{}' is no range of {}", text, quantity.name),
-                     fmt::format("--range {}=LOW..HIGH in {}, with LOW < HIGH{}", quantity.name,
-                                 quantity.unit, quantity.log_axis ? " and above 0" : ""));
-  return {quantity.name, low, high, "command line"};
+      (quantity && (low < quantity->lowest || (quantity->log_axis && !(low > 0)))))
+    throw InputError({}, fmt::format("'{}' is no range of {}", text, name),
+                     fmt::format("--range {}=LOW..HIGH{}, with LOW < HIGH{}", name,
+                                 in_unit(quantity),
+                                 quantity && quantity->log_axis ? " and above 0" : ""));
+  return {name, low, high, "command line"};
 }
 
 // The paper's ranges, where the command says no others; a flow stress has none.
@@ -107,14 +115,14 @@ std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
                  "it takes " + join(law.inputs, ", "));
   std::vector<table::StateRange> out;
   for (const std::string& name : law.inputs) {
-    const data::Quantity& quantity = *data::find_quantity(name);
+    const data::Quantity* const quantity = data::find_quantity(name);
     if (const auto found = given.find(name); found != given.end())
-      out.push_back(asked_range(quantity, found->second));
-    else if (quantity.paper_range)
-      out.push_back({name, quantity.paper_range->first, quantity.paper_range->second, "Table 1"});
+      out.push_back(asked_range(name, quantity, found->second));
+    else if (quantity && quantity->paper_range)
+      out.push_back({name, quantity->paper_range->first, quantity->paper_range->second, "Table 1"});
     else
       faults.add({}, fmt::format("{} takes {}: over which range?", law.model.law->name, name),
-                 fmt::format("--range {}=LOW..HIGH in {}", name, quantity.unit));
+                 fmt::format("--range {}=LOW..HIGH{}", name, in_unit(quantity)));
   }
   faults.throw_if_any();
   return out;

@@ -1,4 +1,7 @@
 // Laws of the literature through the whole tool, and what the commands say of them.
+#include <regex>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -75,6 +78,25 @@ TEST(LiteratureCommands, ExportOfALawAloneTakesThem) {
       {"export", "--law", "wang_oil", "--param", "mu1=0.12", "--param", "mu2=0.06", "--range",
        "sigma_f_MPa=300..900", "--targets", "c", "-o", directory.path("out")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+// Columns of the laboratory's and histories have no range of the paper's: it is asked for.
+TEST(SlowLiteratureAlone, IsExportedWithTheRangesThatTheMessageAsksFor) {
+  const test::TemporaryDirectory directory;
+  for (const auto& law : job::literature().own()) {
+    SCOPED_TRACE(law->name);
+    std::vector<std::string> arguments = {
+        "export", "--law", law->name, "--targets", "c", "-o", directory.path(law->name)};
+    for (const models::Parameter& p : law->parameters)
+      arguments.insert(arguments.end(), {"--param", fmt::format("{}={}", p.name, p.start)});
+    CommandResult result = run_frictab(arguments);
+    const std::regex range("--range (\\w+)=LOW");
+    for (std::sregex_iterator found(result.err.begin(), result.err.end(), range), end; found != end;
+         ++found)
+      arguments.insert(arguments.end(), {"--range", (*found)[1].str() + "=1..2"});
+    if (result.exit_code == 2) result = run_frictab(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  }
 }
 
 } // namespace
