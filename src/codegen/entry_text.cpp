@@ -56,15 +56,21 @@ std::vector<std::string> entry_notes(const ExportRequest& request) {
   const std::vector<std::string> sides = outside_lines(table);
   if (sides.empty()) {
     const std::string what = table.is_direct() ? "law's" : "table's";
-    text.push_back("Outside the range the " + what +
-                   " value at the nearest edge is used, while stress and flow");
-    text.push_back("stress enter the formula above unchanged; frictab_outside tells which axes are "
-                   "concerned.");
+    for (const std::string& piece : wrap_text(
+             comment_text("Outside the range the " + what +
+                          " value at the nearest edge is used, while " + unchanged_states(table) +
+                          " enter the formula above unchanged; frictab_outside tells which axes "
+                          "are concerned."),
+             88))
+      text.push_back(piece);
   } else {
     text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
     for (const std::string& side : sides)
       text.push_back("  " + comment_text(side));
-    text.push_back("Stress and flow stress enter the formula above unchanged.");
+    for (const std::string& piece : wrap_text(
+             comment_text("The formula above takes unchanged: " + unchanged_states(table) + "."),
+             88))
+      text.push_back(piece);
   }
   text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
   for (const std::string& line : values_file_lines(request, ""))

@@ -132,8 +132,8 @@ std::vector<std::string> outside(const Table& table, const std::string& error_ac
   std::vector<std::string> lines = outside_lines(table);
   if (lines.empty())
     return {"Outside the range the " + std::string(table.is_direct() ? "law" : "table") +
-            "'s value at the nearest edge is used; stress and flow stress enter the formula "
-            "unchanged."};
+            "'s value at the nearest edge is used; " + unchanged_states(table) +
+            " enter the formula unchanged."};
   lines.insert(lines.begin(), "Outside the range (error: " + error_action + "):");
   return lines;
 }

@@ -90,7 +90,7 @@ json recipe_table(const ExportRequest& request) {
               {"worst_case_MPa", nullptr},
               {"outside",
                "[below, above] each axis' range: clamp = the value at that end, error = NaN, law = "
-               "the law's own formula; stress and flow stress enter combine unchanged"}};
+               "the law's own formula; what stands in combine enters it unchanged"}};
   if (table.is_direct())
     for (const char* of_the_table : {"transform", "interpolation", "worst_case_MPa"})
       out.erase(of_the_table);

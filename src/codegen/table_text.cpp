@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "expr/expr.h"
 #include "table/bound.h"
 #include "table/outside.h"
 #include "table/states.h"
@@ -50,6 +51,14 @@ std::vector<std::string> outside_lines(const table::Table& table) {
                                 outside_text(axis.above)));
   }
   return all_clamp ? std::vector<std::string>{} : lines;
+}
+
+std::string unchanged_states(const table::Table& table) {
+  std::string others;
+  for (const std::string& name : table.inputs())
+    if (name != "sigma_n_MPa" && name != "sigma_f_MPa" && expr::symbols(table.combine).count(name))
+      others += (others.empty() ? "" : ", ") + name;
+  return others.empty() ? "stress and flow stress" : "stress, flow stress, " + others;
 }
 
 std::string drift_text(const table::Table& table) {

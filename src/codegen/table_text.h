@@ -18,6 +18,10 @@ std::string range_text(const InputArgument& input, const table::Table& table);
 // Empty where all clamp.
 std::vector<std::string> outside_lines(const table::Table& table);
 
+// What the formula of `combine` takes beyond the range as well: "stress and flow stress", and other
+// states that stand in it.
+std::string unchanged_states(const table::Table& table);
+
 // "worst drift ..., measured in verification" or "not known"; from the table's attributes.
 std::string drift_text(const table::Table& table);
 std::string origin_text(const table::Table& table);

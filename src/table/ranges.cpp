@@ -81,6 +81,22 @@ StateRange asked_range(const data::Quantity& quantity, const AxisOptions& axis, 
   return {quantity.name, low, high, "job file", data_range(quantity.name, span).data};
 }
 
+// What a state that is no axis does beyond its range nothing in a table or routine can say.
+void check_outside(const models::AssembledLaw& law, const std::string& name,
+                   const AxisOptions& axis) {
+  const auto other = std::find_if(axis.outside.begin(), axis.outside.end(),
+                                  [](const std::string& side) { return side != "law"; });
+  if (other == axis.outside.end() || law.piece_inputs.count(name)) return;
+  throw InputError(
+      axis.place,
+      fmt::format("outside = \"{}\" cannot act: {} is no axis of the table of {}, whose "
+                  "formula takes it as it is, beyond its range too",
+                  *other, name, law.model.name()),
+      fmt::format("leave outside away from [table.axes.{}]; verify and predict say "
+                  "which rows lie beyond the range",
+                  name));
+}
+
 } // namespace
 
 std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data::Dataset& training,
@@ -91,6 +107,7 @@ std::vector<StateRange> state_ranges(const models::AssembledLaw& law, const data
     const std::string& name = columns.names()[i];
     const data::Quantity* quantity = data::find_quantity(name);
     const auto found = options.axes.find(name);
+    if (found != options.axes.end()) check_outside(law, name, found->second);
     if (quantity && found != options.axes.end() && found->second.range)
       ranges.push_back(asked_range(*quantity, found->second, columns.range(i)));
     else if (quantity && quantity->state)

@@ -6,6 +6,7 @@
 
 #include "codegen/exporter.h"
 #include "codegen/table_text.h"
+#include "core/error.h"
 #include "io/hdf5.h"
 #include "job/job.h"
 #include "support/rebuilt.h"
@@ -72,6 +73,22 @@ TEST(SlowOutsideTheRange, IsWhatTheJobAsksForAndOnlyThenHoldsTheLawsFormula) {
   ASSERT_TRUE(table.extension);
   EXPECT_EQ(table.constants.count("c3"), 1U);
   EXPECT_FALSE(built(log_coulomb(), {{"psi", {"error"}}, {"sigma_n_MPa", {"clamp"}}}).extension);
+}
+
+TEST(OutsideTheRange, OfAStateThatIsNoAxisCannotBeAskedFor) {
+  const Model coulomb = test::plausible_model(*models::find_law("coulomb"));
+  for (const char* word : {"error", "clamp"})
+    try {
+      built(coulomb, {{"sigma_n_MPa", {"law", word}}});
+      ADD_FAILURE() << word << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  testing::HasSubstr(std::string("outside = \"") + word +
+                                     "\" cannot act: sigma_n_MPa is no axis of the table of "
+                                     "coulomb, whose formula takes it as it is"));
+    }
+  EXPECT_NO_THROW(built(coulomb, {{"sigma_n_MPa", {"law"}}}));
+  EXPECT_NO_THROW(built(coulomb, {{"psi", {"error"}}})); // which this law does not take
 }
 
 TEST(TableFile, KeepsSidesAndFormulaAndPythonGoesOnByThem) {

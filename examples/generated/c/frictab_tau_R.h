@@ -16,7 +16,8 @@
  *       verified there)
  *
  * Outside the range the table's value at the nearest edge is used, while stress and flow
- * stress enter the formula above unchanged; frictab_outside tells which axes are concerned.
+ * stress enter the formula above unchanged; frictab_outside tells which axes are
+ * concerned.
  * NaN in an argument that is used gives NaN. Thread-safe.
  */
 #ifndef FRICTAB_TAU_R_H

@@ -13,8 +13,8 @@
 --   sigma_f_MPa (MPa): flow stress of the workpiece; 240 .. 960 MPa (no axis: any value,
 --   verified there)
 -- Arguments the law does not use may be nil. NaN in one that it uses gives NaN.
--- Outside the range the value at the nearest edge is used; stress and flow stress enter
--- the formula unchanged.
+-- Outside the range the value at the nearest edge is used; stress and flow stress enter the
+-- formula unchanged.
 -- Plain Lua 5.1: runs in LuaJIT and in every later Lua.
 
 local exp, log, sqrt, sin, acos = math.exp, math.log, math.sqrt, math.sin, math.acos

@@ -323,8 +323,9 @@ std::vector<std::string> about(const ExportRequest& request) {
 std::vector<std::string> outside(const Table& table) {
   std::vector<std::string> out = outside_lines(table);
   if (out.empty())
-    return {"Outside the range the value at the nearest edge is used; stress and flow stress enter",
-            "the formula unchanged."};
+    return wrap_text(comment_text("Outside the range the value at the nearest edge is used; " +
+                                  unchanged_states(table) + " enter the formula unchanged."),
+                     90);
   for (std::string& line : out)
     line = comment_text(line).substr(0, 90);
   out.insert(out.begin(), "Outside the range (error: NaN):");
