@@ -125,7 +125,8 @@ std::string head_text(const Plan& plan, const Found& found) {
 
 std::string next_text(const Plan& plan, const Found& found) {
   const bool open = counts_of(plan, found).missing > 0;
-  return fmt::format("next: frictab study {} {}\n", open ? "run" : "report", plan.study.file);
+  return fmt::format("next: frictab study {} {}{}\n", open ? "run" : "report",
+                     shell_word(plan.study.file), plan.study.said);
 }
 
 Json head_json(const Plan& plan, const Found& found) {
@@ -140,8 +141,6 @@ Json head_json(const Plan& plan, const Found& found) {
           {"failed", counts.failed},
           {"missing", counts.missing}};
 }
-
-constexpr std::size_t most_listed = 10;
 
 } // namespace
 

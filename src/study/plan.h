@@ -19,6 +19,9 @@ struct Plan {
 // Reads the data's bytes. Throws InputError with the faults of all campaigns.
 Plan plan_of(Study study);
 
+// Campaigns that a text names; more are counted.
+inline constexpr std::size_t most_listed = 10;
+
 enum class State { missing, done, failed };
 const char* state_name(State state);
 

@@ -38,6 +38,15 @@ namespace {
 
 constexpr std::size_t largest_file = 1 << 20; // as job files
 
+std::string said(const StudyOverrides& overrides) {
+  std::string text;
+  if (!overrides.directory.empty()) text += " -o " + shell_word(overrides.directory);
+  if (overrides.stage) text += fmt::format(" --stage {}", stage_name(*overrides.stage));
+  for (const std::string& key : overrides.set)
+    text += " --set " + shell_word(key);
+  return text;
+}
+
 class StudyReader {
 public:
   StudyReader(std::string file, const StudyOverrides& overrides)
@@ -78,6 +87,7 @@ private:
 
   std::optional<ResolvedJobs> read_jobs() {
     study_.file = file_;
+    study_.said = said(overrides_);
     study_.stage = overrides_.stage.value_or(written_.stage);
     study_.directory =
         overrides_.directory.empty() ? beside_study(written_.directory) : overrides_.directory;

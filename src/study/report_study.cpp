@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -33,19 +34,33 @@ public:
     const Campaign& campaign = plan_.study.campaigns[i];
     const std::uint64_t key = plan_.keys[i];
     const State state = found_.state(key);
-    if (state == State::done) {
-      take_result(i);
-      return;
+    if (state == State::missing) return write_row_without(table_, campaign, key, state, "");
+    try {
+      if (state == State::done) return take_result(i);
+      take_failure(i, read_failure(directory_, key).message);
+    } catch (const InputError& error) { // a damaged file: the other campaigns have theirs
+      if (state == State::done) {
+        --tally_.counts.done;
+        ++tally_.counts.failed;
+      }
+      take_failure(i, fmt::format("its result cannot be read: {}: remove {}, and `frictab study "
+                                  "run` makes it anew",
+                                  error.faults().front().what, file_of(state, key).string()));
     }
-    const std::string message =
-        state == State::failed ? read_failure(directory_, key).message : std::string();
-    write_row_without(table_, campaign, key, state, message);
-    if (state == State::failed) tally_.failed.push_back({i, message});
   }
 
   Tally take_tally() { return std::move(tally_); }
 
 private:
+  std::filesystem::path file_of(State state, std::uint64_t key) const {
+    return state == State::done ? result_directory(directory_, key) : failure_path(directory_, key);
+  }
+
+  void take_failure(std::size_t i, const std::string& message) {
+    write_row_without(table_, plan_.study.campaigns[i], plan_.keys[i], State::failed, message);
+    tally_.failed.push_back({i, message});
+  }
+
   // Of campaigns that are the same one counts.
   void take_result(std::size_t i) {
     const std::uint64_t key = plan_.keys[i];
@@ -96,6 +111,9 @@ std::string report_text(const Plan& plan, const Tally& tally) {
     text +=
         fmt::format("  {:<20} best in {:>7} of {:>7}, best or not told from it in {:>7}\n", name,
                     thousands(law->best), thousands(law->campaigns), thousands(law->may_be_best));
+  for (std::size_t i = 0; i < std::min(tally.failed.size(), most_listed); ++i)
+    text += fmt::format("failed: {}: {}\n", plan.study.campaigns[tally.failed[i].campaign].name,
+                        tally.failed[i].message);
   return text + fmt::format("{0}/campaigns.csv, {0}/report.html\n", plan.study.directory);
 }
 

@@ -49,6 +49,7 @@ struct Campaign {
 
 struct Study {
   std::string file, directory;
+  std::string said; // options of the command line, as advice repeats them
   LastStage stage = LastStage::trace;
   std::vector<ResolvedJob> jobs;
   std::vector<TwinBlock> twins;

@@ -107,16 +107,21 @@ TEST_F(StudyReport, CountsCampaignsThatAreTheSameOnce) {
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 2u);
 }
 
-TEST_F(StudyReport, NamesAResultThatIsDamaged) {
-  const study::Plan all = plan(1);
-  directory.write("study/results/" + study::key_text(all.keys[0]) + "/study.json", "{");
-  try {
-    study::report_study(all);
-    FAIL() << "a damaged result was taken";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("study.json:1:2: error: this is not valid JSON"));
-  }
-  EXPECT_FALSE(fs::exists(directory.path("study/report.html")));
+TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
+  const study::Plan all = plan(3);
+  write(all, 0, made_up(0.1, true));
+  const std::string folder = "study/results/" + study::key_text(all.keys[1]);
+  directory.write(folder + "/study.json", "{");
+  directory.write("study/failed/" + study::key_text(all.keys[2]) + ".json", "");
+  const study::Tally tally = study::report_study(all);
+  EXPECT_EQ(tally.counts.done, 1u);
+  EXPECT_EQ(tally.counts.failed, 2u);
+  const std::string text = study::report_text(all, tally);
+  EXPECT_THAT(text, HasSubstr("failed: twin-2: its result cannot be read: this is not valid JSON"));
+  EXPECT_THAT(
+      text, HasSubstr(study::key_text(all.keys[1]) + ", and `frictab study run` makes it anew\n"));
+  EXPECT_THAT(text, HasSubstr("failed: twin-3: its result cannot be read: "));
+  EXPECT_EQ(tally.laws.at("coulomb").campaigns, 1u);
 }
 
 TEST_F(StudyReport, WithoutResultsSaysSo) {
