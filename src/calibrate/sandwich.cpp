@@ -146,11 +146,12 @@ public:
   }
 
   Uncertainty of(std::span<const ExperimentSums> sums, const MatrixXd& penalty) {
-    if (sums.size() < 2) return one_experiment();
+    if (sums.empty()) return one_experiment();
     MatrixXd hessian = MatrixXd::Zero(sums[0].score.size(), sums[0].score.size());
     for (const ExperimentSums& experiment : sums)
       hessian += experiment.hessian;
     std::vector<Index> used = not_held(hessian);
+    if (sums.size() < 2) return one_experiment();
     if (used.empty()) return std::move(result_);
     if (penalty.size() > 0) hessian += penalty;
     const Scaled s = scale_by(hessian, std::move(used));
@@ -169,7 +170,8 @@ public:
 private:
   Uncertainty one_experiment() {
     result_.remarks.push_back("one experiment only: no standard error");
-    result_.why_none.assign(values_.size(), "one experiment only");
+    for (std::string& why : result_.why_none)
+      if (why.empty()) why = "one experiment only";
     result_.covariance.setConstant(no_value);
     return std::move(result_);
   }

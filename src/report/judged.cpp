@@ -38,7 +38,10 @@ std::string size_text(JudgedBy judged_by, const data::Dataset& training,
   };
   switch (judged_by) {
   case JudgedBy::leave_one_out:
-    return describe(training) + ", each experiment judged by laws fitted without it";
+    return describe(training) + ", each experiment judged by laws fitted without it" +
+           (training.experiments.size() == 2
+                ? " (their two errors say one difference twice: no intervals, no comparison)"
+                : "");
   case JudgedBy::fit:
     return describe(training) + ", no other to judge the laws by";
   case JudgedBy::held_out:

@@ -150,9 +150,15 @@ const data::Dataset& JobData::judged() const {
 }
 
 calibrate::CalibrationInput JobData::calibration_input(const job::Job& job) const {
-  return {
+  calibrate::CalibrationInput input = {
       training, judged(), job.models, job.calibration, judged_by, undivided ? &*undivided : nullptr,
       all()};
+  if (shows_one_difference()) input.options.bootstrap = 0;
+  return input;
+}
+
+bool JobData::shows_one_difference() const {
+  return judged_by == calibrate::JudgedBy::leave_one_out && training.experiments.size() == 2;
 }
 
 const data::Dataset* JobData::all() const {

@@ -25,6 +25,9 @@ struct JobData {
   // Training and validation together, where delivered laws are fitted to both; else nullptr.
   const data::Dataset* all() const;
   calibrate::CalibrationInput calibration_input(const job::Job& job) const;
+  // Two tests that judge each other: the errors of a law, |k1 - k2| at one test's states and at the
+  // other's, are no two observations. Such data give no intervals and compare no laws.
+  bool shows_one_difference() const;
 };
 
 // Reads the files of [data]. Without validation files a share of the experiments is held out where

@@ -34,7 +34,7 @@ public:
   Delivery run() {
     t_.as_calibrated = {in_.fit.training, in_.fit.validation};
     const std::size_t found = s_.findings.size();
-    NestedErrors::Best best;
+    NestedErrors::Best& best = best_;
     if (found > 0) {
       d_.nested = nested_errors(s_);
       best = d_.nested.best();
@@ -219,28 +219,33 @@ private:
       lead.between = finding.between;
       lead.p_value = finding.p_value;
       const auto against = against_.find(i);
-      lead.why = against == against_.end() ? does_not_pay() : against->second.why;
+      lead.why = against == against_.end() ? does_not_pay(i) : against->second.why;
       d_.contradicted |= against != against_.end() && against->second.contradicted;
       if (t_.leads.empty()) lead.design = design_for(s_, finding);
       t_.leads.push_back(std::move(lead));
     }
   }
 
-  std::string does_not_pay() const {
-    if (t_.nested.gain == 0 && t_.nested.std_error == 0)
+  // All that was found against nothing, where nothing pays; else what this finding, and those
+  // between, add to the effects that do.
+  std::string does_not_pay(std::size_t finding) const {
+    const std::size_t effects = best_.effects == 0 ? s_.findings.size() : finding + 1;
+    const NestedErrors::Gain gain = d_.nested.gain(effects, best_.weights, best_.effects);
+    if (gain.error == 0 && gain.error_se == 0)
       return fmt::format("a search without some of the tests does not find it ({} folds)",
-                         t_.nested.folds);
-    return fmt::format("does not predict tests that the search has not seen any better: error "
+                         d_.nested.folds);
+    return fmt::format("does not predict tests that the search has not seen any better{}: error "
                        "{:+.2g} +- {:.2g} % of the stress, log score {:+.2g} +- {:.2g} per test, "
                        "{} folds",
-                       -100 * t_.nested.gain, 100 * t_.nested.std_error, t_.nested.score,
-                       t_.nested.score_se, t_.nested.folds);
+                       best_.effects == 0 ? "" : " than without it", -100 * gain.error,
+                       100 * gain.error_se, gain.score, gain.score_se, d_.nested.folds);
   }
 
   const Search& s_;
   const TraceInput& in_;
   Trace& t_;
   Delivery d_;
+  NestedErrors::Best best_; // of the nested cross-validation
   std::size_t weights_ = 0;
   std::size_t tried_ = 0;                  // how many findings, of which d_.findings are left
   std::map<std::size_t, Against> against_; // by finding

@@ -263,10 +263,10 @@ std::string trace_in_short(const Trace& t) {
   for (const TracedEffect& effect : t.effects)
     causes.push_back(cause_text(effect));
   if (causes.empty())
-    return fmt::format("{} in the residual of {}; noise floor {} MPa", headline(t), t.model,
-                       digits(t.noise_floor.mae_MPa));
-  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor {}", join(causes, ", "),
-                     t.model, digits(t.before.validation.mae_MPa),
+    return fmt::format("{} in the residual of {}; noise floor by the noise model {} MPa",
+                       headline(t), t.model, digits(t.noise_floor.mae_MPa));
+  return fmt::format("{} in {}: {} -> {} MPa on unseen tests, noise floor by the noise model {}",
+                     join(causes, ", "), t.model, digits(t.before.validation.mae_MPa),
                      digits(t.after.validation.mae_MPa), digits(t.noise_floor.mae_MPa));
 }
 

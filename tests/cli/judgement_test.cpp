@@ -119,6 +119,16 @@ TEST_F(Judgement, OfFewTestsEachIsLeftOutInTurnAndTheTextSaysSo) {
               Not(HasSubstr("log_coulomb,E001,0,")));
 }
 
+TEST_F(Judgement, OfTwoTestsThatJudgeEachOtherThereAreNoIntervals) {
+  design = "p=1725;psi=1,20;v=50;T=110;points=100;validation=0";
+  const std::string out = calibrate({"--no-bystanders"}, {two_laws});
+  ASSERT_EQ(exit_code, 0) << error;
+  EXPECT_THAT(out, HasSubstr("fitted without it (their two errors say one difference twice: no "
+                             "intervals, no comparison) - SYNTHETIC data\n"));
+  EXPECT_THAT(out, testing::ContainsRegex("\n  log_coulomb +[0-9.]+  - "));
+  EXPECT_TRUE(calibration().at("comparisons").at("pairs").empty());
+}
+
 TEST_F(Judgement, OfOneTestErrorsAreOfTheFitAndEveryTextSaysSo) {
   design = "p=1865;psi=4.47;v=50;T=110;points=400;validation=0";
   const std::string out = calibrate({"--no-bystanders", "--profile", "varied"}, {two_laws});

@@ -83,6 +83,18 @@ TEST(Sandwich, AnErrorWiderThanTheBoundsIsNone) {
   EXPECT_GT(found.std_error[0], 10) << "which stands for as much";
 }
 
+TEST(Sandwich, OfOneExperimentSaysWhichParametersItSaysNothingAbout) {
+  const Parameter line[] = {bounded("c", -10, 10), bounded("s", -10, 10)};
+  const double values[] = {1, 10};
+  Line data;
+  data.add({0, 0, 0}, 0.5);
+  const Uncertainty found = cluster_sandwich(line, values, data.sums);
+  EXPECT_THAT(found.remarks, ElementsAre(testing::StartsWith("s has no influence on these data"),
+                                         "one experiment only: no standard error"));
+  EXPECT_EQ(found.why_none[1], "without influence");
+  EXPECT_EQ(found.settled[1], line[1].start) << "not where the search happened to end";
+}
+
 TEST(Sandwich, OneExperimentGivesNoError) {
   const Parameter line[] = {bounded("c", -10, 10), bounded("s", -10, 10)};
   const double values[] = {1, 1};
