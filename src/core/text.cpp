@@ -50,6 +50,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 std::string suggest(std::string_view name, std::span<const std::string> candidates) {
   const std::string near = nearest_name(name, candidates);
   if (!near.empty()) return fmt::format("did you mean '{}'?", near);
+  if (candidates.empty()) return "";
   return "known: " + join(candidates, ", ");
 }
 

@@ -1,10 +1,8 @@
 // Text in lines of a given width.
 #pragma once
 
-#include <sstream>
+#include <cstddef>
 #include <string>
-
-#include "core/text.h"
 
 namespace frictab {
 
@@ -13,26 +11,6 @@ inline constexpr std::size_t page_width = 80;
 
 // Broken at blanks into lines of at most `width` characters; longer words stay whole. Lines but the
 // first are indented, and the first is thought to begin there. Line ends of the text's own stay.
-inline std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
-  std::istringstream paragraphs(text);
-  std::string out, paragraph;
-  const std::string margin = "\n" + std::string(indent, ' ');
-  while (std::getline(paragraphs, paragraph)) {
-    if (!out.empty()) out += margin;
-    std::istringstream words(paragraph);
-    std::size_t column = indent;
-    for (std::string word; words >> word;) {
-      const bool first = column == indent;
-      if (!first && column + 1 + characters(word) > width) {
-        out += margin + word;
-        column = indent + characters(word);
-      } else {
-        out += first ? word : " " + word;
-        column += characters(word) + (first ? 0 : 1);
-      }
-    }
-  }
-  return out;
-}
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
 
 } // namespace frictab

@@ -73,6 +73,13 @@ bool known_name(JobReader& reader, const SectionRule& section, const std::string
   if (data::find_quantity(entry.key))
     reader.fault(entry.key_place, fmt::format("{} cannot stand in [{}]", entry.key, path),
                  "possible: " + join(names, ", "));
+  else if (section.others && names.empty() && !expr::is_name(entry.key))
+    reader.fault(
+        entry.key_place,
+        fmt::format("{} in [{}] cannot be the name of a {}", in_quotes(entry.key), path,
+                    section.child),
+        "names have letters from a to z, digits and _, and begin with a letter: they stand "
+        "in formulas, files and routines");
   else
     reader.fault(entry.key_place,
                  fmt::format("unknown {} {} in [{}]", section.child, in_quotes(entry.key), path),

@@ -159,6 +159,11 @@ TEST(LawText, NamesThatMeanSomethingElseAreRefused) {
         fault_of(std::string("[models.") + law +
                  "]\nformula = \"mu*sigma_n_MPa\"\nparameters = { mu = { range = [0, 1] } }\n"),
         HasSubstr("a law cannot be called '" + std::string(law)));
+  for (const char* law : {"oil-film", "oil film", "\xc3\x96l"})
+    EXPECT_THAT(fault_of(std::string("[models.\"") + law + "\"]\nformula = \"mu*sigma_n_MPa\"\n"),
+                HasSubstr("job.toml:3:9: error: '" + std::string(law) +
+                          "' in [models] cannot be the name of a law\n  hint: names have letters "
+                          "from a to z, digits and _"));
 }
 
 TEST(LawText, AFormulaThatGrowsBeyondItsTextIsRefused) {
