@@ -24,6 +24,10 @@ using models::Law;
 
 namespace {
 
+// Errors of GSL come back as values, instead of ending the program. Its handler is one for the
+// whole process: a thread that changed it for a while would take it from the others.
+[[maybe_unused]] const gsl_error_handler_t* const of_the_library = gsl_set_error_handler_off();
+
 constexpr std::size_t tries = 25; // of a scan: five decades in steps of 1.6
 constexpr int refinements = 12;
 constexpr double settled = 1e-3; // of ln D: what four digits of the name can tell
@@ -52,7 +56,6 @@ double refined(Search& search, double low, double best, double high, std::size_t
   gsl_function function{loss_of, &search};
   const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> brent(
       gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
-  gsl_error_handler_t* const before = gsl_set_error_handler_off();
   const bool begins =
       gsl_min_fminimizer_set(brent.get(), &function, best, low, high) == GSL_SUCCESS;
   for (int i = 0; begins && i < refinements; ++i) {
@@ -61,7 +64,6 @@ double refined(Search& search, double low, double best, double high, std::size_t
     if (gsl_min_fminimizer_x_upper(brent.get()) - gsl_min_fminimizer_x_lower(brent.get()) < settled)
       break;
   }
-  gsl_set_error_handler(before);
   return begins ? gsl_min_fminimizer_x_minimum(brent.get()) : best;
 }
 

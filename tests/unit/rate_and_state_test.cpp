@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include <gmock/gmock.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration.h"
@@ -200,6 +202,15 @@ TEST(RateAndState, DistanceAndParametersAreFoundAgain) {
     EXPECT_THAT(noisy.remarks, testing::Contains(HasSubstr("D_c = 0.0")));
     EXPECT_LT(std::abs(distance_in(noisy.model) - 0.0432), 4 * distance_error_in(noisy)) << law;
   }
+}
+
+// Searches run side by side: none may die of what another has set in the library. (A flat loss is
+// an error to its minimiser.)
+TEST(RateAndState, ErrorsOfTheLibraryEndNoSearch) {
+  gsl_function flat{[](double, void*) { return 1.0; }, nullptr};
+  gsl_min_fminimizer* const brent = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+  EXPECT_EQ(gsl_min_fminimizer_set(brent, &flat, 1, 0, 2), GSL_EINVAL);
+  gsl_min_fminimizer_free(brent);
 }
 
 TEST(RateAndState, CalibrationIsTheSameForAnyNumberOfThreadsAndItsFileReadsBack) {
