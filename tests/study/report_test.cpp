@@ -124,6 +124,17 @@ TEST_F(StudyReport, CountsAResultThatIsDamagedAsFailedAndSaysWhatMendsIt) {
   EXPECT_EQ(tally.laws.at("coulomb").campaigns, 1u);
 }
 
+TEST_F(StudyReport, AdviceRepeatsWhatTheCommandLineSaid) {
+  const std::string text = test::twin_study(1, "");
+  const study::StudyOverrides said = {
+      "else where", study::LastStage::calibrate, {"calibration.loss=\"L1\""}};
+  const study::Plan plan =
+      study::plan_of(study::parse_study(text, directory.path("study.toml"), said));
+  EXPECT_THAT(study::status_text(plan, study::Found("nowhere")),
+              HasSubstr("/study.toml -o 'else where' --stage calibrate --set "
+                        "'calibration.loss=\"L1\"'\n"));
+}
+
 TEST_F(StudyReport, WithoutResultsSaysSo) {
   study::report_study(plan(2));
   const std::string page = directory.read("study/report.html");
