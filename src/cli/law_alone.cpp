@@ -13,6 +13,7 @@
 #include "core/no_value.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "data/meaning.h"
 #include "data/quantity.h"
 #include "io/number.h"
 #include "job/literature.h"
@@ -85,23 +86,21 @@ std::vector<double> parameters_of(const models::Law& law, const std::vector<std:
 
 // ---- its ranges ----
 
-std::string in_unit(const data::Quantity* quantity) {
-  return quantity ? " in " + quantity->unit : "";
+std::string range_option(const std::string& name, const data::Meaning& meaning) {
+  return fmt::format("--range {}=LOW..HIGH{}", name,
+                     meaning.unit == "1" ? "" : " in " + meaning.unit);
 }
 
-// `quantity` is null where frictab knows no more than the name: a column of the laboratory's, a
-// history.
-table::StateRange asked_range(const std::string& name, const data::Quantity* quantity,
-                              const std::string& text) {
+table::StateRange asked_range(const std::string& name, const std::string& text) {
+  const data::Meaning meaning = data::meaning_of(name);
   const std::size_t dots = text.find("..");
   double low = 0, high = 0;
   if (dots == text.npos || !io::read_number(std::string_view(text).substr(0, dots), '.', low) ||
       !io::read_number(std::string_view(text).substr(dots + 2), '.', high) || !(low < high) ||
-      (quantity && (low < quantity->lowest || (quantity->log_axis && !(low > 0)))))
+      low < meaning.lowest || (meaning.log_axis && !(low > 0)))
     throw InputError({}, fmt::format("'{}' is no range of {}", text, name),
-                     fmt::format("--range {}=LOW..HIGH{}, with LOW < HIGH{}", name,
-                                 in_unit(quantity),
-                                 quantity && quantity->log_axis ? " and above 0" : ""));
+                     range_option(name, meaning) + ", with LOW < HIGH" +
+                         (meaning.log_axis ? " and above 0" : ""));
   return {name, low, high, "command line"};
 }
 
@@ -117,12 +116,12 @@ std::vector<table::StateRange> ranges_of(const models::AssembledLaw& law,
   for (const std::string& name : law.inputs) {
     const data::Quantity* const quantity = data::find_quantity(name);
     if (const auto found = given.find(name); found != given.end())
-      out.push_back(asked_range(name, quantity, found->second));
+      out.push_back(asked_range(name, found->second));
     else if (quantity && quantity->paper_range)
       out.push_back({name, quantity->paper_range->first, quantity->paper_range->second, "Table 1"});
     else
       faults.add({}, fmt::format("{} takes {}: over which range?", law.model.law->name, name),
-                 fmt::format("--range {}=LOW..HIGH{}", name, in_unit(quantity)));
+                 range_option(name, data::meaning_of(name)));
   }
   faults.throw_if_any();
   return out;

@@ -52,30 +52,29 @@ std::vector<std::string> outside_bits(const table::Table& table, const std::stri
 std::vector<std::string> entry_notes(const ExportRequest& request) {
   const table::Table& table = request.table;
   std::vector<std::string> text;
+  const auto add_wrapped = [&](const std::string& sentence) {
+    for (const std::string& piece : wrap_text(sentence, 88))
+      text.push_back(piece);
+  };
   if (table.is_direct()) text.push_back("This is the law itself, not a table.");
   const std::vector<std::string> sides = outside_lines(table);
   if (sides.empty()) {
     const std::string what = table.is_direct() ? "law's" : "table's";
-    for (const std::string& piece : wrap_text(
-             comment_text("Outside the range the " + what +
-                          " value at the nearest edge is used, while " + unchanged_states(table) +
-                          " enter the formula above unchanged; frictab_outside tells which axes "
-                          "are concerned."),
-             88))
-      text.push_back(piece);
+    add_wrapped(comment_text("Outside the range the " + what +
+                             " value at the nearest edge is used, while " +
+                             unchanged_states(table) +
+                             " enter the formula above unchanged; frictab_outside tells which axes "
+                             "are concerned."));
   } else {
     text.push_back("Outside the range (frictab_outside tells which axes are concerned):");
     for (const std::string& side : sides)
       text.push_back("  " + comment_text(side));
-    for (const std::string& piece : wrap_text(
-             comment_text("The formula above takes unchanged: " + unchanged_states(table) + "."),
-             88))
-      text.push_back(piece);
+    add_wrapped(
+        comment_text("The formula above takes unchanged: " + unchanged_states(table) + "."));
   }
   text.push_back("NaN in an argument that is used gives NaN. Thread-safe.");
   for (const std::string& line : values_file_lines(request, ""))
-    for (const std::string& piece : wrap_text(line, 88))
-      text.push_back(piece);
+    add_wrapped(line);
   return text;
 }
 

@@ -42,14 +42,15 @@ std::size_t first_corner(const std::vector<ft_axis>& grid, const double* u) {
 
 StoredCell::StoredCell(CornerReader& corners, bool log_value, const std::vector<ft_axis>& grid,
                        const double* u) {
-  const std::size_t axes = grid.size(), first = first_corner(grid, u);
-  std::size_t stride[FT_MAX_AXES];
+  const std::size_t axes = grid.size();
+  std::size_t stride[FT_MAX_AXES], first = 0; // first_corner, on the way
   for (std::size_t d = 0; d < axes; ++d) {
     int cell = 0;
     double weight = 0;
     ft_locate(&grid[d], u[d], &cell, &weight);
     axis[d] = {2, 1L << (axes - 1 - d), grid[d].u + cell, grid[d].per_cell + cell, 0, 0, nullptr};
     stride[d] = static_cast<std::size_t>(grid[d].stride);
+    first += static_cast<std::size_t>(cell) * stride[d];
   }
   // Neighbours along the last axis in one go, and those along the last but one where they are near.
   const bool four = axes > 1 && stride[axes - 2] <= near;

@@ -125,9 +125,10 @@ struct TableFunction::Data {
   double tau(std::span<const double> state, unsigned* outside) const;
   double gradient(std::span<const double> state, std::span<double> derivative,
                   unsigned* outside) const;
-  void coordinates(const double* state, double* u) const {
+  // `input(i)`: the value of input number i.
+  template <class Input> void coordinates(const Input& input, double* u) const {
     for (std::size_t a = 0; a < axes.size(); ++a) {
-      const double x = state[axes[a].input];
+      const double x = input(axes[a].input);
       u[a] = axes[a].log ? ft_log(x) : x;
     }
   }
@@ -206,7 +207,7 @@ double TableFunction::Data::tau(std::span<const double> state, unsigned* outside
   if (rule)
     if (const auto answer = rule->tau(state, outside)) return *answer;
   double u[FT_MAX_AXES];
-  coordinates(state.data(), u);
+  coordinates([&](std::size_t i) { return state[i]; }, u);
   const double x = raw(u, nullptr, outside), piece = log_value ? std::exp(x) : x;
   return (*of_inputs)(state, {&piece, 1});
 }
@@ -216,7 +217,7 @@ double TableFunction::Data::gradient(std::span<const double> state, std::span<do
   if (rule)
     if (const auto answer = rule->gradient(state, derivative, outside)) return *answer;
   double u[FT_MAX_AXES], by_u[FT_MAX_AXES], row[1 + most_inputs], by_row[1 + most_inputs];
-  coordinates(state.data(), u);
+  coordinates([&](std::size_t i) { return state[i]; }, u);
   const double x = raw(u, by_u, outside);
   row[0] = log_value ? std::exp(x) : x;
   std::copy(state.begin(), state.end(), row + 1);
@@ -262,17 +263,15 @@ void TableFunction::Data::pieces(std::span<const double* const> columns, std::si
     out[i] = std::exp(out[i]);
 }
 
+constexpr std::size_t per_task = 32 * Program::block; // rows
+
 // In the order of their cells, in which the file is read from its beginning to its end.
 std::vector<double> TableFunction::Data::stored_pieces(std::size_t rows,
                                                        std::span<const double* const> columns,
                                                        unsigned* outside) const {
   const auto coordinates_of = [&](std::size_t row, double* u) {
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      const double x = columns[axes[a].input][row];
-      u[a] = axes[a].log ? ft_log(x) : x;
-    }
+    coordinates([&](std::size_t i) { return columns[i][row]; }, u);
   };
-  constexpr std::size_t per_task = 32 * Program::block;
   const std::size_t tasks = (rows + per_task - 1) / per_task;
   std::vector<std::pair<std::size_t, std::size_t>> order(rows); // first corner, row
   parallel_for(tasks, [&](std::size_t task) {
@@ -301,9 +300,9 @@ std::vector<double> TableFunction::Data::stored_pieces(std::size_t rows,
 
 void TableFunction::evaluate(std::size_t rows, std::span<const double* const> columns,
                              std::span<double> tau, std::span<unsigned> outside) const {
-  constexpr std::size_t per_task = 32 * Program::block;
+  const bool row_by_row = data_->axes.empty() && data_->rule; // the direct form: the law
   const bool count_bits = !outside.empty() || data_->rule;
-  std::vector<unsigned> own_bits(outside.empty() && data_->rule ? rows : 0);
+  std::vector<unsigned> own_bits(outside.empty() && data_->rule && !row_by_row ? rows : 0);
   unsigned* const all_bits = outside.empty() ? own_bits.data() : outside.data();
   const std::vector<double> from_file =
       data_->stored ? data_->stored_pieces(rows, columns, count_bits ? all_bits : nullptr)
@@ -316,7 +315,7 @@ void TableFunction::evaluate(std::size_t rows, std::span<const double* const> co
         state[c] = columns[c][i];
       return std::span<const double>(state, columns.size());
     };
-    if (data_->axes.empty() && data_->rule) { // the direct form: the law, row by row
+    if (row_by_row) {
       for (std::size_t i = first; i < first + count; ++i)
         tau[i] = (*this)(read_state(i), outside.empty() ? nullptr : &outside[i]);
       return;

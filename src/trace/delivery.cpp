@@ -34,15 +34,14 @@ public:
   Delivery run() {
     t_.as_calibrated = {in_.fit.training, in_.fit.validation};
     const std::size_t found = s_.findings.size();
-    NestedErrors::Best& best = best_;
     if (found > 0) {
       d_.nested = nested_errors(s_);
-      best = d_.nested.best();
-      const std::size_t shown = best.effects > 0 ? best.effects : found;
-      const NestedErrors::Gain gain = d_.nested.gain(shown, best.weights);
+      best_ = d_.nested.best();
+      const std::size_t shown = best_.effects > 0 ? best_.effects : found;
+      const NestedErrors::Gain gain = d_.nested.gain(shown, best_.weights);
       t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score, gain.score_se, found};
     }
-    take_findings(best.effects, best.weights);
+    take_findings(best_.effects, best_.weights);
     drop_contradicted();
     compare_errors();
     if (!d_.findings.empty() && by_validation()) {

@@ -1,6 +1,4 @@
 // The direct form: every law, compiled in C and Fortran, is the law.
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
 #include "codegen/compile.h"

@@ -1,5 +1,4 @@
 // Exporters as a whole: what is refused, what the recipe says, that strict compilers are content.
-#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
 // A law with traced effects is a law like any other: table, every target, verification, report.
-#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
