@@ -295,10 +295,13 @@ double slipped(double theta, double v, double dt, double D) {
 
 void follow_state(const Continuation& how, Rows v, Rows t, Out out) {
   const auto step = how.rule == Continuation::aging ? aged : slipped;
-  out[0] = how.distance_mm / std::max(v[0], slowest_speed);
-  for (std::size_t i = 1; i < out.size(); ++i)
-    out[i] = step(out[i - 1], std::max(0.5 * (v[i] + v[i - 1]), 0.0),
-                  std::max(t[i] - t[i - 1], 0.0), how.distance_mm);
+  bool has_slid = false; // NaN has: what follows is not known either
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = has_slid ? step(out[i - 1], std::max(0.5 * (v[i] + v[i - 1]), 0.0),
+                             std::max(t[i] - t[i - 1], 0.0), how.distance_mm)
+                      : how.distance_mm / std::max(v[i], slowest_speed);
+    has_slid = has_slid || !(v[i] <= slowest_speed);
+  }
 }
 
 Rule state_rule(const std::string& name, const SlipState& state) {

@@ -56,8 +56,9 @@ inline constexpr double at_peak = 0.95;
 // v it is D/v. D, a slip distance, stands in its name, as a number or as a parameter of a law:
 //   aging_state_over_0p0125mm  d theta/dt = 1 - v theta/D               (Dieterich 1979)
 //   slip_state_over_D_c        d theta/dt = -(v theta/D) ln(v theta/D)  (Ruina 1983)
-// Each experiment starts as if it had long slid at the speed of its first row. Between rows the
-// speed is the mean of theirs, for which both equations have closed solutions.
+// Each experiment starts as if it had long slid at the speed of its first row that slides (faster
+// than slowest_speed); what rested before it slid has that of slowest_speed, and does not age.
+// Between rows the speed is the mean of theirs, for which both equations have closed solutions.
 struct SlipState {
   Continuation::Rule rule = Continuation::aging;
   std::string parameter; // "D_c"; empty where D is a number

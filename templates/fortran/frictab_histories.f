@@ -258,6 +258,7 @@ C
 @if has_theta
 C     A state of rate-and-state friction (s): that of sliding at v
 C     (mm/s) for long, over the distance d (mm), where there was none.
+C     There is none (0) before the contact first slides.
       double precision function ftthta(theta, v, d)
       implicit none
       double precision theta, v, d
@@ -279,6 +280,8 @@ C     It behind a time dt, by the aging law.
       implicit none
       double precision theta, v, dt, d, x, ftthta
       external ftthta
+      ftaged = 0.0D0
+      if (theta .le. 0.0D0 .and. v .le. @{slowest}) return
       ftaged = ftthta(theta, v, d)
       if (.not. dt .gt. 0.0D0) return
       x = max(v, 0.0D0)*dt/d
@@ -297,6 +300,8 @@ C     It behind a time dt, by the slip law.
       implicit none
       double precision theta, v, dt, d, c, ftthta
       external ftthta
+      ftslpd = 0.0D0
+      if (theta .le. 0.0D0 .and. v .le. @{slowest}) return
       ftslpd = ftthta(theta, v, d)
       if (.not. dt .gt. 0.0D0) return
       c = log(d/max(v, @{slowest}))

@@ -49,6 +49,16 @@ Table way_table() {
   return table;
 }
 
+// Sliding at 2 mm/s for long has 0.75 s and 0.4 s.
+Table slip_state_table() {
+  Table table = test::constant_table();
+  table.value = {0.05};
+  table.combine = Expr::symbol("sigma_n_MPa") *
+                  (Expr::symbol("value") + Expr(1e-2) * Expr::symbol("aging_state_over_1p5mm") +
+                   Expr(1e-2) * Expr::symbol("slip_state_over_0p8mm"));
+  return table;
+}
+
 struct Increment {
   double pressure, speed, time, temperature; // MPa, mm/s, s, degC
 };
@@ -141,6 +151,7 @@ const std::vector<Units> both_units = {{"mm-t-s", 1, 1}, {"m-kg-s", 1e6, 1e-3}};
 const Library& compiled(const std::string& target, const Units& units, const std::string& variant) {
   static const std::map<std::string, Table> tables = {{"further", further_histories_table()},
                                                       {"way", way_table()},
+                                                      {"state", slip_state_table()},
                                                       {"mean", table_of("mean_T_contact")},
                                                       {"peak", table_of("peak_T_contact")}};
   std::map<std::string, std::string> inputs;
@@ -384,6 +395,19 @@ TYPED_TEST(FurtherHistories, OfLoadAndHeatFollowAPathAsTheDefinitionSays) {
     }
     EXPECT_GT(wanted.since_peak, 0);
   }
+}
+
+TYPED_TEST(FurtherHistories, SlipStatesStartWithTheFirstIncrementThatSlides) {
+  Units units = both_units[0];
+  units.table = "state";
+  TypeParam point(units);
+  point.step({500, 0, 2, 20});
+  point.step({800, 0, 0.5, 20});
+  const double steady = 0.05 + 1e-2 * (0.75 + 0.4);
+  EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * steady, 31 * bound<TypeParam>());
+  point.step({500, 0, 3, 20}); // and age from then on
+  const double rested = 0.05 + 1e-2 * (0.75 + 3 + 0.4);
+  EXPECT_NEAR(point.step({500, 2, 0.5, 20}), 500 * rested, 46 * bound<TypeParam>());
 }
 
 TYPED_TEST(FurtherHistories, KeepNothingOfAnIncrementWhoseTemperatureIsNaN) {

@@ -61,6 +61,21 @@ TEST(RateAndState, StateStaysAtOneSpeedAndStartsAnewInEveryExperiment) {
   }
 }
 
+TEST(RateAndState, StateStartsWithTheFirstRowThatSlides) {
+  std::vector<double> rested(20, 0.0), v(12, 0.02);
+  v[5] = 0;
+  std::copy(v.begin(), v.end(), rested.begin() + 8);
+  for (const char* name : {"aging_state_over_0p02mm", "slip_state_over_0p02mm"}) {
+    const std::vector<double> theta = state(name, strokes({rested, v}, 2));
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_DOUBLE_EQ(theta[i], 0.02 / data::slowest_speed) << name;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      EXPECT_EQ(theta[8 + i], theta[20 + i]) << name << " " << i;
+  }
+  rested[3] = std::nan("");
+  EXPECT_TRUE(std::isnan(state("aging_state_over_0p02mm", strokes({rested}, 2))[12]));
+}
+
 // Classical fourth-order steps of d theta/dt on a fine clock, with the speed linear between rows.
 std::vector<double> integrated(bool ages, double D, const std::vector<double>& v, double step_s) {
   constexpr int fine = 200;
