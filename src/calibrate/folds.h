@@ -17,8 +17,8 @@ std::vector<std::size_t> experiment_folds(std::size_t experiments, std::size_t f
                                           std::uint64_t seed, std::uint64_t repeat);
 
 // For two files, where equal names prove nothing: says how many validation experiments have the
-// very rows of a training experiment (every column both have, bit for bit). Of the same data twice:
-// how many have the rows of another. Empty where none has.
+// very rows of a training experiment (data/equal_tests.h). Of the same data twice: how many have
+// the rows of another. Empty where none has.
 std::string leak_note(const data::Dataset& training, const data::Dataset& validation);
 
 } // namespace frictab::calibrate

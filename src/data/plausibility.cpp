@@ -12,6 +12,7 @@
 
 #include "core/text.h"
 #include "data/condense.h"
+#include "data/equal_tests.h"
 
 namespace frictab::data {
 
@@ -508,6 +509,23 @@ Implausible test_apart(const Dataset& data) {
   return {};
 }
 
+Implausible copied_test(const Dataset& data) {
+  const auto same = tests_of_equal_rows(data, data);
+  std::size_t rows = 0, copies = 0;
+  std::string first;
+  for (std::size_t e = 0; e < same.size(); ++e) {
+    if (!same[e]) continue;
+    rows += data.rows_behind(e);
+    if (*same[e] > e) continue; // the one that the others are copies of
+    if (copies++ == 0)
+      first = fmt::format("test '{}' has the rows of test '{}', value by value",
+                          data.experiments[e], data.experiments[*same[e]]);
+  }
+  if (copies == 0) return {};
+  return {"", rows, data.rows_behind(), first + and_more(copies - 1, "test"),
+          "no test is measured twice alike: keep one (is a file there under two names?)"};
+}
+
 // What a check needs to see at once: rows that have what it looks at, whole tests of which it
 // counts all rows, or a whole campaign.
 enum class Sees { rows, tests, campaign };
@@ -531,7 +549,8 @@ constexpr Check checks[] = {{"no_friction", no_friction, Sees::campaign},
                             {"stuck_channel", stuck_channel, Sees::tests},
                             {"force_offset", force_offset, Sees::tests},
                             {"forces", forces, Sees::rows},
-                            {"test_apart", test_apart, Sees::campaign}};
+                            {"test_apart", test_apart, Sees::campaign},
+                            {"copied_test", copied_test, Sees::campaign}};
 
 // Of a condensed campaign, what was counted before its rows went.
 Implausible found_by(const Check& check, const Dataset& data) {

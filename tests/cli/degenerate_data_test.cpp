@@ -87,5 +87,26 @@ TEST_F(DegenerateData, NoFrictionAtAll) {
   EXPECT_LE(run().exit_code, 2);
 }
 
+TEST_F(DegenerateData, OneTestUnderManyNamesIsRefusedUnlessTheUserInsists) {
+  const auto same = [](Row& r, int, int i) {
+    r.load = 600.0 + 10 * i, r.psi = 1.0 + 0.1 * i, r.speed = 5;
+    r.tau = 0.08 * r.load * (1 + 0.02 * std::sin(7.0 * i));
+  };
+  campaign(same, "\"coulomb\", \"shear\"");
+  const CommandResult refused = run();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("job.toml:2:12: error: test 't1' has the rows of test 't0', value by value "
+                        "(and 6 more tests) (96 of 96 rows)\n"
+                        "  hint: no test is measured twice alike: keep one (is a file there under "
+                        "two names?); if it is right: data.allow_implausible = "
+                        "[\"copied_test\"]\n"));
+  campaign(same, "\"coulomb\", \"shear\"", "allow_implausible = [\"copied_test\"]\n");
+  const CommandResult allowed = run();
+  EXPECT_LE(allowed.exit_code, 1) << allowed.err;
+  EXPECT_THAT(allowed.err, HasSubstr("8 of 8 validation experiments have the rows of a training "
+                                     "experiment"));
+}
+
 } // namespace
 } // namespace frictab::degenerate_data_test

@@ -220,11 +220,12 @@ TEST_F(InitFrom, TakesACoefficientTimesThePressure) {
 // ---- what names say ----
 
 TEST_F(InitFrom, FindsConditionsInTheNamesOfFiles) {
+  int test = 0;
   for (const char* steel : {"316SS", "52100"})
     for (const int radius : {5, 20, 100})
       for (const int repeat : {1, 2})
         directory.write(fmt::format("raw_data/{}_{}mm_r{}.csv", steel, radius, repeat),
-                        coefficient_file(1 + repeat + radius / 20));
+                        coefficient_file(++test));
   EXPECT_THAT(job_from({"raw_data"}), HasSubstr(R"(
 [[data.files]]
 match = "*"
@@ -254,9 +255,10 @@ TEST_F(InitFrom, LeavesNamesAloneThatOnlyTellTheTestsApart) {
 }
 
 TEST_F(InitFrom, FindsConditionsInTheNamesOfFolders) {
+  int test = 0;
   for (const char* filler : {"0pct", "2.5pct", "10pct"})
     for (const int repeat : {1, 2})
-      directory.write(fmt::format("rig/{}/test {}.csv", filler, repeat), coefficient_file(repeat));
+      directory.write(fmt::format("rig/{}/test {}.csv", filler, repeat), coefficient_file(++test));
   const std::string job = job_from({"rig/*/*.csv"});
   EXPECT_THAT(job, HasSubstr("training = \"../rig/*/*.csv\""));
   EXPECT_THAT(job, HasSubstr("from_name = '(?<folder_pct>[\\d.,]+)pct/test "
@@ -331,7 +333,7 @@ TEST_F(InitFrom, ReadsAWorkbook) {
     GTEST_SKIP() << "python3 or xlsx2csv is not installed";
   ASSERT_TRUE(test::write_workbook(directory, "a.xlsx", R"(
 rows = [['Rig 7'], ['Test', 'Time [s]', 'COF', 'Pressure [MPa]']]
-rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2), 100.5 + i] for k in range(3) for i in range(5)])"));
+rows += [['K%d' % k, 0.5 * i, 0.1 + 0.01 * (i % 2) + 0.001 * k, 100.5 + i] for k in range(3) for i in range(5)])"));
   EXPECT_THAT(job_from({"a.xlsx"}), HasSubstr("\nexperiment = \"Test\" "));
   EXPECT_EQ(read().tests, "K0 5, K1 5, K2 5");
 }

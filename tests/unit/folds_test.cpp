@@ -15,7 +15,7 @@ namespace {
 
 Dataset campaign(std::size_t experiments, std::size_t rows) {
   Dataset data;
-  data.columns = {{"x", "", {}, {}}};
+  data.columns = {{"tau_R_MPa", "MPa", {}, {}}};
   for (std::size_t e = 0; e < experiments; ++e) {
     for (std::size_t i = 0; i < rows; ++i)
       data.columns[0].values.push_back(static_cast<double>(100 * e + i));

@@ -202,6 +202,25 @@ TEST(Plausibility, NotesAStuckChannelAndATestApartWithTheirNames) {
               HasSubstr("test_apart: test '" + campaign().experiments[5] + "' stands apart"));
 }
 
+TEST(Plausibility, NamesATestThatIsACopyOfAnother) {
+  const std::size_t e3 = campaign().first_row[3], rows = campaign().first_row[4] - e3;
+  ASSERT_EQ(campaign().first_row[6] - campaign().first_row[5], rows);
+  const auto copy = [&](Dataset& d) {
+    for (data::Column& column : d.columns)
+      std::copy_n(column.values.begin() + std::ptrdiff_t(e3), rows,
+                  column.values.begin() + std::ptrdiff_t(d.first_row[5]));
+  };
+  const std::string said = fmt::format("copied_test: test '{}' has the rows of test '{}', value by "
+                                       "value",
+                                       campaign().experiments[5], campaign().experiments[3]);
+  EXPECT_THAT(found_after(copy), HasSubstr(said));
+  EXPECT_THAT(found_after([&](Dataset& d) {
+                copy(d);
+                values(d, "tau_R_MPa")[d.first_row[5] + 7] += 1e-9;
+              }),
+              testing::Not(HasSubstr("copied_test")));
+}
+
 TEST(Plausibility, TakesACoarseChannelForNoStuckOneAndANoisyPathForNoWrongSpeed) {
   const std::string coarse = found_after([](Dataset& d) {
     std::vector<double>& tau = values(d, "tau_R_MPa");
