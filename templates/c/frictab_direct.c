@@ -2,6 +2,9 @@
  * table. What it needs and gives is written in frictab_tau_R.h. C99, no allocation, no state: safe
  * from any thread. Compile without -ffast-math and with -ffp-contract=off; -march=native lets the
  * compiler use the machine's widest vectors and changes no bit. */
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "frictab: compile without -ffast-math (icx: with -fp-model=precise); it takes the NaN away"
+#endif
 #include "frictab_tau_R.h"
 
 #include <math.h>

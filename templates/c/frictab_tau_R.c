@@ -4,6 +4,9 @@
 @if in_file
 #define _POSIX_C_SOURCE 200112L
 @end
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "frictab: compile without -ffast-math (icx: with -fp-model=precise); it takes the NaN away"
+#endif
 #include "frictab_tau_R.h"
 
 @if in_file

@@ -45,6 +45,23 @@ TEST(SlowCTarget, CompilesAsOneFileAloneAndIsUsableFromCpp) {
   EXPECT_NO_THROW(codegen::compile_library(bundle, build, work.path()));
 }
 
+// Its states outside, and its faults, are told by NaN.
+TEST(SlowCTarget, IsRefusedWithoutNaNByTheCompiler) {
+  const table::Table table = test::four_axis_table();
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  const codegen::Exporter& c = *codegen::find_exporter("c");
+  for (codegen::BuildVariant build : c.variants(request)) {
+    build.command.insert(build.command.begin() + 1, "-ffast-math");
+    const TemporaryDirectory work;
+    try {
+      codegen::compile_library(c.generate(request), build, work.path());
+      FAIL() << build.name;
+    } catch (const std::exception& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("compile without -ffast-math")) << build.name;
+    }
+  }
+}
+
 } // namespace
 
 } // namespace frictab::c_target_test
