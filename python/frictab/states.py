@@ -79,6 +79,11 @@ class States:
 
 
 def _numbers(one, column):
+    if np.ma.isMaskedArray(column): # beneath a mask anything may stand
+        known = _numbers(one, column.compressed())
+        numbers = np.full(column.shape, np.nan)
+        numbers[~np.ma.getmaskarray(column)] = known
+        return numbers
     column = np.asarray(column)
     if one.levels and column.dtype.kind in "OUS":
         number = {level: float(n) for n, level in enumerate(one.levels)}

@@ -72,6 +72,13 @@ class Calls(unittest.TestCase):
 
     def test_a_state_that_is_not_known_gives_nan(self):
         self.assertTrue(np.isnan(self.table.tau_R(self.state, **{self.axis: np.nan})))
+        x = self.state[self.axis]
+        masked = np.ma.masked_array([[x, x], [x, -1e9]], [[False, True], [False, True]])
+        one = self.table.tau_R(self.state) # and says nothing of the range of what is masked
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            np.testing.assert_array_equal(self.table.tau_R(self.state, **{self.axis: masked}),
+                                          [[one, np.nan], [one, np.nan]])
 
     def test_a_side_that_refuses_gives_nan(self):
         table = frictab.open(HERE / "sides.h5")
