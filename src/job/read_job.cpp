@@ -157,6 +157,12 @@ void walk(JobReader& reader, const TomlNode& table, const std::string& rule_path
 
 constexpr std::uint64_t largest_law_file = 1 << 20;
 
+// A law has a formula or a table's name as well.
+bool holds_only_tables(const TomlNode& node) {
+  return std::all_of(node.items.begin(), node.items.end(),
+                     [](const TomlNode& item) { return item.type == TomlNode::Type::table; });
+}
+
 // The files of models.files, each a table of laws.
 std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
   std::vector<TomlNode> files;
@@ -170,8 +176,13 @@ std::vector<TomlNode> read_law_files(JobReader& reader, TomlNode& root) {
   try {
     for (const std::string& name : data::find_files(only.job.models.files, base, named->place)) {
       const std::string path = (std::filesystem::path(base) / name).string();
-      files.push_back(
-          parse_toml(io::read_text_file(path, path, {.bytes = largest_law_file}), path));
+      TomlNode laws = parse_toml(io::read_text_file(path, path, {.bytes = largest_law_file}), path);
+      if (const TomlNode* below = laws.find("models"); below && holds_only_tables(*below)) {
+        reader.fault(below->key_place, "a file of models.files has its laws at the top",
+                     "[mine] and [mine.parameters], not [models.mine]");
+        std::erase_if(laws.items, [](const TomlNode& item) { return item.key == "models"; });
+      }
+      files.push_back(std::move(laws));
     }
   } catch (const InputError& error) {
     reader.faults.insert(reader.faults.end(), error.faults().begin(), error.faults().end());

@@ -111,6 +111,17 @@ TEST_F(SlowOwnLaw, OfConstantsAloneIsNotCalibrated) {
   EXPECT_EQ(fit("paper").at("termination"), "not calibrated");
 }
 
+TEST_F(SlowOwnLaw, OfAFileStandsAtItsTop) {
+  directory.write("laws.toml", "[models.film]\nformula = \"mu*sigma_n_MPa\"\n"
+                               "parameters = { mu = { range = [0, 1] } }\n");
+  write_job("[models]\nuse = [\"coulomb\"]\nfiles = \"laws.toml\"\n");
+  const CommandResult result = frictab({"calibrate", "job.toml"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("laws.toml:1:2: error: a file of models.files has its laws at "
+                                    "the top\n  hint: [mine] and [mine.parameters], not "
+                                    "[models.mine]"));
+}
+
 TEST_F(SlowOwnLaw, NamesAColumnThatTheDataDoNotHaveWhereItStands) {
   write_job("[models.mine]\nformula = \"mu*sigma_n_MPa*(1 + a*humidty_pct)\"\n"
             "parameters = { mu = { range = [0, 1] }, a = { range = [-1, 1] } }\n");
