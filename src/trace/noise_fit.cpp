@@ -1,11 +1,13 @@
-// Finds the noise model: restricted likelihood by one Kalman filter over all columns at once.
+// Finds the noise model: restricted likelihood along the directions of each length.
 #include "trace/noise_fit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <nlopt.hpp>
 
 #include "trace/projection.h"
@@ -25,48 +27,95 @@ constexpr double least_log = -8, most_log = 2; // of a standard deviation over t
 // range.
 constexpr double weak_prior = 1e-6;
 
+// One shape of experiments: how many blocks, and how much white noise each has over the usual one.
+// Of those of one shape, the directions in which noise of one length is independent are the same.
+struct BlockShape {
+  VectorXd share;
+  std::vector<std::size_t> experiments;
+};
+
+std::vector<BlockShape> shapes_of(const Blocks& blocks) {
+  std::vector<BlockShape> shapes;
+  std::map<std::vector<double>, std::size_t> known;
+  for (std::size_t e = 0; e < blocks.experiments(); ++e) {
+    std::vector<double> share;
+    for (std::size_t b = blocks.first[e]; b < blocks.first[e + 1]; ++b)
+      share.push_back(blocks.usual_rows / blocks.rows(b));
+    const auto [shape, is_new] = known.emplace(std::move(share), shapes.size());
+    if (is_new)
+      shapes.push_back(
+          {Eigen::Map<const VectorXd>(shape->first.data(), static_cast<Index>(shape->first.size())),
+           {}});
+    shapes[shape->second].experiments.push_back(e);
+  }
+  return shapes;
+}
+
+// With R the correlations of slow noise and S the shares, S^-1/2 R S^-1/2 = U diag(slow) U': noise
+// of any size is independent along the columns of S^-1/2 U, with the variance slow_i slow^2 +
+// white^2. The inverse of R has three diagonals.
+struct NoiseDirections {
+  MatrixXd u;
+  VectorXd slow;
+};
+
+NoiseDirections directions_of(const VectorXd& share, double length) {
+  const Index count = share.size();
+  if (count == 1) return {MatrixXd::Identity(1, 1), share.cwiseInverse()};
+  const double rho = std::exp(-1 / (static_cast<double>(count) * length));
+  VectorXd diagonal = (1 + rho * rho) * share;
+  diagonal(0) = share(0);
+  diagonal(count - 1) = share(count - 1);
+  const VectorXd beside =
+      -rho * (share.head(count - 1).array() * share.tail(count - 1).array()).sqrt();
+  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside);
+  return {solver.eigenvectors(), (1 - rho * rho) * solver.eigenvalues().cwiseInverse()};
+}
+
 // What the likelihood of any noise of one growth is computed from. Rows are blocks, columns: the
 // residual, what is fitted, and the shapes of gain and slope; all over D.
 class Likelihood {
 public:
-  Likelihood(const NoiseData& data, const NoiseModel& base) : blocks_(data.blocks) {
+  Likelihood(const NoiseData& data, const NoiseModel& base) : shapes_(shapes_of(data.blocks)) {
     const Eigen::ArrayXd d = noise_size(base, data.tau);
     MatrixXd fitted = data.fitted;
     append_columns(fitted, data.nuisance);
     if (fitted.cols() > 0) fitted = orthonormal(d.inverse().matrix().asDiagonal() * fitted);
     fitted_ = fitted.cols();
-    columns_.resize(data.residual.size(), fitted_ + 3);
-    columns_.col(0) = data.residual.array() / d;
+    MatrixXd columns(data.residual.size(), fitted_ + 3);
+    columns.col(0) = data.residual.array() / d;
     if (fitted_ > 0)
-      columns_.middleCols(1, fitted_) = fitted * std::sqrt(static_cast<double>(fitted.rows()));
-    columns_.col(fitted_ + 1) = data.tau.array() / d;
-    columns_.col(fitted_ + 2) = data.tau.array() * data.blocks.position.array() / d;
+      columns.middleCols(1, fitted_) = fitted * std::sqrt(static_cast<double>(fitted.rows()));
+    columns.col(fitted_ + 1) = data.tau.array() / d;
+    columns.col(fitted_ + 2) = data.tau.array() * data.blocks.position.array() / d;
     log_d_ = d.log().sum();
-    share_.resize(data.residual.size());
-    for (Index b = 0; b < share_.size(); ++b)
-      share_(b) = blocks_.usual_rows / blocks_.rows(static_cast<std::size_t>(b));
+    for (std::size_t e = 0; e < data.blocks.experiments(); ++e) {
+      const auto begin = static_cast<Index>(data.blocks.first[e]);
+      columns_.emplace_back(
+          columns.middleRows(begin, static_cast<Index>(data.blocks.first[e + 1]) - begin));
+    }
   }
 
   double operator()(const NoiseModel& noise) const {
+    const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
     const Index own = fitted_ + 1;
-    MatrixXd normal = MatrixXd::Zero(own, own);
-    RowMajor filtered;
+    MatrixXd normal = MatrixXd::Zero(own, own); // its lower triangle
+    MatrixXd random(own, 2 * static_cast<Index>(columns_.size()));
+    Index next = 0;
     double log_det = 0;
-    for (std::size_t e = 0; e < blocks_.experiments(); ++e) {
-      log_det += filter(noise, e, filtered);
-      const MatrixXd gram = filtered.transpose() * filtered;
-      const Eigen::Vector2d size(noise.gain, noise.slope);
-      const Eigen::Matrix2d k = Eigen::Matrix2d::Identity() + size.asDiagonal() *
-                                                                  gram.bottomRightCorner(2, 2) *
-                                                                  size.asDiagonal();
-      const MatrixXd along = size.asDiagonal() * gram.bottomLeftCorner(2, own);
-      const double determinant = k(0, 0) * k(1, 1) - k(0, 1) * k(1, 0);
-      Eigen::Matrix2d inverse;
-      inverse << k(1, 1), -k(0, 1), -k(1, 0), k(0, 0);
-      log_det += std::log(determinant);
-      normal.noalias() += gram.topLeftCorner(own, own);
-      normal.noalias() -= along.transpose() * (inverse / determinant) * along;
+    for (const Turned& turned : at_length(noise.length)) {
+      const Eigen::ArrayXd variance = slow * turned.slow.array() + white;
+      const VectorXd weight = variance.inverse();
+      log_det +=
+          static_cast<double>(turned.columns.size()) * (variance.log().sum() + turned.log_share);
+      add_squares(turned, weight, normal);
+      for (const MatrixXd& columns : turned.columns) {
+        log_det += add_random(noise, columns, weight, random.middleCols(next, 2));
+        next += 2;
+      }
     }
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(random, -1);
     return -0.5 * (log_det + restricted(normal));
   }
 
@@ -74,10 +123,80 @@ public:
   double constant() const { return -log_d_; }
 
 private:
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  // Experiments of one shape, along the directions of one length.
+  struct Turned {
+    VectorXd slow;
+    std::vector<MatrixXd> columns; // per experiment
+    // Of two and more: per direction the lower triangle of the columns' products, but those of gain
+    // and slope, summed over the experiments.
+    MatrixXd products;
+    double log_share = 0;
+  };
+
+  const std::vector<Turned>& at_length(double length) const {
+    const auto [at, is_new] = turned_.try_emplace(length);
+    if (!is_new) return at->second;
+    for (const BlockShape& shape : shapes_) {
+      const NoiseDirections directions = directions_of(shape.share, length);
+      const MatrixXd turn =
+          directions.u.transpose() * shape.share.cwiseSqrt().cwiseInverse().asDiagonal();
+      Turned turned{directions.slow, {}, {}, shape.share.array().log().sum()};
+      for (const std::size_t e : shape.experiments)
+        turned.columns.emplace_back(turn * columns_[e]);
+      if (turned.columns.size() > 1) turned.products = products_of(turned.columns);
+      at->second.push_back(std::move(turned));
+    }
+    return at->second;
+  }
+
+  MatrixXd products_of(const std::vector<MatrixXd>& all) const {
+    const Index own = fitted_ + 1;
+    MatrixXd products = MatrixXd::Zero(own * (own + 1) / 2, all.front().rows());
+    Eigen::RowVectorXd row(own);
+    for (const MatrixXd& columns : all)
+      for (Index i = 0; i < columns.rows(); ++i) {
+        row = columns.row(i).head(own);
+        Index at = 0;
+        for (Index c = 0; c < own; at += own - c, ++c)
+          products.col(i).segment(at, own - c) += row(c) * row.tail(own - c).transpose();
+      }
+    return products;
+  }
+
+  void add_squares(const Turned& turned, const VectorXd& weight, MatrixXd& normal) const {
+    const Index own = fitted_ + 1;
+    if (turned.products.size() == 0) {
+      const MatrixXd scaled =
+          weight.cwiseSqrt().asDiagonal() * turned.columns.front().leftCols(own);
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose());
+      return;
+    }
+    const VectorXd sum = turned.products * weight;
+    Index at = 0;
+    for (Index c = 0; c < own; at += own - c, ++c)
+      normal.col(c).tail(own - c) += sum.segment(at, own - c);
+  }
+
+  // What gain and slope of one experiment take off the products, as two columns whose squares do
+  // (Woodbury's identity, with the root of its 2 x 2 matrix); and the logarithm of that matrix's
+  // determinant.
+  double add_random(const NoiseModel& noise, const MatrixXd& columns, const VectorXd& weight,
+                    Eigen::Ref<MatrixXd> off) const {
+    const Index own = fitted_ + 1;
+    const VectorXd gain =
+        noise.gain * (columns.transpose() * weight.cwiseProduct(columns.col(own)));
+    const VectorXd slope =
+        noise.slope * (columns.transpose() * weight.cwiseProduct(columns.col(own + 1)));
+    const double first = std::sqrt(1 + noise.gain * gain(own));
+    const double both = noise.slope * gain(own + 1) / first;
+    const double second = std::sqrt(1 + noise.slope * slope(own + 1) - both * both);
+    off.col(0) = gain.head(own) / first;
+    off.col(1) = (slope.head(own) - both * off.col(0)) / second;
+    return 2 * std::log(first * second);
+  }
 
   // Squares behind the fitted columns, and the determinant of what the data say about these.
-  double restricted(MatrixXd& normal) const {
+  double restricted(const MatrixXd& normal) const {
     if (fitted_ == 0) return normal(0, 0);
     MatrixXd information = normal.bottomRightCorner(fitted_, fitted_);
     information.diagonal().array() += 1e-10 * information.diagonal().maxCoeff();
@@ -86,32 +205,11 @@ private:
     return normal(0, 0) - along.squaredNorm() + 2 * root.matrixLLT().diagonal().array().log().sum();
   }
 
-  // Innovations over their standard deviation of all columns of one experiment; log determinant.
-  double filter(const NoiseModel& noise, std::size_t experiment, RowMajor& out) const {
-    const auto begin = static_cast<Index>(blocks_.first[experiment]);
-    const Index count = static_cast<Index>(blocks_.first[experiment + 1]) - begin;
-    const double rho = std::exp(-1 / (static_cast<double>(count) * noise.length));
-    const double slow = noise.slow * noise.slow, white = noise.white * noise.white;
-    out.resize(count, columns_.cols());
-    Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns_.cols());
-    double predicted = slow, log_det = 0;
-    for (Index i = 0; i < count; ++i) {
-      const double innovation = predicted + white * share_(begin + i);
-      const double gain = predicted / innovation;
-      out.row(i) = columns_.row(begin + i) - state;
-      state = rho * (state + gain * out.row(i));
-      out.row(i) /= std::sqrt(innovation);
-      log_det += std::log(innovation);
-      predicted = rho * rho * predicted * (1 - gain) + slow * (1 - rho * rho);
-    }
-    return log_det;
-  }
-
-  const Blocks& blocks_;
-  RowMajor columns_;
+  std::vector<BlockShape> shapes_;
+  std::vector<MatrixXd> columns_; // per experiment
   Index fitted_ = 0;
-  VectorXd share_; // of the white noise's variance
   double log_d_ = 0;
+  mutable std::map<double, std::vector<Turned>> turned_; // by length; a fit has one thread
 };
 
 class NoiseFitter {

@@ -6,10 +6,12 @@
 // (Patterson and Thompson 1971) does not: it maximises
 //   -1/2 (log det V + log det X' V^-1 X + r' P r),   P = V^-1 - V^-1 X (X' V^-1 X)^-1 X' V^-1,
 // the likelihood of what is left of the data beside X. Neither V nor its inverse is ever formed.
-// The slow noise is a first-order autoregressive process, so a Kalman filter along each experiment
-// turns all columns into independent innovations at a cost in proportion to the rows; gain and
-// slope then come in as a 2 x 2 matrix per experiment (Woodbury's identity). Four logarithms of
-// standard deviations are searched (NLopt's BOBYQA) for each of a few lengths of the slow noise.
+// The slow noise is a first-order autoregressive process of one of a few lengths. At one length the
+// directions in which slow and white noise are independent are the same for any size of either, and
+// for all experiments of as many blocks: the columns are turned into them once, their products are
+// summed over such experiments once, and each size of the noise is a sum over directions. Gain and
+// slope come in as a 2 x 2 matrix per experiment (Woodbury's identity). Four logarithms of standard
+// deviations are searched at each length (NLopt's BOBYQA).
 #pragma once
 
 #include <Eigen/Core>
