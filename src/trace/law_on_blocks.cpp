@@ -94,8 +94,7 @@ VectorXd LawOnBlocks::predict(std::span<const double> parameters, MatrixXd& jaco
 
 namespace {
 
-// Above so many blocks normal equations are summed by gram(), below them by Eigen: where a fit
-// takes milliseconds, nothing is worth other last digits than earlier results have.
+// Above so many blocks a step is tried without derivatives first.
 constexpr auto many_blocks = static_cast<Index>(block_budget);
 
 class BlockSolver {
@@ -184,10 +183,7 @@ private:
   // What steps of any damping share.
   void prepare(Point& here) const {
     const auto jacobian = here.all.rightCols(here.all.cols() - 1);
-    if (jacobian.rows() > many_blocks)
-      here.normal = gram(jacobian);
-    else
-      here.normal = jacobian.transpose() * jacobian;
+    here.normal = gram(jacobian);
     here.gradient = jacobian.transpose() * here.all.col(0);
     if (penalty_.size() > 0) {
       here.normal += penalty_;
