@@ -129,9 +129,12 @@ void Whitener::filter(Eigen::Ref<MatrixXd> columns) const {
 void Whitener::apply(Eigen::Ref<MatrixXd> columns) const {
   filter(columns);
   for (std::size_t e = 0; e < parts_.size(); ++e) {
-    auto rows = columns.middleRows(parts_[e].first, parts_[e].size);
-    const MatrixXd along = q_[e].transpose() * rows;
-    rows.noalias() -= qc_[e] * along;
+    const MatrixXd &q = q_[e], &qc = qc_[e];
+    for (Index c = 0; c < columns.cols(); ++c) { // a matrix product would be all overhead here
+      auto rows = columns.col(c).segment(parts_[e].first, parts_[e].size);
+      const double first = q.col(0).dot(rows), second = q.col(1).dot(rows);
+      rows -= first * qc.col(0) + second * qc.col(1);
+    }
   }
   if (nuisance_.cols() > 0) columns -= nuisance_ * (nuisance_.transpose() * columns).eval();
 }
