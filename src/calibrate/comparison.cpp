@@ -140,23 +140,22 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   return d;
 }
 
-// "No law is better than law i", by the largest studentised lead of another law over it.
+// "No law is better than law i", by the largest studentised lead of another law over it, against
+// the largest difference to another law either way: as in the interval of a pair. So it is never
+// more certain than that pair alone.
 double best_p_value(const Studentised& s, std::size_t i, std::size_t laws) {
-  const auto lead = [&](auto t_of_pair) {
-    double most = 0;
-    for (std::size_t j = 0; j < laws; ++j) {
-      if (j == i) continue;
-      const double t = t_of_pair(pair_index(std::min(i, j), std::max(i, j), laws));
-      most = std::max(most, i < j ? -t : t); // t is of the later law minus the earlier one
-    }
-    return most;
-  };
   const std::size_t resamples = s.again.empty() ? 0 : s.again.front().size();
-  const double now = lead([&](std::size_t pair) { return s.t[pair]; });
-  std::size_t beyond = 0;
-  for (std::size_t b = 0; b < resamples; ++b)
-    if (lead([&](std::size_t pair) { return s.again[pair][b]; }) >= now) ++beyond;
-  return share_beyond(beyond, resamples);
+  double lead = 0;
+  std::vector<double> most(resamples);
+  for (std::size_t j = 0; j < laws; ++j) {
+    if (j == i) continue;
+    const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws);
+    lead = std::max(lead, i < j ? -s.t[pair] : s.t[pair]); // t: later law minus earlier one
+    for (std::size_t b = 0; b < resamples; ++b)
+      most[b] = std::max(most[b], std::abs(s.again[pair][b]));
+  }
+  const auto beyond = std::count_if(most.begin(), most.end(), [&](double t) { return t >= lead; });
+  return share_beyond(static_cast<std::size_t>(beyond), resamples);
 }
 
 std::string all_but(const Comparisons& c, const std::vector<std::string>& others,

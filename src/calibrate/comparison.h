@@ -26,10 +26,12 @@ struct LawErrors {
 
 // All pairs of laws, in the order given. Per pair: symmetric bootstrap-t over whole experiments,
 // both laws on the same resamples; interval and p-value are of that one pair. For the best:
-// best_p_values[i] tests "no law has a smaller MAE than law i" by the largest of its studentised
-// differences to all others, against that maximum in the resamples (max-T, as in Hsu's multiple
-// comparisons with the best, 1984). The laws with p >= 0.05 hold the true best with 95 %, although
-// the data chose which one leads. Fewer than 2 experiments or resamples = 0: nothing is compared.
+// best_p_values[i] tests "no law has a smaller MAE than law i" by the largest studentised lead of
+// another law over it, against the largest of its differences to all others, either way, in the
+// resamples (max-T, as in Hsu's multiple comparisons with the best, 1984, but symmetric as the
+// pairs are: a law that no other beats in a pair of its own stays possible). The laws with p >=
+// 0.05 hold the true best with 95 %, although the data chose which one leads. Fewer than 2
+// experiments or resamples = 0: nothing is compared.
 Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std::uint64_t seed);
 
 // Laws that may be the best, by rank: best_p_values >= 0.05.

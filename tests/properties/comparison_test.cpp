@@ -153,6 +153,36 @@ TEST(SlowComparison, PValuesOfEquallyGoodLawsAreUniform) {
   }
 }
 
+// Differences of which most are nearly alike and few are far off: resamples without these few have
+// hardly any scatter, and make a pair's interval wide.
+TEST(SlowComparison, TheBestOfAllIsNeverMoreCertainThanThePairsItIsOf) {
+  Random random(21);
+  int excluded = 0, unclear = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    std::vector<double> a, b, c;
+    for (int e = 0; e < 12; ++e) {
+      a.push_back(10 + random.normal());
+      b.push_back(a.back() + 5 + 0.2 * random.normal() + (random.uniform(0, 1) < 0.2 ? 25 : 0));
+      c.push_back(a.back() + 0.5 * random.normal());
+    }
+    const Comparisons found = compare(std::vector{law("a", a), law("b", b), law("c", c)}, 300, i);
+    for (std::size_t l = 0; l < 3; ++l) {
+      double least = 1; // of the pairs that another law leads
+      for (const calibrate::Comparison& pair : found.pairs) {
+        const bool leads =
+            pair.law == found.laws[l] ? pair.mae.value_MPa < 0 : pair.mae.value_MPa > 0;
+        if ((pair.law == found.laws[l] || pair.other == found.laws[l]) && leads)
+          least = std::min(least, pair.mae.p_value);
+      }
+      EXPECT_GE(found.best_p_values[l], least);
+      excluded += found.best_p_values[l] < 0.05;
+      unclear += l == 1 && least >= 0.05;
+    }
+  }
+  EXPECT_GT(excluded, 50);
+  EXPECT_GT(unclear, 5);
+}
+
 // Pair by pair, the leader of 8 equally good laws beats one of them far more often than 5 %.
 TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
   constexpr int campaigns = 200;
