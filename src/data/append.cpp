@@ -47,6 +47,10 @@ void add_dropped(Dataset& all, const std::vector<Dataset::Dropped>& more) {
   }
 }
 
+constexpr const char* only_same_columns =
+    "all files of a list need the same columns: one that a file lacks may stand in `constants` or "
+    "`labels` of its [[data.files]]; data.bystanders says which are read beside the quantities";
+
 void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& faults) {
   for (const std::string& name : more.experiments)
     if (std::find(all.experiments.begin(), all.experiments.end(), name) != all.experiments.end())
@@ -61,13 +65,13 @@ void append(Dataset& all, Dataset&& more, const std::string& file, FaultList& fa
   for (const Column& column : more.columns)
     if (known.count(column.name) == 0)
       faults.add({file, 0, 0}, fmt::format("column {} is not in {}", column.name, all.sources[0]),
-                 "all files of a list need the same columns; see data.bystanders");
+                 only_same_columns);
   for (Column& column : all.columns) {
     const auto found = others.find(column.name);
     if (found == others.end()) {
       faults.add({file, 0, 0},
                  fmt::format("there is no column {}, which {} has", column.name, all.sources[0]),
-                 "all files of a list need the same columns; see data.bystanders");
+                 only_same_columns);
       continue;
     }
     Column* const other = found->second;

@@ -278,6 +278,9 @@ private:
     if (!from.times.empty()) wanted = "1";
     if (from.area_mm2 > 0) wanted = "N";
     if (from.slope_rows > 0) wanted = quantity.unit == "mm/s" ? "mm" : quantity.unit;
+    const char* const known = !from.unit.empty() ? "as the job says"
+                              : unit.empty()     ? "as nobody says otherwise"
+                                                 : "as the file says";
     if (unit.empty()) unit = wanted;
     const auto conversion = convert(unit, wanted);
     if (!conversion) {
@@ -291,9 +294,10 @@ private:
     if (unit == wanted && area == 1) return; // the file's own bits
     for (double& value : column.values)
       value = (*conversion)(value) / area;
-    if (from.unit.empty())
-      out_.notes.push_back(fmt::format("{}: {} as the file says, taken as {}", quantity.name, unit,
-                                       area == 1 ? wanted : quantity.unit));
+    const std::string over =
+        from.area_mm2 > 0 ? fmt::format(" over {} mm2: {}", shortest(area), quantity.unit) : "";
+    out_.notes.push_back(
+        fmt::format("{}: {} {}, taken as {}{}", quantity.name, unit, known, wanted, over));
   }
 
   static std::string units_hint(const std::string& unit, const std::vector<std::string>& known) {
