@@ -172,13 +172,14 @@ sigma_n_MPa = 40
 // ---- composites ----
 
 TEST_F(LookAlike, CompositesWithAFolderPerFillerAndADelimiterTooManyInEachRow) {
+  int tests = 0;
   for (const char* filler : {"0 wt%", "2,5 wt%", "5 wt%", "7,5 wt%"})
-    for (int repeat = 1; repeat <= 3; ++repeat) {
+    for (int repeat = 1; repeat <= 3; ++repeat, ++tests) {
       std::string text = "TIME; FF;\r\n";
       for (int i = 1; i <= 400; ++i)
-        text +=
-            fmt::format("{}; {};;\r\n", with_comma(0.9 * i, 1),
-                        with_comma(5 + 0.2 * repeat - std::exp(-i / 80.) + 0.2 * scatter(i), 1));
+        text += fmt::format(
+            "{}; {};;\r\n", with_comma(0.9 * i, 1),
+            with_comma(5 + 0.2 * repeat - std::exp(-i / 80.) + 0.2 * scatter(400 * tests + i), 1));
       directory.write(fmt::format("Composites/{}/test {}.csv", filler, repeat), text);
     }
   const auto data = read(R"([data]
