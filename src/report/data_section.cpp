@@ -71,12 +71,23 @@ void add_data_lines(codegen::TemplateValues& page, const data::Dataset& t, const
   add("Experiments", thousands(t.experiments.size()),
       of_validation(thousands(v.experiments.size())));
   add("Rows", thousands(t.rows_behind()), of_validation(thousands(v.rows_behind())));
+  if (const std::string how = uneven_text(judged_by, t, v); !how.empty())
+    add("Length of experiments", none.empty() ? "\u2013" : svg::escape(how),
+        none.empty() ? svg::escape(how) : "\u2013");
   if (t.condensed)
     add("Held as means over blocks of rows", thousands(t.rows()),
         of_validation(thousands(v.rows())));
-  add("Left out by the job", lines(dropped_of(t)), lines(dropped_of(v)));
-  add("Derived", lines(t.notes), lines(v.notes));
-  add("Implausible", lines(t.implausible), lines(v.implausible));
+  // Tests that were held out are read, and their rows counted, with those to train.
+  const bool together = judged_by == calibrate::JudgedBy::held_out;
+  const auto add_counted = [&](const char* what, const std::vector<std::string>& training,
+                               const std::vector<std::string>& validation) {
+    add(what, lines(training),
+        together && !training.empty() ? "counted at left, with the training tests'"
+                                      : lines(validation));
+  };
+  add_counted("Left out by the job", dropped_of(t), dropped_of(v));
+  add_counted("Derived", t.notes, v.notes);
+  add_counted("Implausible", t.implausible, v.implausible);
   if (!t.unused.empty()) add("Beside the data, in none of them", lines(t.unused), "\u2013");
   add("Other columns", lines(bystanders_of(t)), lines(bystanders_of(v)));
 }

@@ -58,6 +58,27 @@ std::string condensed_text(const data::Dataset& training, const data::Dataset& v
                      thousands(training.rows() + validation.rows()), join(from_blocks(), ", "));
 }
 
+std::string uneven_text(JudgedBy judged_by, const data::Dataset& training,
+                        const data::Dataset& validation) {
+  const data::Dataset& judged = calibrate::on_other_experiments(judged_by) ? validation : training;
+  const std::size_t count = judged.experiments.size();
+  double all = 0, squares = 0, most = 0;
+  std::string longest;
+  for (std::size_t e = 0; e < count; ++e) {
+    const auto rows = static_cast<double>(judged.rows_behind(e));
+    all += rows;
+    squares += rows * rows;
+    if (rows <= most) continue;
+    most = rows;
+    longest = judged.experiments[e];
+  }
+  const double equal = all * all / squares;
+  if (count < 3 || !(2 * equal < static_cast<double>(count))) return "";
+  return fmt::format("errors and fits are over rows: these {} experiments weigh as {:.1f} of equal "
+                     "length ('{}' has {:.0f} % of the rows), and their intervals are too narrow",
+                     count, equal, longest, 100 * most / all);
+}
+
 std::vector<std::string> from_blocks() {
   return {"repeated tests", "other splits of the tests", "known sliding distances", "traces"};
 }

@@ -29,6 +29,12 @@ std::string condensed_text(const data::Dataset& training, const data::Dataset& v
 // Those of blocks.
 std::vector<std::string> from_blocks();
 
+// Where tests are of very different length: as how many of equal length they weigh, with the
+// longest one, without a full stop; empty where they weigh as more than half of their number.
+// Errors and fits are over rows, and no interval is right where a few tests are nearly all of them.
+std::string uneven_text(calibrate::JudgedBy judged_by, const data::Dataset& training,
+                        const data::Dataset& validation);
+
 // What validation is, in a sentence without a full stop.
 std::string judged_text(const calibrate::Calibration& calibration);
 

@@ -103,6 +103,9 @@ std::string report_md(const ReportInput& input) {
   out += "\nData: " + size_text(calibration.judged_by, input.training, input.validation) + ".\n";
   if (const std::string how = condensed_text(input.training, input.validation); !how.empty())
     out += "Rows are " + how + ".\n";
+  if (const std::string how = uneven_text(calibration.judged_by, input.training, input.validation);
+      !how.empty())
+    out += "Note: " + how + ".\n";
   add_md_ranking(out, calibration);
   add_md_drift(out, input.verification);
   add_md_reach(out, input.tables);

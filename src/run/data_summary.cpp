@@ -144,6 +144,9 @@ std::string data_text(const JobData& data) {
   }
   if (const std::string how = report::condensed_text(data.training, data.validation); !how.empty())
     out += "rows are " + how + "\n";
+  if (const std::string how = report::uneven_text(data.judged_by, data.training, data.validation);
+      !how.empty())
+    out += how + "\n";
   return out + report::size_text(data.judged_by, data.training, data.validation) +
          (calibrate::is_synthetic(data.training) ? " - SYNTHETIC data\n" : "\n");
 }

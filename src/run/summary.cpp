@@ -36,6 +36,9 @@ std::string data_text(const Pipeline& p) {
         "  if they are of several tests, data.experiment names the column that tells them apart\n";
   if (const std::string how = report::condensed_text(training, validation); !how.empty())
     out += "  " + how + "\n";
+  if (const std::string how = report::uneven_text(p.data()->judged_by, training, validation);
+      !how.empty())
+    out += "  " + how + "\n";
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
       out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
