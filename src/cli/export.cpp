@@ -71,6 +71,10 @@ std::function<int()> declare(CLI::App& app, const CommonOptions& common) {
       return export_combined({options->combine, options->job, options->targets, options->units},
                              common);
     }
+    if (!common.set.empty() && (!options->law.empty() || !options->table.empty()))
+      throw InputError({}, "--set overrides keys of a job, and here is none",
+                       "--units, and of --law --param and --range; other options take a job, whose "
+                       "table.model may be a law of constants");
     if (!options->law.empty()) {
       if (!options->job.empty() || !options->table.empty())
         throw InputError({}, "--law stands alone", "without JOB and --table");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/calibration_file.h"
+#include "calibrate/slip_distance.h"
 #include "cli/sources.h"
 #include "codegen/exporter.h"
 #include "core/error.h"
@@ -135,6 +136,11 @@ models::Model model_of(const LawOptions& options,
   model.law = models::held_law(law);
   model.conventions.shear_limit = ranges.count(flow_stress) > 0;
   model.parameters = parameters_of(law, options.parameters);
+  if (const auto distance = calibrate::slip_distance(law, model.conventions)) {
+    model.law = models::unregistered_law(
+        calibrate::at_slip_distance(law, *distance, model.parameters[*distance]));
+    model.parameters.erase(model.parameters.begin() + static_cast<std::ptrdiff_t>(*distance));
+  }
   return model;
 }
 

@@ -9,6 +9,7 @@
 #include "codegen/history_rules.h"
 #include "codegen/number_text.h"
 #include "codegen/solver_units.h"
+#include "core/error.h"
 #include "data/derived.h"
 
 namespace frictab::codegen {
@@ -88,7 +89,11 @@ public:
 private:
   static std::string distance_of(const SolverInput& input) {
     const data::Continuation how = continuation(input);
-    return is_state(how.rule) ? fortran_number(how.distance_mm) : "";
+    if (!is_state(how.rule)) return "";
+    if (!(how.distance_mm > 0)) // a law with an open parameter, whose file was made elsewhere
+      throw InputError({}, fmt::format("the slip distance of {} is no number", input.argument.name),
+                       "routines need it: aging_state_over_0p02mm");
+    return fortran_number(how.distance_mm);
   }
 
   std::string statements(std::string_view lines) const {

@@ -47,6 +47,39 @@ TEST_F(LawCommand, WritesRoutineTableAndModelOfALawWithKnownConstants) {
   EXPECT_EQ(proven.exit_code, 0) << proven.out << proven.err;
 }
 
+TEST_F(LawCommand, WritesTheSlipDistanceOfRateAndStateAsANumber) {
+  const std::vector<std::string> law = {"rate_and_state_aging",
+                                        "--param",
+                                        "mu0=0.6",
+                                        "--param",
+                                        "a=0.008",
+                                        "--param",
+                                        "b=0.012",
+                                        "--param",
+                                        "D_c=0.02",
+                                        "--targets",
+                                        "abaqus_vfric"};
+  const CommandResult asked = make(law);
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_THAT(asked.err, HasSubstr("takes aging_state_over_0p02mm: over which range?"));
+  std::vector<std::string> with_range = law;
+  with_range.insert(with_range.end(), {"--range", "aging_state_over_0p02mm=0.001..1000"});
+  const CommandResult made = make(with_range);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(directory.read("out/abaqus_vfric/frictab_vfric.f"),
+              testing::ContainsRegex("ftthta\\(h\\(1\\), v, (0\\.02|2\\.0*[ED]-0?2)"));
+  const CommandResult verified = run({"verify", "--table", "out/rate_and_state_aging.h5", "--model",
+                                      "out/rate_and_state_aging.json"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+TEST_F(LawCommand, TakesNoKeysOfAJob) {
+  const CommandResult result =
+      make({"coulomb", "--param", "mu=0.08", "--set", "export.options.prefix=die"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("error: --set overrides keys of a job, and here is none"));
+}
+
 TEST_F(LawCommand, NeedsNoFlowStressForALawWithoutOne) {
   EXPECT_EQ(make({"coulomb", "--param", "mu=0.08"}).exit_code, 0);
   EXPECT_THAT(directory.read("out/coulomb.json"), testing::Not(HasSubstr("sigma_f_MPa")));
