@@ -12,7 +12,13 @@ namespace {
 
 using namespace test;
 
-class FricTangents : public FricCase {};
+class FricTangents : public FricCase {
+protected:
+  static void* frozen() {
+    return routine("frozen",
+                   {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
+  }
+};
 
 TEST_F(FricTangents, TangentsOfSlipAndStickAreThoseOfItsOwnDifferences) {
   for (const int directions : {1, 2})
@@ -49,6 +55,21 @@ TEST_F(FricTangents, TangentsHoldWhereALawTakesTheSlipByBothOfItsNames) {
     move(c, 12, directions == 1 ? 0 : 35);
     expect_tangents(c, two_slips, "two slips");
   }
+}
+
+TEST_F(FricTangents, TangentsHoldWithoutStateVariablesFromTheStressOfTheStart) {
+  for (const int directions : {1, 2})
+    for (const double speed : {0.5, 6.0, 50.0, 300.0}) // from stick into slip
+      for (const double share : {0.3, 0.9, 1.5}) {     // of the limit: the stress of the start
+        auto c = call(directions);
+        c.states = 0;
+        c.resize();
+        c.tau[0] = share * tau(1000, 1, 100);
+        if (directions == 2) c.tau[1] = 0.4 * c.tau[0];
+        move(c, speed, directions == 1 ? 0 : 100);
+        for (void* const function : {four_axes(), frozen()})
+          expect_tangents(c, function, std::to_string(speed) + " " + std::to_string(share));
+      }
 }
 
 TEST_F(FricTangents, TangentsHoldBelowTheSmallestPressureAndAtTheShearLimit) {
@@ -128,9 +149,7 @@ int pull_round(void* function, FricCall& c, double& dissipated) {
 }
 
 TEST_F(FricTangents, LetsNewtonsMethodConvergeOverStickAndSlip) {
-  void* const frozen = routine(
-      "frozen", {four_axis(), "mm-t-s", {}, {{"abaqus_coefficient", "start_of_increment"}}});
-  for (void* const function : {four_axes(), frozen}) {
+  for (void* const function : {four_axes(), frozen()}) {
     auto c = call(2);
     c.time_increment = 0x1p-8; // 32 mm/s along the circle
     double dissipated = 0;

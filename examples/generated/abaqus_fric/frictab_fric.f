@@ -80,10 +80,11 @@ C     History at the start and at the end of this increment
       double precision s0(7), s1(7)
 C     Relative motion, its direction, elastic slip, trial elastic slip
       double precision dg(2), e(2), ge(2), gt(2)
-C     The limit in the solver's units, its derivatives, a direction
-      double precision flim, flimp, flimv, flims, flimt, w(2)
+C     The limit in the solver's units and its derivatives; a direction,
+C     and what TAU changes by per change of the limit
+      double precision flim, flimp, flimv, flims, flimt, w(2), wl(2)
       double precision p, gc, dgn, gtn, gain, speed, vrate, ds
-      double precision dp, dpeak
+      double precision dp, dpeak, loss, along
       double precision amu, hold, ftsize, zero, unit
       logical keeps, bad, slips
       double precision ftqnan
@@ -252,12 +253,17 @@ C     The limit and its derivatives
       end if
 C
 C     Without history: the elastic slip that TAU stands for
+      loss = zero
       if (.not. keeps) then
         gain = zero
         if (flim .gt. zero) then
           gain = gc/flim
           hold = ftsize(ge)
-          if (hold .gt. flim) gain = gc/hold
+          loss = 1.0D0
+          if (hold .gt. flim) then
+            gain = gc/hold
+            loss = zero
+          end if
         end if
         ge(1) = ge(1)*gain
         ge(2) = ge(2)*gain
@@ -281,17 +287,30 @@ C     the trial direction.
         s1(5) = gc*w(1)
         s1(6) = gc*w(2)
       end if
+C     Without history the stress of the start stands for an elastic
+C     slip of TAU*gc/limit: the larger the limit, the shorter. What
+C     that takes off along TAU counts in stick alone.
+      wl(1) = w(1)
+      wl(2) = w(2)
+      if (.not. keeps) then
+        ge(1) = ge(1)*loss/hold
+        ge(2) = ge(2)*loss/hold
+        along = zero
+        if (slips) along = w(1)*ge(1) + w(2)*ge(2)
+        wl(1) = w(1) - ge(1) + along*w(1)
+        wl(2) = w(2) - ge(2) + along*w(2)
+      end if
       do i = 1, nfdir
         tau(i) = flim*w(i)
         if (slips) dslip(i) = ds*w(i)
-        ddtddp(i) = flimp*w(i)
-        ddtddt(i,1) = 0.5D0*flimt*w(i)
+        ddtddp(i) = flimp*wl(i)
+        ddtddt(i,1) = 0.5D0*flimt*wl(i)
         ddtddt(i,2) = ddtddt(i,1)
         do j = 1, nfdir
           unit = zero
           if (i .eq. j) unit = 1.0D0
           if (slips) unit = unit - w(i)*w(j)
-          ddtddg(i,j) = gain*unit + w(i)*flimv*vrate*e(j)
+          ddtddg(i,j) = gain*unit + wl(i)*flimv*vrate*e(j)
           if (slips) ddtddg(i,j) = ddtddg(i,j) + w(i)*flims*w(j)
         end do
         sed = sed + 0.5D0*tau(i)*s1(4+i)
