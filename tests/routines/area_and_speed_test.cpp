@@ -110,7 +110,7 @@ TEST_F(AreaAndSpeed, AreFollowedByVfrictionAlsoAtEdges) {
 
 TEST_F(AreaAndSpeed, AreFollowedByUsrfrc) {
   calls::UsrfrcCall<double, std::int64_t> c;
-  c.histories = 4 + 2 * 2;
+  c.histories = 6 + 2 * 2;
   c.rate = 1 / time_increment;
   c.resize(1);
   void* const routine = function("lsdyna_usrfrc", "usrfrc_", "double");

@@ -208,7 +208,7 @@ template <class Real> struct Usrfrc {
   static constexpr const char* target = "lsdyna_usrfrc";
   using Int = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
   explicit Usrfrc(const Units& u) : units(u) {
-    c.histories = 4 + 2 * 9;
+    c.histories = 6 + 2 * 9;
     c.constants = {Real(0)};
     c.resize(1);
   }

@@ -27,12 +27,13 @@ C     give takes the value in brackets):
 C     1 contact temperature, degC (110), reference where no
 C       temperatures are computed
 C     2 flow stress of the workpiece, MPa (480)
-C     UFHIST (NHSV=6), by node:
+C     UFHIST (NHSV=8), by node:
 C     1 accumulated slip (mm), 2 friction work per area
 C     (MPa*mm), 3 peak pressure (MPa), 4 cycles in
-C     which the state was outside the range.
-C     5 frictional shear stress (MPa) of the last cycle in
-C     contact, 6 that over the pressure: to be looked at.
+C     which the state was outside the range, 5 and 6 what the solver's
+C     precision rounds off 1 and 2.
+C     7 frictional shear stress (MPa) of the last cycle in
+C     contact, 8 that over the pressure: to be looked at.
 C     With fewer the missing ones count as 0.
 C
 C     LS-DYNA leaves the friction force to this routine: the force
@@ -77,10 +78,12 @@ C
       double precision x(4), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
       double precision over, stress
-      double precision scale, ssum, wsum, pmax
-      double precision fttau, ftqnan
+C     Slip and work before this cycle; a sum as UFHIST holds it
+      double precision kept(2), part
+      double precision scale, ssum, pmax
+      double precision fttau, ftqnan, ftlost
       logical ftnan
-      external fttau, ftqnan, ftnan
+      external fttau, ftqnan, ftlost, ftnan
       logical ftout
       external ftout
       integer i, ii, j, kk
@@ -148,11 +151,13 @@ C         A contact of another type: tau_R has nothing to act on.
           press = pnorm/area
           speed = 0.0D0
           if (slip .gt. 0.0D0) speed = slip*rate
-          ssum = slip
-          wsum = 0.0D0
+          do i = 1, 2
+            kept(i) = 0.0D0
+            if (nhv .ge. i) kept(i) = ufhist(i,j)
+            if (nhv .ge. 4 + i) kept(i) = kept(i) + ufhist(4+i,j)
+          end do
+          ssum = kept(1) + slip
           pmax = press
-          if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
-          if (nhv .ge. 2) wsum = ufhist(2,j)
           if (nhv .ge. 3) then
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
@@ -190,18 +195,24 @@ C             by is slip; the rest of the motion was elastic.
               if (over .le. 0.0D0) slip = 0.0D0
               speed = 0.0D0
               if (slip .gt. 0.0D0) speed = slip*rate
-              ssum = slip
-              if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
 C             Work: mean of the force before and the force now.
-              wsum = wsum + 0.5D0*(fprev + fric)/area*slip
-              if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
-              if (nhv .ge. 2) ufhist(2,j) = real(wsum, kind(ufhist))
+              kept(1) = kept(1) + slip
+              kept(2) = kept(2) + 0.5D0*(fprev + fric)/area*slip
+              do i = 1, 2
+                if (nhv .lt. i) exit
+                ufhist(i,j) = real(kept(i), kind(ufhist))
+                if (nhv .ge. 4 + i) then
+                  part = ufhist(i,j)
+                  part = ftlost(kept(i), part)
+                  ufhist(4+i,j) = real(part, kind(ufhist))
+                end if
+              end do
               if (nhv .ge. 3) ufhist(3,j) = real(pmax, kind(ufhist))
-              if (nhv .ge. 6) then
+              if (nhv .ge. 8) then
                 stress = fric/area
-                ufhist(5,j) = real(stress, kind(ufhist))
+                ufhist(7,j) = real(stress, kind(ufhist))
                 stress = stress/max(press, 0.001D0)
-                ufhist(6,j) = real(stress, kind(ufhist))
+                ufhist(8,j) = real(stress, kind(ufhist))
               end if
               if (nhv .ge. 4) then
                 if (ftout(x)) ufhist(4,j) = ufhist(4,j) + 1
@@ -230,6 +241,19 @@ C       cycle and added to the node's force.
         fdat(1,ii) = ss(ii)
         fdat(2,ii) = tt(ii)
       end do
+      return
+      end
+C
+C     What a sum has beyond the number that is kept of it; nothing of
+C     an infinite one.
+      double precision function ftlost(whole, part)
+      implicit none
+      double precision whole, part
+      logical ftnan
+      external ftnan
+      ftlost = 0.0D0
+      if (ftnan(part)) return
+      if (abs(part) .lt. 1.0D300) ftlost = whole - part
       return
       end
 C

@@ -59,6 +59,8 @@ json history(std::string_view units, const std::vector<SolverInput>& inputs) {
   add("friction_work", stress + "*" + length, "friction work per area");
   add("peak_pressure", stress, "peak pressure");
   add("n_outside", "1", "cycles in which the state was outside the range");
+  add("slip_remainder", length, "what the solver's precision rounds off 1");
+  add("friction_work_remainder", stress + "*" + length, "what the solver's precision rounds off 2");
   for (const HistoryState& state : with_remainders(history_states(inputs, units), before_histories))
     add(state.name, state.unit, state.meaning);
   add("tau_R", stress, "frictional shear stress of the last cycle in contact");
@@ -130,9 +132,10 @@ const char* const notes =
     "scale factor, multiplies tau_R; FS, FD, DC and VC have no influence. psi = area_ratio takes "
     "the node's area over that at its first contact (not what it had expanded before; adaptive "
     "remeshing begins again at 1), v_rel_mm_s = smoothed:N a speed that follows by an N-th of the "
-    "difference in each cycle. NHSV=6: accumulated "
-    "slip, friction work per area, peak pressure, cycles outside the range, and last, to be looked "
-    "at, the stress of the last cycle in contact and its coefficient, by node; two more for each "
+    "difference in each cycle. NHSV=8: accumulated slip, friction work per area, peak pressure, "
+    "cycles outside the range, what single precision rounds off slip and work (with NHSV=4 a slip "
+    "in steps of 1e-6 mm stops at 32 mm), and last, to be looked at, the stress of the last cycle "
+    "in contact and its coefficient, by node; two more for each "
     "further history of a traced law (energy, times, means, peaks, friction power). Surface "
     "expansion and flow stress are not known to the solver: "
     "[export.inputs] says per state constant:VALUE or property (UA). Temperatures are nodal ones "

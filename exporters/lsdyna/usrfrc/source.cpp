@@ -26,7 +26,7 @@ const SolverGives& gives(const ExportRequest&) {
                   .read = "ssum"},
                  {.state = "friction_work",
                   .text = "UFHIST(2), friction work per area before this cycle",
-                  .read = "wsum"},
+                  .read = "kept(2)"},
                  {.state = "peak_sigma_n",
                   .text = "the larger of UFHIST(3) and the pressure",
                   .read = "pmax"},

@@ -10,7 +10,7 @@ namespace frictab::lsdyna::usrfrc {
 
 // What USRFRC's arguments hold.
 const codegen::SolverGives& gives(const codegen::ExportRequest&);
-inline constexpr std::size_t before_histories = 4; // of UFHIST
+inline constexpr std::size_t before_histories = 6; // of UFHIST
 
 // Values of UFHIST per node that the routine keeps: 4, two for each of codegen/histories.h, and to
 // be looked at the frictional shear stress and its share of the pressure.

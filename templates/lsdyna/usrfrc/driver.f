@@ -14,12 +14,12 @@ C     Powers of two: dividing by them changes no bits.
       integer nact, nin, nodes, nosl
       real areas(n), none(5*n), fni(n), d(n,3), ua(np), rn(n,3)
       real fdat(5,n), f(n,3), ss(n), tt(n), stfk(n), frc(2,n), pld(2,1)
-      real temp(5*n), ufhist(6+2*nh,n), ufeps(1,1)
+      real temp(5*n), ufhist(8+2*nh,n), ufeps(1,1)
       character*6 side
       integer itopaz
       common /thropt/ itopaz(101)
       itopaz(1) = 999
-      nhv = 6 + 2*nh
+      nhv = 8 + 2*nh
       nact = n
       nin = np
       nodes = 5*n
@@ -74,8 +74,8 @@ C       What was slipped before this cycle
         hist(@{first_area},k) = hist(@{first_area},k)*a
 @end
         do i = 1, nh
-          ufhist(4+i,j) = real(hist(i,k), kind(ufhist))
-          ufhist(4+nh+i,j) = real(hist(i,k) - ufhist(4+i,j),
+          ufhist(6+i,j) = real(hist(i,k), kind(ufhist))
+          ufhist(6+nh+i,j) = real(hist(i,k) - ufhist(6+i,j),
      &      kind(ufhist))
         end do
       end do

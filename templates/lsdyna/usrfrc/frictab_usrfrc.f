@@ -11,7 +11,8 @@ C     @{line.text}
 C     UFHIST (NHSV=@{n_history}), by node:
 C     1 accumulated slip (@{length}), 2 friction work per area
 C     (@{stress}*@{length}), 3 peak pressure (@{stress}), 4 cycles in
-C     which the state was outside the range.
+C     which the state was outside the range, 5 and 6 what the solver's
+C     precision rounds off 1 and 2.
 @if has_histories
 @for line in histories
 C     @{line.text}
@@ -49,10 +50,12 @@ C
       double precision x(@{n_x}), d(3), f(3), rn(3), area, pnorm, press
       double precision stiff, slip, speed, rate, proj, hold, fprev, fric
       double precision over, stress
-      double precision scale, ssum, wsum, pmax
-      double precision fttau, ftqnan
+C     Slip and work before this cycle; a sum as UFHIST holds it
+      double precision kept(2), part
+      double precision scale, ssum, pmax
+      double precision fttau, ftqnan, ftlost
       logical ftnan
-      external fttau, ftqnan, ftnan
+      external fttau, ftqnan, ftlost, ftnan
 @if has_ends
       logical ftout
       external ftout
@@ -63,7 +66,6 @@ C
 @end
 @if has_histories
       double precision past(@{n_histories}), next(@{n_histories}), dtime
-      double precision part, lost
 @end
       integer i, ii, j, kk
 C
@@ -129,11 +131,13 @@ C         A contact of another type: tau_R has nothing to act on.
           press = pnorm/area
           speed = 0.0D0
           if (slip .gt. 0.0D0) speed = slip*rate
-          ssum = slip
-          wsum = 0.0D0
+          do i = 1, 2
+            kept(i) = 0.0D0
+            if (nhv .ge. i) kept(i) = ufhist(i,j)
+            if (nhv .ge. 4 + i) kept(i) = kept(i) + ufhist(4+i,j)
+          end do
+          ssum = kept(1) + slip
           pmax = press
-          if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
-          if (nhv .ge. 2) wsum = ufhist(2,j)
           if (nhv .ge. 3) then
             pmax = ufhist(3,j)
             if (.not. ftnan(pmax)) pmax = max(pmax, press)
@@ -144,7 +148,7 @@ C         A contact of another type: tau_R has nothing to act on.
             past(i) = 0.0D0
             if (nhv .ge. @{n_kept}) then
               past(i) = ufhist(@{before_rest}+i,j)
-              past(i) = past(i) + ufhist(4+i,j)
+              past(i) = past(i) + ufhist(6+i,j)
             end if
           end do
           call ftpast(past, press, speed, @{temperature_now}@{area_now}, x)
@@ -171,12 +175,18 @@ C             by is slip; the rest of the motion was elastic.
               if (over .le. 0.0D0) slip = 0.0D0
               speed = 0.0D0
               if (slip .gt. 0.0D0) speed = slip*rate
-              ssum = slip
-              if (nhv .ge. 1) ssum = ssum + ufhist(1,j)
 C             Work: mean of the force before and the force now.
-              wsum = wsum + 0.5D0*(fprev + fric)/area*slip
-              if (nhv .ge. 1) ufhist(1,j) = real(ssum, kind(ufhist))
-              if (nhv .ge. 2) ufhist(2,j) = real(wsum, kind(ufhist))
+              kept(1) = kept(1) + slip
+              kept(2) = kept(2) + 0.5D0*(fprev + fric)/area*slip
+              do i = 1, 2
+                if (nhv .lt. i) exit
+                ufhist(i,j) = real(kept(i), kind(ufhist))
+                if (nhv .ge. 4 + i) then
+                  part = ufhist(i,j)
+                  part = ftlost(kept(i), part)
+                  ufhist(4+i,j) = real(part, kind(ufhist))
+                end if
+              end do
               if (nhv .ge. 3) ufhist(3,j) = real(pmax, kind(ufhist))
               if (nhv .ge. @{n_history}) then
                 stress = fric/area
@@ -196,13 +206,10 @@ C             Work: mean of the force before and the force now.
                 call ftnext(past, press, speed, @{temperature_now}@{area_now}, pmax,
      &            fric/area, slip, dtime, next)
                 do i = 1, @{n_histories}
-                  ufhist(4+i,j) = real(next(i), kind(ufhist))
-                  part = ufhist(4+i,j)
-                  lost = 0.0D0
-                  if (.not. ftnan(part)) then
-                    if (abs(part) .lt. 1.0D300) lost = next(i) - part
-                  end if
-                  ufhist(@{before_rest}+i,j) = real(lost, kind(ufhist))
+                  ufhist(6+i,j) = real(next(i), kind(ufhist))
+                  part = ufhist(6+i,j)
+                  part = ftlost(next(i), part)
+                  ufhist(@{before_rest}+i,j) = real(part, kind(ufhist))
                 end do
               end if
 @end
@@ -230,6 +237,19 @@ C       cycle and added to the node's force.
         fdat(1,ii) = ss(ii)
         fdat(2,ii) = tt(ii)
       end do
+      return
+      end
+C
+C     What a sum has beyond the number that is kept of it; nothing of
+C     an infinite one.
+      double precision function ftlost(whole, part)
+      implicit none
+      double precision whole, part
+      logical ftnan
+      external ftnan
+      ftlost = 0.0D0
+      if (ftnan(part)) return
+      if (abs(part) .lt. 1.0D300) ftlost = whole - part
       return
       end
 C
