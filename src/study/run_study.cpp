@@ -1,11 +1,14 @@
 // Campaigns through the stages of a job, each in a directory of its own.
 #include "study/run_study.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <new>
 #include <stdexcept>
-#include <unordered_set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -61,6 +64,21 @@ CampaignResult run_stages(run::Pipeline& pipeline, LastStage stage) {
   return result;
 }
 
+// The first campaign of each key of this shard. Keys are dealt out in their own order, which has
+// nothing to do with that of the study: as many to each shard (to within one), and none that gets
+// all large campaigns because every n-th is large.
+std::vector<std::size_t> campaigns_of(const Shard& shard, const std::vector<std::uint64_t>& keys) {
+  std::map<std::uint64_t, std::size_t> first;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    first.emplace(keys[i], i);
+  std::vector<std::size_t> out;
+  std::uint64_t place = 0;
+  for (const auto& [key, campaign] : first)
+    if (shard.has(place++)) out.push_back(campaign);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 class StudyRun {
 public:
   StudyRun(const Plan& plan, const RunOptions& options)
@@ -68,9 +86,8 @@ public:
 
   RunCounts run() {
     std::vector<std::size_t> now, last;
-    for (std::size_t i = 0; i < plan_.keys.size(); ++i)
-      if (options_.shard.has(plan_.keys[i]) && seen_.insert(plan_.keys[i]).second)
-        (found_.begun.count(plan_.keys[i]) > 0 ? last : now).push_back(i);
+    for (const std::size_t i : campaigns_of(options_.shard, plan_.keys))
+      (found_.begun.count(plan_.keys[i]) > 0 ? last : now).push_back(i);
     // What ended another process may end this one: the others first.
     now.insert(now.end(), last.begin(), last.end());
     const Progress progress("campaigns", now.size());
@@ -175,7 +192,6 @@ private:
   const RunOptions& options_;
   const std::string& directory_;
   Found found_;
-  std::unordered_set<std::uint64_t> seen_; // keys that two campaigns share
   RunCounts counts_;
 };
 
