@@ -20,6 +20,9 @@ namespace {
 
 // Fewer blur the run-in, more say the same again: 7, 9 and 12 are alike within 0.4 % of the error.
 constexpr std::size_t bins_of_an_experiment = 9;
+// Of more rows those between two edges stay together: what scatters from row to row, and is
+// averaged in condensed rows, then decides no cut.
+constexpr std::size_t cells_of_an_experiment = 880;
 // Of the middle coefficient of all bins: less is noise about zero, of which a logarithm makes much.
 constexpr double least_share = 0.02;
 // How far beyond its outermost bins a state is followed, in shares of their range.
@@ -62,24 +65,6 @@ PolynomialState coordinate(const std::string& name, const data::Dataset& data) {
   return state;
 }
 
-VectorXd standardised(const PolynomialState& state, const data::Dataset& data) {
-  const auto rows = data.values(state.name);
-  VectorXd u(static_cast<Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    u(static_cast<Index>(i)) = state.u(rows[i]);
-  double variance = 0;
-  if (data.condensed) {
-    const Eigen::Map<const VectorXd> weight(data.row_weights().data(), u.size());
-    u.array() -= weight.dot(u) / weight.sum();
-    variance = weight.dot(u.cwiseAbs2()) / weight.sum();
-  } else {
-    u.array() -= u.mean();
-    variance = u.squaredNorm() / static_cast<double>(u.size());
-  }
-  const double spread = std::sqrt(variance);
-  return spread > 0 ? VectorXd(u / spread) : u;
-}
-
 // Rows before each row, and of all: those that condensed ones stand for.
 std::vector<double> rows_before(const data::Dataset& data) {
   std::vector<double> before{0};
@@ -88,13 +73,82 @@ std::vector<double> rows_before(const data::Dataset& data) {
   return before;
 }
 
-// The cuts of one experiment.
+// Where experiments may be cut.
+struct Cells {
+  std::vector<Index> edges; // rows at which a cell begins, and the end
+  std::vector<Index> first; // edge at which each experiment begins, and the last
+  std::vector<double> rows; // before each edge, those that condensed ones stand for
+  MatrixXd sums;            // of the standardised states over those, edges x states
+
+  double rows_in(Index from, Index to) const {
+    return rows[static_cast<std::size_t>(to)] - rows[static_cast<std::size_t>(from)];
+  }
+};
+
+// Of each experiment edges that part its rows evenly; every row where there are few.
+void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double>& before) {
+  for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+    const std::size_t begin = data.first_row[e], end = data.first_row[e + 1];
+    const std::size_t count = std::min(end - begin, cells_of_an_experiment);
+    cells.first.push_back(static_cast<Index>(cells.edges.size()));
+    std::size_t at = begin;
+    for (std::size_t c = 0; c < count; ++c) {
+      const double share = static_cast<double>(c) / static_cast<double>(count);
+      const double wanted = before[begin] + share * (before[end] - before[begin]);
+      if (count == end - begin)
+        at = begin + c;
+      else
+        while (0.5 * (before[at] + before[at + 1]) < wanted)
+          ++at;
+      const auto edge = static_cast<Index>(at);
+      if (c == 0 || edge > cells.edges.back()) cells.edges.push_back(edge);
+    }
+  }
+  cells.first.push_back(static_cast<Index>(cells.edges.size()));
+  cells.edges.push_back(static_cast<Index>(data.rows()));
+  for (const Index edge : cells.edges)
+    cells.rows.push_back(before[static_cast<std::size_t>(edge)]);
+}
+
+// By mean and standard deviation of the cells' means.
+void standardise(Eigen::Ref<VectorXd> sums, const Cells& cells) {
+  const Index count = sums.size() - 1;
+  if (count == 0) return;
+  const double all = cells.rows.back(), mean = sums(count) / all;
+  double variance = 0;
+  for (Index c = 0; c < count; ++c) {
+    const double rows = cells.rows_in(c, c + 1);
+    const double from_mean = (sums(c + 1) - sums(c)) / rows - mean;
+    variance += rows * from_mean * from_mean / all;
+  }
+  for (Index c = 0; c <= count; ++c)
+    sums(c) -= mean * cells.rows[static_cast<std::size_t>(c)];
+  if (variance > 0) sums /= std::sqrt(variance);
+}
+
+// u: the states of the rows, rows x states.
+Cells cells_of(const data::Dataset& data, const MatrixXd& u) {
+  Cells cells;
+  add_edges(cells, data, rows_before(data));
+  const auto edges = static_cast<Index>(cells.edges.size());
+  cells.sums.resize(edges, u.cols());
+  for (Index state = 0; state < u.cols(); ++state) {
+    double sum = 0;
+    Index row = 0;
+    for (Index i = 0; i < edges; ++i) {
+      for (; row < cells.edges[static_cast<std::size_t>(i)]; ++row)
+        sum += data.row_weight(static_cast<std::size_t>(row)) * u(row, state);
+      cells.sums(i, state) = sum;
+    }
+    standardise(cells.sums.col(state), cells);
+  }
+  return cells;
+}
+
+// The cuts of one experiment, as edges of its cells.
 class StateTree {
 public:
-  // sums: of the standardised states over the rows before each, rows + 1 x states; before: those
-  // rows.
-  StateTree(const MatrixXd& sums, const std::vector<double>& before)
-      : sums_(sums), before_(before) {}
+  explicit StateTree(const Cells& cells) : cells_(cells), sums_(cells.sums) {}
 
   std::vector<Index> cuts(Index from, Index to) const {
     std::vector<Part> parts{best_cut(from, to)};
@@ -116,14 +170,14 @@ public:
 private:
   struct Part {
     Index from, to;
-    Index cut = -1;   // -1: a single row
+    Index cut = -1;   // -1: a single cell
     double gain = -1; // what the cut takes off the sum of squares
   };
 
   Part best_cut(Index from, Index to) const {
     Part part{from, to};
     for (Index cut = from + 1; cut < to; ++cut) {
-      const double left = rows_in(from, cut), right = rows_in(cut, to);
+      const double left = cells_.rows_in(from, cut), right = cells_.rows_in(cut, to);
       const double gain =
           left * right / (left + right) *
           ((sums_.row(cut) - sums_.row(from)) / left - (sums_.row(to) - sums_.row(cut)) / right)
@@ -133,12 +187,8 @@ private:
     return part;
   }
 
-  double rows_in(Index from, Index to) const {
-    return before_[static_cast<std::size_t>(to)] - before_[static_cast<std::size_t>(from)];
-  }
-
+  const Cells& cells_;
   const MatrixXd& sums_;
-  const std::vector<double>& before_;
 };
 
 struct RowColumns {
@@ -185,29 +235,20 @@ double median_coefficient(const std::vector<std::vector<BinOfRows>>& bins) {
   return *middle;
 }
 
-std::vector<std::vector<BinOfRows>> cut_experiments(const std::vector<PolynomialState>& states,
-                                                    const data::Dataset& data,
+std::vector<std::vector<BinOfRows>> cut_experiments(const data::Dataset& data,
                                                     const RowColumns& columns) {
-  MatrixXd sums = MatrixXd::Zero(columns.u.rows() + 1, columns.u.cols());
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const VectorXd u = standardised(states[i], data);
-    double sum = 0;
-    for (Index row = 0; row < u.size(); ++row)
-      sums(row + 1, static_cast<Index>(i)) = sum +=
-          data.row_weight(static_cast<std::size_t>(row)) * u(row);
-  }
-  const std::vector<double> before = rows_before(data);
-  const StateTree tree(sums, before);
+  const Cells cells = cells_of(data, columns.u);
+  const StateTree tree(cells);
   std::vector<std::vector<BinOfRows>> bins(data.experiments.size());
   for (std::size_t e = 0; e < bins.size(); ++e) {
-    const auto begin = static_cast<Index>(data.first_row[e]);
-    const auto end = static_cast<Index>(data.first_row[e + 1]);
+    const Index begin = cells.first[e], end = cells.first[e + 1];
     const std::vector<Index> cuts = tree.cuts(begin, end);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
-      BinOfRows bin = bin_of(columns, cuts[b], cuts[b + 1]);
-      const auto at = [&](Index row) { return before[static_cast<std::size_t>(row)]; };
-      bin.position =
-          0.5 * (at(cuts[b]) + at(cuts[b + 1]) - 2 * at(begin)) / (at(end) - at(begin)) - 0.5;
+      const auto row = [&](Index edge) { return cells.edges[static_cast<std::size_t>(edge)]; };
+      BinOfRows bin = bin_of(columns, row(cuts[b]), row(cuts[b + 1]));
+      bin.position = 0.5 * (cells.rows_in(begin, cuts[b]) + cells.rows_in(begin, cuts[b + 1])) /
+                         cells.rows_in(begin, end) -
+                     0.5;
       if (bin.rows > 0) bins[e].push_back(std::move(bin));
     }
   }
@@ -286,7 +327,7 @@ PolynomialBins polynomial_bins(const std::vector<std::string>& names, const data
   for (std::size_t row = 0; row < data.rows(); ++row)
     if (!(columns.stress[row] > 0))
       bins.without_load += static_cast<std::size_t>(data.row_weight(row));
-  const auto all = cut_experiments(bins.states, data, columns);
+  const auto all = cut_experiments(data, columns);
   take_bins(bins, all, least_share * std::max(0.0, median_coefficient(all)),
             conventions.shear_limit);
   if (conventions.shear_limit) bins.limit *= conventions.k_over_sigma_f;

@@ -11,7 +11,7 @@ namespace frictab {
 
 // The remedy where rows need the memory.
 inline constexpr const char* fewer_rows =
-    "every row is held in memory: data.condense = 550 holds means over blocks of each test "
+    "every row is held in memory: data.condense = 880 holds means over blocks of each test "
     "instead, "
     "which say as much of slow friction as all rows; or name fewer bystanders";
 

@@ -1,4 +1,5 @@
 // data.condense as a user meets it: the same laws and errors from blocks as from rows, said so.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -14,16 +15,16 @@ using nlohmann::json;
 using test::CommandResult;
 using testing::HasSubstr;
 
-// SYNTHETIC: 16 tests of 880 rows to train, 8 to validate.
+// SYNTHETIC: 16 tests of 3,520 rows to train, 8 to validate.
 class SlowCondense : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     directory = new test::TemporaryDirectory;
     ASSERT_EQ(run({"twin", "data", "--seed", "3", "--design",
-                   "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=880;validation=8"})
+                   "p=1725,2005;psi=1,20;v=5,500;T=20,200;points=3520;validation=8"})
                   .exit_code,
               0);
-    for (const auto& [name, condense] : {std::pair("rows", "0"), {"blocks", "220"}})
+    for (const auto& [name, condense] : {std::pair("rows", "0"), {"blocks", "880"}})
       directory->write(std::string(name) + ".toml",
                        "[data]\ntraining = \"data/training.csv\"\nvalidation = "
                        "\"data/validation.csv\"\ncondense = " +
@@ -44,9 +45,6 @@ protected:
   static json laws() { // fitted to rows
     return json::parse(directory->read("rows/calibration.json"))["models"];
   }
-  // Nine bins of a test are all it is fitted to, and end where a block ends: its numbers follow
-  // that.
-  static bool is_binned(const json& law) { return law["name"] == "polynomial"; }
   // The same law fitted to blocks.
   static json from_blocks(const json& law) {
     const json all = json::parse(directory->read("blocks/calibration.json"));
@@ -62,7 +60,6 @@ TEST_F(SlowCondense, FindsTheParametersOfTheRows) {
   int compared = 0;
   const json all = laws();
   for (const json& law : all) {
-    if (is_binned(law)) continue;
     const json parameters = law["parameters"], others = from_blocks(law)["parameters"];
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       if (!parameters[p]["std_error"].is_number() || parameters[p]["std_error"] == 0) continue;
@@ -71,8 +68,19 @@ TEST_F(SlowCondense, FindsTheParametersOfTheRows) {
       EXPECT_LT(std::abs(a - b), 0.1 * error) << law["name"] << " " << parameters[p]["name"];
       ++compared;
     }
+    if (!law.contains("polynomial")) continue;
+    const json terms = law["polynomial"]["terms"];
+    const json others_terms = from_blocks(law)["polynomial"]["terms"];
+    for (const json& term : terms)
+      for (const json& other : others_terms)
+        if (other["term"] == term["term"]) {
+          const double error = term["std_error"], a = term["coefficient"], b = other["coefficient"];
+          EXPECT_LT(std::abs(a - b), std::max(0.1 * error, 1e-4)) // of ln mu
+              << term["term"];
+          ++compared;
+        }
   }
-  EXPECT_GT(compared, 15);
+  EXPECT_GT(compared, 60);
 }
 
 TEST_F(SlowCondense, TakesErrorsFromTheRows) {
@@ -84,8 +92,7 @@ TEST_F(SlowCondense, TakesErrorsFromTheRows) {
       EXPECT_EQ(law[part]["n_rows"], other[part]["n_rows"]);
       for (const char* error : {"mae_MPa", "rmse_MPa"}) {
         const double a = law[part][error], b = other[part][error];
-        EXPECT_NEAR(a, b, (is_binned(law) ? 1e-2 : 1e-3) * a)
-            << law["name"] << " " << part << " " << error;
+        EXPECT_NEAR(a, b, 1e-3 * a) << law["name"] << " " << part << " " << error;
       }
     }
   }
@@ -93,9 +100,9 @@ TEST_F(SlowCondense, TakesErrorsFromTheRows) {
 
 TEST_F(SlowCondense, SaysWhatIsOfBlocks) {
   const json condensed = summary("blocks")["condensed"];
-  EXPECT_EQ(condensed["rows"], 24 * 880);
-  EXPECT_GE(condensed["blocks"], 24 * 220);
-  EXPECT_LT(condensed["blocks"], 24 * 240); // with the short ones of a test's start
+  EXPECT_EQ(condensed["rows"], 24 * 3520);
+  EXPECT_GE(condensed["blocks"], 24 * 880);
+  EXPECT_LT(condensed["blocks"], 24 * 900); // with the short ones of a test's start
   EXPECT_FALSE(summary("rows").contains("condensed"));
   EXPECT_THAT(run({"data", "blocks.toml"}).out,
               HasSubstr("means over blocks of rows (data.condense)"));

@@ -9,6 +9,7 @@
 #include "calibrate/polynomial_bins.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "data/condense.h"
 #include "expr/program.h"
 #include "models/assembled_law.h"
 #include "models/polynomial.h"
@@ -271,6 +272,31 @@ TEST(PolynomialBins, FollowTheStatesAndNotTheRows) {
   ASSERT_EQ(bins.states.size(), 1U);
   for (Index b = 0; b < bins.z.rows(); ++b)
     EXPECT_NEAR(std::abs(bins.z(b, 0)), 1, 1e-12) << "no bin straddles the step";
+}
+
+TEST(PolynomialBins, OfCondensedRowsEndWhereThoseOfTheRowsDo) {
+  test::SampleOptions options;
+  options.experiments = 3;
+  options.rows = 7040;
+  options.noise_MPa = 3;
+  Dataset rows = test::sample_data(known_polynomial(), options);
+  set(rows, "sigma_n_MPa", 1000);
+  Random random(1);
+  for (Column& column : rows.columns)
+    if (column.name == "T_contact_C") // rises and falls, and its sensor scatters from row to row
+      for (std::size_t i = 0; i < rows.rows(); ++i)
+        column.values[i] =
+            100 + 40 * std::sin(5e-4 * static_cast<double>(i)) + 20 * random.normal();
+  const Dataset blocks = data::condense(rows, 880, nullptr);
+  ASSERT_LT(blocks.rows(), 3 * 920U);
+  const auto of_rows = calibrate::polynomial_bins({"T_contact_C"}, rows, {});
+  const auto of_blocks = calibrate::polynomial_bins({"T_contact_C"}, blocks, {});
+  ASSERT_EQ(of_rows.position.size(), of_blocks.position.size());
+  for (Index b = 0; b < of_rows.position.size(); ++b) {
+    EXPECT_NEAR(of_rows.position(b), of_blocks.position(b), 1e-12);
+    EXPECT_NEAR(of_rows.ln_mu(b), of_blocks.ln_mu(b), 1e-12);
+    EXPECT_NEAR(of_rows.z(b, 0), of_blocks.z(b, 0), 1e-12);
+  }
 }
 
 // ---- the law ----
