@@ -67,12 +67,12 @@ void check_values(Part& part) {
   causes.tell(part.faults, "row");
 }
 
-void check_computed(Part& part) {
+void check_computed(Part& part, const DataOptions& options) {
   if (!part.faults.empty()) return;
   FaultsByCause causes;
   for (const Column& column : part.data.columns)
     for (std::size_t i = 0; find_quantity(column.name) && i < column.values.size(); ++i)
-      if (!std::isfinite(column.values[i]))
+      if (!std::isfinite(column.values[i]) && (options.measured || !is_measured(column.name)))
         causes.add(column.name,
                    {part.place(i), column.name + " cannot be computed here",
                     "time stands still, a neighbouring row holds no number, or the numbers "

@@ -16,8 +16,9 @@ void check_needed(Part& part, const DataOptions& options);
 // Quantities below their lowest value, and rows without load where eq. 1 divides by it.
 void check_values(Part& part);
 
-// Values that could not be computed though every cell of their row is a number.
-void check_computed(Part& part);
+// Values that could not be computed though every cell of their row is a number; a measured stress
+// where rows need none apart.
+void check_computed(Part& part, const DataOptions& options);
 
 // Time that goes back; tests of one row among others, where they are measured.
 void check_experiments(Part& part, const DataOptions& options);

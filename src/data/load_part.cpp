@@ -60,7 +60,7 @@ void finish_part(Part& part, const DataOptions& options, const Beside& beside) {
   check_values(part);
   check_experiments(part, options);
   integrate_distance(part);
-  check_computed(part);
+  check_computed(part, options);
 }
 
 // What `load` makes of a part; its fault where it throws one.
@@ -83,7 +83,7 @@ Part load_second_part(const FilePlan& plan) {
     drop_missing(part, plan.options);
     tell_cells(part);
     check_values(part);
-    check_computed(part);
+    check_computed(part, plan.options);
   });
 }
 

@@ -226,6 +226,7 @@ private:
 
   void no_value(std::size_t row, std::size_t cell_column, const std::string& canonical,
                 const std::string& text) {
+    if (!options_.measured && is_measured(canonical)) return; // nothing to compare this row with
     cell_fault(row, cell_column, canonical, text.empty() ? Cause::empty : Cause::word_for_empty,
                text.empty() ? "the cell is empty" : text + " stands for no value",
                "repair it, or data.missing = \"drop\" leaves such rows out");

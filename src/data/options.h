@@ -83,8 +83,8 @@ struct DataOptions {
   // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
   std::string experiment;
   Missing missing = Missing::error;
-  // false: rows to predict. They need neither a measured stress nor what it is computed from, and
-  // an experiment may be one row.
+  // false: rows to predict. They need neither a measured stress nor what it is computed from (NaN
+  // where a cell of it is empty), and an experiment may be one row.
   bool measured = true;
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;

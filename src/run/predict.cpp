@@ -112,10 +112,22 @@ void add_band(Prediction& p) {
 
 void add_residuals(Prediction& p) {
   if (!p.data.has("tau_R_MPa")) return;
-  const std::span<const double> measured = p.data.values("tau_R_MPa");
-  for (std::size_t row = 0; row < measured.size(); ++row)
-    p.residual_MPa.push_back(measured[row] - p.tau_MPa[row]);
-  p.errors = calibrate::metrics(measured, p.tau_MPa, p.data.first_row, 0, 0);
+  const std::span<const double> all = p.data.values("tau_R_MPa");
+  std::vector<double> measured, law;
+  std::vector<std::size_t> first_row{0};
+  for (std::size_t e = 0; e < p.data.experiments.size(); ++e) {
+    for (std::size_t row = p.data.first_row[e]; row < p.data.first_row[e + 1]; ++row)
+      if (!std::isnan(all[row])) {
+        measured.push_back(all[row]);
+        law.push_back(p.tau_MPa[row]);
+      }
+    if (measured.size() > first_row.back()) first_row.push_back(measured.size());
+  }
+  p.rows_measured = measured.size();
+  if (measured.empty()) return;
+  for (std::size_t row = 0; row < all.size(); ++row)
+    p.residual_MPa.push_back(all[row] - p.tau_MPa[row]);
+  p.errors = calibrate::metrics(measured, law, first_row, 0, 0);
 }
 
 void add_outside(Prediction& p) {
@@ -236,7 +248,9 @@ void write_prediction(const Prediction& p, std::ostream& out) {
       out << ',' << shortest(p.tau_MPa[row]);
       if (p.band)
         out << ',' << shortest(p.band->low_MPa[row]) << ',' << shortest(p.band->high_MPa[row]);
-      if (p.measured())
+      if (p.measured() && std::isnan(measured[row]))
+        out << ",,";
+      else if (p.measured())
         out << ',' << shortest(measured[row]) << ',' << shortest(p.residual_MPa[row]);
       out << ',' << outside[row] << '\n';
     }
@@ -246,8 +260,11 @@ namespace {
 
 std::string errors_text(const Prediction& p) {
   if (!p.errors) return "No measured stress in the data: nothing to compare with\n";
-  return fmt::format("MAE {:.4g} MPa, RMSE {:.4g} MPa, bias {:.4g} MPa (measured - law)\n",
-                     p.errors->mae_MPa, p.errors->rmse_MPa, p.errors->bias_MPa);
+  const std::size_t without = p.data.rows() - p.rows_measured;
+  return fmt::format(
+      "MAE {:.4g} MPa, RMSE {:.4g} MPa, bias {:.4g} MPa (measured - law{})\n", p.errors->mae_MPa,
+      p.errors->rmse_MPa, p.errors->bias_MPa,
+      without == 0 ? "" : "; " + report::count_of(without, "row") + " without a measured stress");
 }
 
 std::string band_text(const Prediction& p) {
@@ -298,6 +315,7 @@ std::string prediction_json(const Prediction& p) {
     j["mae_MPa"] = p.errors->mae_MPa;
     j["rmse_MPa"] = p.errors->rmse_MPa;
     j["bias_MPa"] = p.errors->bias_MPa;
+    j["n_rows_measured"] = p.rows_measured;
   }
   for (std::size_t i = 0; i < p.inputs.size(); ++i) {
     const auto [low, high] = p.data_range.at(p.inputs[i]);

@@ -47,8 +47,10 @@ struct Prediction {
   std::vector<double> tau_MPa;              // of the law, per row
   bool fitted_to_all = false;               // calibrate::ModelFit
   std::optional<PredictedBand> band;        // none where the calibration has too few experiments
-  std::vector<double> residual_MPa;         // measured - law; empty where nothing was measured
-  std::optional<calibrate::Metrics> errors; // of all rows, without intervals
+  std::vector<double> residual_MPa;         // measured - law, NaN in rows without a measured
+                                            // stress; empty where all are
+  std::size_t rows_measured = 0;            // with a measured stress
+  std::optional<calibrate::Metrics> errors; // of these, without intervals
   std::map<std::string, std::pair<double, double>> data_range; // of the calibration, by input
   // Of each input, rows outside the range of the data that the law was calibrated on, ascending.
   std::vector<std::vector<std::size_t>> outside;

@@ -112,6 +112,32 @@ TEST_F(PredictCommand, RowsWithoutAMeasuredStressHaveLawBandAndWhatIsOutside) {
                 "  sigma_f_MPa: 1 row outside 400 .. 500\n");
 }
 
+TEST_F(PredictCommand, RowsWhoseMeasuredStressAloneIsEmptyArePredictedLikeTheOthers) {
+  const std::string law = directory->write("round.json", round_model());
+  const auto of = [&](const std::string& rows) {
+    const auto result = predict(law, directory->write("some.csv", rows));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result;
+  };
+  const auto some = of("experiment,sigma_n_MPa,sigma_f_MPa,tau_R_MPa\nA,1000,480,\n"
+                       "B,1000,480,105\nB,500,480,n/a\nB,500,480,47\n");
+  EXPECT_EQ(some.out, "experiment,row,sigma_n_MPa,sigma_f_MPa,tau_R_MPa,tau_R_q05_MPa,"
+                      "tau_R_q95_MPa,measured_tau_R_MPa,residual_MPa,outside\n"
+                      "A,1,1000,480,100,82,118,,,\n"
+                      "B,1,1000,480,100,82,118,105,5,\n"
+                      "B,2,500,480,50,41,59,,,\n"
+                      "B,3,500,480,50,41,59,47,-3,\n");
+  EXPECT_THAT(some.err, HasSubstr("\nMAE 4 MPa, RMSE 4.123 MPa, bias 1 MPa (measured - law; 2 rows "
+                                  "without a measured stress)\n"));
+  // Eq. 1: tau_R = F_R/F_N*sigma_n
+  const auto forces = of("experiment,sigma_n_MPa,sigma_f_MPa,F_R_N,F_N_N\nA,1000,480,,50\n"
+                         "A,1000,480,10,\nA,1000,480,5,50\n");
+  EXPECT_THAT(forces.out, HasSubstr("\nA,1,1000,480,100,82,118,,,\nA,2,1000,480,100,82,118,,,\n"
+                                    "A,3,1000,480,100,82,118,100,0,\n"));
+  EXPECT_THAT(of("experiment,sigma_n_MPa,sigma_f_MPa,tau_R_MPa\nA,1000,480,\n").err,
+              HasSubstr("\nNo measured stress in the data"));
+}
+
 TEST_F(PredictCommand, TheTwinsRowsHaveEveryColumn) {
   const auto result = predict(model("log_coulomb"), in_twin("validation.csv"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -188,6 +214,7 @@ TEST_F(PredictCommand, ResultsGoToAFileAndTheSummaryToStderrOrAsJsonToStdout) {
   const auto summary = test::parse_json(json.out);
   EXPECT_EQ(summary["schema"], "frictab/prediction/1");
   EXPECT_EQ(summary["n_rows"], 36);
+  EXPECT_EQ(summary["n_rows_measured"], 36);
   EXPECT_GT(summary["mae_MPa"], 0.0);
   const auto without = predict(model("orowan"), in_twin("validation.csv"), {"--json"});
   EXPECT_EQ(without.exit_code, 2);
