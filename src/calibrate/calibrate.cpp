@@ -149,9 +149,10 @@ void judge_fit(ModelFit& fit, const models::AssembledLaw& law, const Predicted& 
   tell_beyond_ends(fit, law, trained.columns, input);
   fit.training = errors_on(input.training, trained.tau_MPa, input.options);
   if (!on_other_experiments(input.judged_by)) return;
-  const std::vector<double> unseen = predict(fit.model, input.validation);
-  fit.validation = errors_on(input.validation, unseen, input.options);
-  fit.band = check_band(fit.model, unseen, input.validation);
+  const Predicted unseen = predict_with_columns(law, law.inputs, input.validation);
+  check_stress(law.model.law->name, unseen, input.validation);
+  fit.validation = errors_on(input.validation, unseen.tau_MPa, input.options);
+  fit.band = check_band(fit.model, unseen.tau_MPa, input.validation);
 }
 
 ModelFit calibrated(const models::Law& law, const models::Conventions& conventions,
@@ -160,6 +161,7 @@ ModelFit calibrated(const models::Law& law, const models::Conventions& conventio
   ModelFit fit = fit_law(law, conventions, input.training, input.options);
   const models::AssembledLaw assembled(fit.model);
   const Predicted trained = predict_with_columns(assembled, assembled.inputs, input.training);
+  check_stress(law.name, trained, input.training);
   fit.data_range = trained.columns.ranges();
   if (!input.training.condensed) judge_fit(fit, assembled, trained, input);
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

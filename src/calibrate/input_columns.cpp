@@ -75,6 +75,38 @@ std::vector<double> renumbered(const data::Column& column, const std::vector<std
   return values;
 }
 
+// "row 3 of 'E1'"
+std::string row_name(const Dataset& data, std::size_t row) {
+  const auto next = std::upper_bound(data.first_row.begin(), data.first_row.end(), row) - 1;
+  const auto e = static_cast<std::size_t>(next - data.first_row.begin());
+  return fmt::format("row {} of '{}'", row - data.first_row[e] + 1, data.experiments[e]);
+}
+
+// Rows whose value is no number.
+struct NoNumbers {
+  std::size_t first = 0, count = 0;
+
+  explicit NoNumbers(const std::vector<double>& values) {
+    for (std::size_t row = values.size(); row-- > 0;)
+      if (!std::isfinite(values[row])) first = row, ++count;
+  }
+  // "row 3 of 'E1' and 7 more"
+  std::string text(const Dataset& data) const {
+    const std::string name = row_name(data, first);
+    return count > 1 ? name + " and " + thousands(count - 1) + " more" : name;
+  }
+};
+
+// No law has a stress where a state has no value, and no fit a sum over such rows.
+void check_cells(const data::Column& column, const models::Law& law, const Dataset& data) {
+  const NoNumbers empty(column.values);
+  if (empty.count == 0) return;
+  throw InputError(
+      place_of(data),
+      fmt::format("{} is empty in {}, and {} needs it", column.name, empty.text(data), law.name),
+      "repair the cell; in a job data.missing = \"drop\" leaves such rows out of the calibration");
+}
+
 } // namespace
 
 std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
@@ -113,10 +145,11 @@ const double* InputColumns::find(const models::Law& law, std::size_t input) {
   const auto levels = law.levels.find(name);
   if (column && levels == law.levels.end()) {
     if (!column->levels.empty())
-      throw InputError(place_of(*data_),
-                       "column " + column->name + " holds text, where " + law.name +
-                           " takes numbers",
-                       "for example '" + column->levels.front() + "'");
+      throw InputError(
+          place_of(*data_),
+          "column " + column->name + " holds text, where " + law.name + " takes numbers",
+          "for example '" + *std::max_element(column->levels.begin(), column->levels.end()) + "'");
+    check_cells(*column, law, *data_);
     return column->values.data();
   }
   if (column)
@@ -223,6 +256,19 @@ Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std:
     if (round + 1 == most_rounds) does_not_settle(model, data, change);
   }
   return out;
+}
+
+void check_stress(const std::string& law, const Predicted& predicted, const Dataset& data) {
+  const NoNumbers rows(predicted.tau_MPa);
+  if (rows.count == 0) return;
+  std::vector<std::string> states;
+  for (std::size_t i = 0; i < predicted.columns.names().size(); ++i)
+    states.push_back(
+        fmt::format("{} = {:g}", predicted.columns.names()[i], predicted.columns[i][rows.first]));
+  throw InputError(place_of(data), fmt::format("{} gives no stress in {}", law, rows.text(data)),
+                   "a logarithm or a power of a negative number, or a division by 0? The states "
+                   "of the first: " +
+                       join(states, ", "));
 }
 
 InputColumns input_columns(const models::AssembledLaw& law, std::vector<std::string> names,

@@ -23,8 +23,8 @@ std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
 // those of the law's levels, whatever the file's.
 class InputColumns {
 public:
-  // The data must outlive this. Throws InputError that names all inputs the data do not have, and
-  // levels the law does not know.
+  // The data must outlive this. Throws InputError that names all inputs the data do not have,
+  // levels the law does not know, and a column of numbers with a cell that has none.
   InputColumns(const models::Law& law, std::vector<std::string> names, const data::Dataset& data);
 
   InputColumns(InputColumns&&) = default; // not copied: columns may lie in it
@@ -63,6 +63,9 @@ struct Predicted {
 };
 Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std::string> names,
                                const data::Dataset& data);
+
+// Throws InputError where a formula has no value, as a logarithm below 0.
+void check_stress(const std::string& law, const Predicted& predicted, const data::Dataset& data);
 
 // The columns alone; nothing is predicted where no history asks for it.
 InputColumns input_columns(const models::AssembledLaw& law, std::vector<std::string> names,

@@ -1,6 +1,7 @@
 // [data] of a job: which files, and how their columns become canonical ones.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -83,6 +84,8 @@ struct DataOptions {
   // "file+COLUMN"; empty: a column of the name experiment where there is one, else the file.
   std::string experiment;
   Missing missing = Missing::error;
+  // Whether a law of the job takes this recorded column: Missing::drop leaves out rows without it.
+  std::function<bool(const std::string& column)> needed;
   // false: rows to predict. They need neither a measured stress nor what it is computed from (NaN
   // where a cell of it is empty), and an experiment may be one row.
   bool measured = true;

@@ -2,6 +2,8 @@
 #include "run/job_data.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -130,6 +132,17 @@ JobData without_validation_files(const data::DataOptions& options, std::uint64_t
   return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);
 }
 
+// What the laws of the job take beside quantities.
+std::set<std::string> columns_of_laws(const calibrate::ModelOptions& options) {
+  std::set<std::string> names;
+  const auto& use = options.use;
+  for (const auto& law : options.laws.own())
+    if (use.empty() || std::count(use.begin(), use.end(), law->name) > 0)
+      for (const std::string& name : models::inputs(*law, {.shear_limit = false}))
+        if (!data::find_quantity(name) && !data::find_derived(name)) names.insert(name);
+  return names;
+}
+
 // What globs and rules of both lists say together.
 void check_files(const data::DataOptions& options) {
   const auto training = data::find_files(options.training, options.base, options.place);
@@ -175,10 +188,14 @@ JobData load_job_data(const job::Job& job) {
 
 JobData load_job_data(const job::Job& job, FaultList& implausible) {
   check_files(job.data);
-  JobData data = job.data.validation.empty()
-                     ? without_validation_files(job.data, job.calibration.seed, implausible)
-                     : with_validation_files(job.data, implausible);
-  add_oracle(job.data, data);
+  data::DataOptions options = job.data;
+  options.needed = [names = columns_of_laws(job.models)](const std::string& column) {
+    return names.count(column) > 0 || names.count(effects::symbol_of(column)) > 0;
+  };
+  JobData data = options.validation.empty()
+                     ? without_validation_files(options, job.calibration.seed, implausible)
+                     : with_validation_files(options, implausible);
+  add_oracle(options, data);
   data.delivers_all = job.calibration.deliver == calibrate::Deliver::all;
   if (data.delivers_all && data.judged_by == calibrate::JudgedBy::validation_files)
     data.together = data::together(data.training, data.validation);

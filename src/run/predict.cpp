@@ -59,41 +59,6 @@ data::Dataset load_rows(data::DataOptions mapping, const std::vector<std::string
   return data::load_dataset({file}, mapping);
 }
 
-// "row 3 of 'E1'"
-std::string row_name(const data::Dataset& data, std::size_t row) {
-  const auto next = std::upper_bound(data.first_row.begin(), data.first_row.end(), row) - 1;
-  const auto e = static_cast<std::size_t>(next - data.first_row.begin());
-  return fmt::format("row {} of '{}'", row - data.first_row[e] + 1, data.experiments[e]);
-}
-
-// An empty cell of a recorded column; in a quantity it is a fault of reading.
-void check_cells(const Prediction& p) {
-  FaultList faults;
-  for (std::size_t i = 0; i < p.inputs.size(); ++i)
-    for (std::size_t row = 0; !data::find_derived(p.inputs[i]) && row < p.data.rows(); ++row)
-      if (!std::isfinite(p.states[i][row]))
-        faults.add({p.file, 0, 0},
-                   fmt::format("{} is empty in {}, and {} needs it", p.inputs[i],
-                               row_name(p.data, row), p.model.law->name),
-                   "repair the cell, or leave the row out");
-  faults.throw_if_any();
-}
-
-// Where a formula has no value, as a logarithm below 0.
-void check_stress(const Prediction& p) {
-  FaultList faults;
-  for (std::size_t row = 0; row < p.data.rows(); ++row) {
-    if (std::isfinite(p.tau_MPa[row])) continue;
-    std::vector<std::string> states;
-    for (std::size_t i = 0; i < p.inputs.size(); ++i)
-      states.push_back(fmt::format("{} = {:g}", p.inputs[i], p.states[i][row]));
-    faults.add({p.file, 0, 0},
-               fmt::format("{} gives no stress in {}", p.model.law->name, row_name(p.data, row)),
-               "leave the row out; its states: " + join(states, ", "));
-  }
-  faults.throw_if_any();
-}
-
 // ---- predicting ----
 
 std::vector<double> at_quantile(const models::Model& model, double quantile,
@@ -190,11 +155,11 @@ Prediction predict(const LawToPredict& law, const std::string& file) {
   p.data_range = law.fit.data_range;
   p.fitted_to_all = law.fit.fitted_to_all;
   p.data = load_rows(law.mapping, p.inputs, file);
-  const auto [columns, tau] = calibrate::predict_with_columns(assembled, p.inputs, p.data);
-  p.states = columns.values();
-  p.tau_MPa = tau;
-  check_cells(p);
-  check_stress(p);
+  const calibrate::Predicted predicted =
+      calibrate::predict_with_columns(assembled, p.inputs, p.data);
+  calibrate::check_stress(p.model.law->name, predicted, p.data);
+  p.states = predicted.columns.values();
+  p.tau_MPa = predicted.tau_MPa;
   add_band(p);
   add_residuals(p);
   add_outside(p);

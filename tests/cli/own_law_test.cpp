@@ -1,6 +1,9 @@
 // A law of the job file goes the whole way: calibrated, tabulated, exported, verified, read back.
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +58,67 @@ TEST_F(SlowOwnLaw, WrittenLikeARegisteredOneHasItsParametersAndErrors) {
     EXPECT_NEAR(a, b, 1e-4 * b);
   }
   EXPECT_NEAR(mine.at("validation").at("mae_MPa"), orowan.at("validation").at("mae_MPa"), 1e-3);
+}
+
+// SYNTHETIC: 12 tests, stress = 0.1 sigma_n (humidity/50)^-0.5; in one row no humidity.
+class OwnLaw : public testing::Test {
+protected:
+  void SetUp() override {
+    for (const bool with_gap : {true, false}) {
+      std::string rows = "experiment,sigma_n_MPa,humidity_pct,tau_R_MPa\n";
+      for (int test = 0; test < 12; ++test)
+        for (int row = 0; row < 5; ++row) {
+          const bool gap = test == 2 && row == 3;
+          if (gap && !with_gap) continue;
+          const double sigma = 300 + 40 * row + 10 * test, humidity = 30 + 4 * test;
+          rows += fmt::format("E{:02},{},{},{}\n", test, sigma, gap ? "" : std::to_string(humidity),
+                              0.1 * sigma * std::pow(humidity / 50, -0.5));
+        }
+      directory.write(with_gap ? "gap.csv" : "whole.csv", rows);
+    }
+  }
+  CommandResult calibrate(const std::string& file, const std::string& formula,
+                          const std::string& more = "") {
+    directory.write("job.toml", "[data]\ntraining = \"" + file + "\"\n" + more +
+                                    "[models]\nuse = [\"mine\"]\n[models.mine]\nformula = \"" +
+                                    formula +
+                                    "\"\nparameters = { mu = { range = [0.001, 1] }, b = { range "
+                                    "= [-2, 2] } }\n");
+    return run_frictab({"calibrate", "job.toml", "--force"}, directory.path());
+  }
+  static constexpr const char* humid = "mu*sigma_n_MPa*(humidity_pct/50)^b";
+  TemporaryDirectory directory;
+};
+
+TEST_F(OwnLaw, IsNotFittedToRowsThatLackAColumnItTakes) {
+  const CommandResult error = calibrate("gap.csv", humid);
+  EXPECT_EQ(error.exit_code, 2);
+  EXPECT_EQ(error.err, "gap.csv: error: humidity_pct is empty in row 4 of 'E02', and mine needs "
+                       "it\n  hint: repair the cell; in a job data.missing = \"drop\" leaves such "
+                       "rows out of the calibration\n");
+  EXPECT_FALSE(std::filesystem::exists(directory.path("out/calibration.json")));
+  const CommandResult left_out = calibrate("gap.csv", humid, "missing = \"drop\"\n");
+  ASSERT_EQ(left_out.exit_code, 0) << left_out.err;
+  EXPECT_THAT(left_out.out, HasSubstr("\n  left out: 1 rows, no humidity_pct\n"));
+  const auto parameters = [&] {
+    return nlohmann::json::parse(directory.read("out/calibration.json"))["models"][0]["parameters"];
+  };
+  const auto dropped = parameters();
+  EXPECT_NEAR(dropped[1]["value"], -0.5, 1e-6);
+  ASSERT_EQ(calibrate("whole.csv", humid).exit_code, 0);
+  EXPECT_EQ(parameters()[0]["value"], dropped[0]["value"]);
+  EXPECT_EQ(parameters()[1]["value"], dropped[1]["value"]);
+}
+
+TEST_F(OwnLaw, ThatHasNoValueInSomeRowIsAnErrorWithItsStates) {
+  const CommandResult result =
+      calibrate("whole.csv", "mu*sigma_n_MPa*(1 + b*log(humidity_pct - 40))");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err,
+              HasSubstr("whole.csv: error: mine gives no stress in row 1 of 'E00' and 13 "
+                        "more\n  hint: a logarithm or a power of a negative number, or "
+                        "a division by 0? The states of the first: sigma_n_MPa = 300, "
+                        "humidity_pct = 30"));
 }
 
 TEST_F(SlowOwnLaw, GoesTheWholeWayAndIsReadBack) {
