@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/order_statistics.h"
 #include "core/text.h"
 #include "data/derived.h"
@@ -186,6 +190,12 @@ private:
     if (!options_.order.empty()) check(options_.order, options_.order_place);
     if (!options_.tool_distance.empty())
       check(options_.tool_distance, options_.tool_distance_place);
+    const Column* worn = training_.find(options_.tool_distance);
+    if (worn && (!worn->levels.empty() || data::is_measured(worn->name)))
+      faults.add(options_.tool_distance_place,
+                 fmt::format("'{}' is no distance: it {}", worn->name,
+                             worn->levels.empty() ? "is what was measured" : "holds text"),
+                 "a column of numbers: how far the tool had slid before the test");
     faults.throw_if_any();
   }
 
@@ -202,7 +212,7 @@ private:
                                  : column.name == options_.order)
         order = &column;
     }
-    if (!order || order_has_gaps(*order)) return;
+    if (!order || order_has_gaps(*order) || orders_nothing(*order)) return;
     const TestDates dates = sort_dates(order->levels); // time stamps are text
     if (!dates.fault.empty()) {
       not_an_order(*order, dates.fault, "write dates as 2024-09-01");
@@ -213,7 +223,44 @@ private:
       found_.order.push_back(order->levels.empty() ? value
                                                    : dates.place[static_cast<std::size_t>(value)]);
     }
+    part_equals(found_.order);
     found_.order_column = order->name;
+  }
+
+  // Tests of one day, say: in an order that has nothing to do with their names, which often follow
+  // the conditions. (Experiments are sorted by name.)
+  void part_equals(std::vector<double>& order) const {
+    std::vector<std::size_t> place(order.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::vector<std::uint64_t> draw;
+    for (const std::string& name : training_.experiments)
+      draw.push_back(hash_of(name));
+    std::sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
+      return std::tie(order[a], draw[a], a) < std::tie(order[b], draw[b], b);
+    });
+    for (std::size_t i = 0; i < place.size(); ++i)
+      order[place[i]] = static_cast<double>(i);
+  }
+
+  bool orders_nothing(const Column& column) {
+    std::set<double> values;
+    for (std::size_t e = 0; e < training_.experiments.size(); ++e)
+      values.insert(column.values[training_.first_row[e]]);
+    const auto has_digit = [](const std::string& text) {
+      return text.find_first_of("0123456789") != std::string::npos;
+    };
+    std::string why;
+    if (data::is_measured(column.name))
+      why = "it is what was measured";
+    else if (!std::all_of(column.levels.begin(), column.levels.end(), has_digit))
+      why = fmt::format("'{}' is neither a number nor a time stamp",
+                        *std::find_if_not(column.levels.begin(), column.levels.end(), has_digit));
+    else if (values.size() < 3)
+      why = values.size() == 1 ? "every test begins with the same value"
+                               : "the tests begin with two values only";
+    if (why.empty()) return false;
+    not_an_order(column, why, "a number that counts the tests, or when each was made");
+    return true;
   }
 
   // An error where the job names the column; else it is said that it is not used.

@@ -188,6 +188,24 @@ TEST_F(TraceCommand, SaysWhereTheJobNamesAnOrderThatIsNotThere) {
                                     "  hint: did you mean 'run_order'?"));
 }
 
+TEST_F(TraceCommand, TakesNoOrderFromAColumnThatOrdersNothing) {
+  make({});
+  ASSERT_EQ(run_frictab({"calibrate", job}).exit_code, 0);
+  const auto fault = [&](const std::string& set) {
+    const auto result = run_frictab({"trace", job, "--set", "trace." + set});
+    EXPECT_EQ(result.exit_code, 2) << set;
+    return result.err;
+  };
+  EXPECT_THAT(fault("order=time_s"),
+              HasSubstr("time_s, the order of tests: every test begins with the same value\n"
+                        "  hint: a number that counts the tests, or when each was made"));
+  EXPECT_THAT(fault("order=v_rel_mm_s"), HasSubstr("the tests begin with two values only"));
+  EXPECT_THAT(fault("order=tool"), HasSubstr("'A' is neither a number nor a time stamp"));
+  EXPECT_THAT(fault("order=tau_R_MPa"), HasSubstr("it is what was measured"));
+  EXPECT_THAT(fault("tool_distance=tool"), HasSubstr("'tool' is no distance: it holds text"));
+  EXPECT_THAT(fault("tool_distance=tau_R_MPa"), HasSubstr("it is what was measured"));
+}
+
 TEST_F(TraceCommand, CalibratesFirstInAnEmptyDirectory) {
   make({});
   const auto result = run_frictab({"trace", job});
