@@ -122,6 +122,8 @@ std::string source(const ExportRequest& request, const std::vector<InputArgument
   values.lists["refusing"] = fortran::sides(table, table::Outside::error);
   add_arguments(values, request, inputs);
   add_axes(values, table, inputs);
+  values.flags["refuses"] = !values.lists["refusing"].empty();
+  values.flags["compares"] = values.flags["refuses"] || !values.lists["axes"].empty();
   return render_template("fortran/frictab_tau_R.f90", values);
 }
 

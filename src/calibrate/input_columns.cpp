@@ -144,11 +144,14 @@ const double* InputColumns::find(const models::Law& law, std::size_t input) {
   const data::Column* column = recorded_column(name, *data_);
   const auto levels = law.levels.find(name);
   if (column && levels == law.levels.end()) {
-    if (!column->levels.empty())
-      throw InputError(
-          place_of(*data_),
-          "column " + column->name + " holds text, where " + law.name + " takes numbers",
-          "for example '" + *std::max_element(column->levels.begin(), column->levels.end()) + "'");
+    if (!column->levels.empty()) {
+      const auto& all = column->levels; // the first may be that of empty cells
+      const std::string& word = all.front().empty() ? all.back() : all.front();
+      throw InputError(place_of(*data_),
+                       "column " + column->name + " holds text, where " + law.name +
+                           " takes numbers",
+                       "for example '" + word + "'");
+    }
     check_cells(*column, law, *data_);
     return column->values.data();
   }

@@ -26,12 +26,14 @@ constexpr std::size_t comment_width = 66; // columns 7..72
 
 } // namespace
 
-Lines comments(const std::vector<std::string>& texts) {
+Lines comments(const std::vector<std::string>& texts, std::size_t indent) {
   Lines lines;
   for (const std::string& text : texts) {
-    const std::vector<std::string> pieces = wrap_text(comment_text(text), comment_width - 2);
+    const std::vector<std::string> pieces =
+        wrap_text(comment_text(text), comment_width - 2 - indent);
     for (std::size_t i = 0; i < pieces.size(); ++i)
-      lines.push_back(item((i == 0 ? "" : "  ") + pieces[i].substr(0, comment_width - 2)));
+      lines.push_back(item(std::string(indent, ' ') + (i == 0 ? "" : "  ") +
+                           pieces[i].substr(0, comment_width - 2 - indent)));
   }
   return lines;
 }
@@ -49,9 +51,8 @@ std::string in_apostrophes(std::string_view name) {
   return out;
 }
 
-std::string clip(const std::string& text, std::size_t indent) {
-  const std::size_t width = comment_width - indent;
-  return wrap_text(comment_text(text), width)[0];
+std::string clip(const std::string& text) {
+  return wrap_text(comment_text(text), comment_width)[0];
 }
 
 std::string place_of(const Table& table, const std::string& state) {

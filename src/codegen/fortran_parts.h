@@ -11,8 +11,8 @@
 
 namespace frictab::codegen::fortran {
 
-// Comment lines; what does not fit goes on, set in by two blanks.
-Lines comments(const std::vector<std::string>& texts);
+// Comment lines, set in by `indent`; what does not fit goes on, set in by two more.
+Lines comments(const std::vector<std::string>& texts, std::size_t indent = 0);
 
 // Interfaces of the system's lock, <stem>lock(lock) and <stem>free(lock): subroutines on Windows,
 // else functions.
@@ -21,8 +21,8 @@ std::string locks(const std::string& stem, bool windows);
 // What may stand between apostrophes in a line of Fortran: 30 characters of a name.
 std::string in_apostrophes(std::string_view name);
 
-// The first line of a remark that is set in by `indent`: what follows is in the head of the file.
-std::string clip(const std::string& text, std::size_t indent = 0);
+// The first line of a remark: what follows is in the head of the file.
+std::string clip(const std::string& text);
 
 // "double precision mu, k, ..."
 Lines declarations(const std::vector<std::string>& names);

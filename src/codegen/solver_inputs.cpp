@@ -95,6 +95,12 @@ public:
   // When a property stands in for what the solver gives.
   std::string without() const { return input_.source == Source::given ? given_->without : ""; }
 
+  // In canonical units, whatever the solver's.
+  std::string constant_text() const {
+    const std::string& unit = input_.argument.unit;
+    return "constant " + shortest(*input_.fallback) + (unit == "1" ? "" : " " + unit);
+  }
+
   bool needs_property() const { return input_.source == Source::property || !without().empty(); }
 
   std::string text() const {
@@ -109,7 +115,7 @@ public:
     case Source::field:
       return insert_names(gives_.field.text, numbers);
     case Source::constant:
-      return input_.fallback ? "constant " + shortest(*input_.fallback) : "not known: NaN";
+      return input_.fallback ? constant_text() : "not known: NaN";
     case Source::history:
       if (input_.smoothed_over > 0)
         return fmt::format("{}, smoothed over {} increments by {}", given_->text,
@@ -330,7 +336,8 @@ public:
   std::string out;
 
   void comment(const std::string& text) {
-    add("C     " + std::string(indent_, ' ') + clip(text, indent_));
+    for (const TemplateValues& line : comments({text}, indent_))
+      add("C     " + line.text.at("text"));
   }
 
   // A statement per line; its own leading blanks stay.

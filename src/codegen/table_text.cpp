@@ -43,13 +43,17 @@ std::string range_text(const InputArgument& input, const table::Table& table) {
 
 std::vector<std::string> outside_lines(const table::Table& table) {
   std::vector<std::string> lines;
-  bool all_clamp = true;
+  bool all_clamp = true, some_error = false;
   for (const table::TableAxis& axis : table.axes) {
     all_clamp = all_clamp && axis.below == Outside::clamp && axis.above == Outside::clamp;
+    some_error = some_error || axis.below == Outside::error || axis.above == Outside::error;
     lines.push_back(fmt::format("{} below {:.6g}: {}, above {:.6g}: {}", axis.name,
                                 axis.nodes.front(), outside_text(axis.below), axis.nodes.back(),
                                 outside_text(axis.above)));
   }
+  if (some_error)
+    lines.push_back("An error begins a millionth of its value beyond an end: single precision "
+                    "misses ends by less.");
   return all_clamp ? std::vector<std::string>{} : lines;
 }
 

@@ -243,9 +243,7 @@ private:
   }
 
   bool orders_nothing(const Column& column) {
-    std::set<double> values;
-    for (std::size_t e = 0; e < training_.experiments.size(); ++e)
-      values.insert(column.values[training_.first_row[e]]);
+    const std::size_t values = values_of_tests(column, training_);
     const auto has_digit = [](const std::string& text) {
       return text.find_first_of("0123456789") != std::string::npos;
     };
@@ -255,9 +253,9 @@ private:
     else if (!std::all_of(column.levels.begin(), column.levels.end(), has_digit))
       why = fmt::format("'{}' is neither a number nor a time stamp",
                         *std::find_if_not(column.levels.begin(), column.levels.end(), has_digit));
-    else if (values.size() < 3)
-      why = values.size() == 1 ? "every test begins with the same value"
-                               : "the tests begin with two values only";
+    else if (values < 3)
+      why = values == 1 ? "every test begins with the same value"
+                        : "the tests begin with two values only";
     if (why.empty()) return false;
     not_an_order(column, why, "a number that counts the tests, or when each was made");
     return true;
@@ -433,6 +431,13 @@ bool may_act_with_others(const CandidateColumn& column) {
 }
 
 } // namespace
+
+std::size_t values_of_tests(const Column& column, const Dataset& data) {
+  std::set<double> values;
+  for (std::size_t e = 0; e < data.experiments.size(); ++e)
+    values.insert(column.values[data.first_row[e]]);
+  return values.size();
+}
 
 Candidates find_candidates(const Dataset& training, const Dataset& validation, const Blocks& blocks,
                            Rows predicted, const std::vector<std::string>& inputs,

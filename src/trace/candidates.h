@@ -41,10 +41,14 @@ struct Candidates {
 };
 
 // `predicted`: the law's tau_R per row, from which work is integrated (never from measured tau_R).
-// Throws InputError where the options `ignore`, `order` or `tool_distance` name no column.
+// Throws InputError where the options `ignore`, `order` or `tool_distance` name no column, or one
+// that orders nothing or is no distance.
 Candidates find_candidates(const data::Dataset& training, const data::Dataset& validation,
                            const Blocks& blocks, std::span<const double> predicted,
                            const std::vector<std::string>& inputs, const TraceOptions& options);
+
+// In how many different values of a column the tests begin. Fewer than 3 order nothing.
+std::size_t values_of_tests(const data::Column& column, const data::Dataset& data);
 
 // What an effect may follow: one column, or two or three of them that act together.
 struct Cause {

@@ -80,6 +80,8 @@ FoldErrors fold_errors(const Search& all, const data::Dataset& training,
   const std::size_t most = all.findings.size();
   TraceOptions options = input.options;
   options.order = all.candidates.order_column; // a part of the tests is not numbered from 1 to n
+  const data::Column* order = training.find(options.order);
+  if (order && values_of_tests(*order, training) < 3) options.order.clear(); // but of all it is one
   const TraceInput part{training, input.validation, input.fit,
                         options,  input.bootstrap,  input.seed};
   const auto search = search_effects(part, {199, 299, &all.base.noise});

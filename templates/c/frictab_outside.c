@@ -1,3 +1,4 @@
+/* A NaN is never compared by size: where invalid operations trap, that does. */
 unsigned frictab_outside(
     @{parameters}) {
   unsigned outside = 0u;
@@ -7,7 +8,7 @@ unsigned frictab_outside(
 @for end in ends
   {
     const double x = @{end.canonical}; /* @{end.name} */
-    if (x < @{end.low} || x > @{end.high}) outside |= @{end.bit}u;
+    if (x == x && (x < @{end.low} || x > @{end.high})) outside |= @{end.bit}u;
   }
 @end
   return outside;
@@ -26,8 +27,10 @@ void frictab_count_outside(
 @for end in ends
     {
       const double x = @{end.element}; /* @{end.name} */
-      counts[@{end.first}] += x < @{end.low} ? 1ul : 0ul;
-      counts[@{end.second}] += x > @{end.high} ? 1ul : 0ul;
+      if (x == x) {
+        counts[@{end.first}] += x < @{end.low} ? 1ul : 0ul;
+        counts[@{end.second}] += x > @{end.high} ? 1ul : 0ul;
+      }
     }
 @end
   }

@@ -145,7 +145,9 @@ contains
     ft_bits = 0
 @for axis in axes
     associate (x => @{axis.canonical})
-      if (x < @{axis.low} .or. x > @{axis.high}) ft_bits = ibset(ft_bits, @{axis.bit})
+      if (.not. ft_nan(x)) then
+        if (x < @{axis.low} .or. x > @{axis.high}) ft_bits = ibset(ft_bits, @{axis.bit})
+      end if
     end associate
 @end
   end function frictab_outside
@@ -160,16 +162,28 @@ contains
     if (ftrefu(x)) tau = ftqnan()
   end function ftsolv
 
-  ! True beyond a side with outside = error.
+  ! True beyond a side with outside = error. A NaN gives NaN anyway.
   pure function ftrefu(x) result(refuses)
     real(c_double), intent(in) :: x(@{n_x})
     logical :: refuses
     associate (ft_unused => x); end associate
     refuses = .false.
+@if refuses
+    if (any(ft_nan(x))) return
+@end
 @for side in refusing
     if (x(@{side.index}) @{side.relation} @{side.limit}) refuses = .true.
 @end
   end function ftrefu
 
+@if compares
+  ! By its bits: where invalid operations trap, to compare a NaN does.
+  elemental function ft_nan(x) result(is_nan)
+    real(c_double), intent(in) :: x
+    logical :: is_nan
+    is_nan = ibclr(transfer(x, 0_c_int64_t), 63) > 9218868437227405312_c_int64_t
+  end function ft_nan
+
+@end
 @{core}
 end module frictab_law

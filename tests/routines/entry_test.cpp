@@ -83,6 +83,26 @@ TEST_P(SlowEntryOf, GivesNaNForNaNInWhatItUsesOnly) {
   }
 }
 
+TEST_P(SlowEntryOf, ComparesNoNaNWhereInvalidOperationsTrap) {
+  static const table::Table table = test::sides_table(); // with ends that are errors
+  const codegen::ExportRequest request{table, "mm-t-s", {}};
+  const codegen::Exporter& exporter = *codegen::find_exporter(GetParam());
+  const codegen::Library& sides =
+      *test::compiled("sides", exporter, request, exporter.variants(request)[0].name);
+  const auto entry = sides.find<Entry>("frictab_tau_R");
+  const auto outside = sides.find<Outside>("frictab_outside");
+  const auto gradient = sides.find<double(double, double, double, double, double, double, double*)>(
+      "frictab_tau_R_gradient");
+  for (const std::size_t i : {0, 2, 3, 5}) {
+    double x[] = {1000, 2, 900, 100, 1, 480}, slopes[6]; // beyond an end that is an error
+    x[i] = nan;
+    const test::FloatTraps traps;
+    EXPECT_TRUE(std::isnan(entry(x[0], x[1], x[2], x[3], x[4], x[5]))) << i;
+    EXPECT_TRUE(std::isnan(gradient(x[0], x[1], x[2], x[3], x[4], x[5], slopes))) << i;
+    EXPECT_EQ(outside(x[0], x[1], x[2], x[3], x[4], x[5]), i == 2 ? 0u : 2u) << i;
+  }
+}
+
 TEST_P(SlowEntryOf, ClampsInfinitiesToTheEdgeOfTheTable) {
   const auto entry = library().find<Entry>("frictab_tau_R");
   EXPECT_EQ(entry(1000, inf, 50, 100, 0, 480), entry(1000, 20, 50, 100, 0, 480));

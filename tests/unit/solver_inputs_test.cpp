@@ -63,7 +63,7 @@ TEST(SolverInputs, AreReadInThePartOfTheRoutineThatTheTableSays) {
             "      else\n"
             "        x(2) = 4.47213595499958D0\n"
             "      end if\n"
-            "C     sigma_f_MPa: constant 480\n"
+            "C     sigma_f_MPa: constant 480 MPa\n"
             "      x(5) = 480.0D0");
 }
 

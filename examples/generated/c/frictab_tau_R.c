@@ -422,6 +422,7 @@ double frictab_tau_R(
       sigma_n_MPa, psi, v_rel_mm_s, T_contact_C, s_mm, sigma_f_MPa);
 }
 
+/* A NaN is never compared by size: where invalid operations trap, that does. */
 unsigned frictab_outside(
     double sigma_n_MPa, double psi, double v_rel_mm_s, double T_contact_C, double s_mm,
     double sigma_f_MPa) {
@@ -431,15 +432,15 @@ unsigned frictab_outside(
   (void)sigma_f_MPa;
   {
     const double x = sigma_n_MPa; /* sigma_n_MPa */
-    if (x < 500.0 || x > 2750.0) outside |= 1u;
+    if (x == x && (x < 500.0 || x > 2750.0)) outside |= 1u;
   }
   {
     const double x = v_rel_mm_s; /* v_rel_mm_s */
-    if (x < 5.0 || x > 500.0) outside |= 2u;
+    if (x == x && (x < 5.0 || x > 500.0)) outside |= 2u;
   }
   {
     const double x = T_contact_C; /* T_contact_C */
-    if (x < 20.0 || x > 200.0) outside |= 4u;
+    if (x == x && (x < 20.0 || x > 200.0)) outside |= 4u;
   }
   return outside;
 }
@@ -456,18 +457,24 @@ void frictab_count_outside(
   for (i = 0; i < n; ++i) {
     {
       const double x = sigma_n_MPa[i]; /* sigma_n_MPa */
-      counts[0] += x < 500.0 ? 1ul : 0ul;
-      counts[1] += x > 2750.0 ? 1ul : 0ul;
+      if (x == x) {
+        counts[0] += x < 500.0 ? 1ul : 0ul;
+        counts[1] += x > 2750.0 ? 1ul : 0ul;
+      }
     }
     {
       const double x = v_rel_mm_s[i]; /* v_rel_mm_s */
-      counts[2] += x < 5.0 ? 1ul : 0ul;
-      counts[3] += x > 500.0 ? 1ul : 0ul;
+      if (x == x) {
+        counts[2] += x < 5.0 ? 1ul : 0ul;
+        counts[3] += x > 500.0 ? 1ul : 0ul;
+      }
     }
     {
       const double x = T_contact_C[i]; /* T_contact_C */
-      counts[4] += x < 20.0 ? 1ul : 0ul;
-      counts[5] += x > 200.0 ? 1ul : 0ul;
+      if (x == x) {
+        counts[4] += x < 20.0 ? 1ul : 0ul;
+        counts[5] += x > 200.0 ? 1ul : 0ul;
+      }
     }
   }
 }

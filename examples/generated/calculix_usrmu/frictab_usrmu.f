@@ -17,8 +17,8 @@ C     v_rel_mm_s: tangential part of AL over the time increment (0
 C       where that is 0); 5 .. 500 mm/s
 C     T_contact_C: T1L, where it is not 0: a deck without temperatures
 C       gives 0; 20 .. 200 degC
-C     sigma_f_MPa: constant 480; 240 .. 960 MPa (no axis: any value,
-C       verified there)
+C     sigma_f_MPa: constant 480 MPa; 240 .. 960 MPa (no axis: any
+C       value, verified there)
 C     Outside the range the table's value at the nearest edge is used;
 C       stress and flow stress enter the formula unchanged.
 C     NaN in gives NaN out.
@@ -73,15 +73,17 @@ C     NaN first: nothing below compares with one.
       end if
 C     sigma_n_MPa: DFNL/SPRINGAREA(1) of the contact point
       x(1) = press
-C     v_rel_mm_s: tangential part of AL over the time increment (0 where
+C     v_rel_mm_s: tangential part of AL over the time increment (0
+C       where that is 0)
       x(2) = speed
 C     T_contact_C: T1L, where it is not 0: a deck without temperatures
+C       gives 0
       if (warm) then
         x(3) = t1l
       else
         x(3) = 110.0D0
       end if
-C     sigma_f_MPa: constant 480
+C     sigma_f_MPa: constant 480 MPa
       x(4) = cst(4)
       um = ftcoef(x, press, 0.0D0)
       return

@@ -166,13 +166,19 @@ contains
     associate (ft_unused => sigma_f_MPa); end associate
     ft_bits = 0
     associate (x => sigma_n_MPa)
-      if (x < 500.0D0 .or. x > 2750.0D0) ft_bits = ibset(ft_bits, 0)
+      if (.not. ft_nan(x)) then
+        if (x < 500.0D0 .or. x > 2750.0D0) ft_bits = ibset(ft_bits, 0)
+      end if
     end associate
     associate (x => v_rel_mm_s)
-      if (x < 5.0D0 .or. x > 500.0D0) ft_bits = ibset(ft_bits, 1)
+      if (.not. ft_nan(x)) then
+        if (x < 5.0D0 .or. x > 500.0D0) ft_bits = ibset(ft_bits, 1)
+      end if
     end associate
     associate (x => T_contact_C)
-      if (x < 20.0D0 .or. x > 200.0D0) ft_bits = ibset(ft_bits, 2)
+      if (.not. ft_nan(x)) then
+        if (x < 20.0D0 .or. x > 200.0D0) ft_bits = ibset(ft_bits, 2)
+      end if
     end associate
   end function frictab_outside
 
@@ -186,13 +192,20 @@ contains
     if (ftrefu(x)) tau = ftqnan()
   end function ftsolv
 
-  ! True beyond a side with outside = error.
+  ! True beyond a side with outside = error. A NaN gives NaN anyway.
   pure function ftrefu(x) result(refuses)
     real(c_double), intent(in) :: x(4)
     logical :: refuses
     associate (ft_unused => x); end associate
     refuses = .false.
   end function ftrefu
+
+  ! By its bits: where invalid operations trap, to compare a NaN does.
+  elemental function ft_nan(x) result(is_nan)
+    real(c_double), intent(in) :: x
+    logical :: is_nan
+    is_nan = ibclr(transfer(x, 0_c_int64_t), 63) > 9218868437227405312_c_int64_t
+  end function ft_nan
 
   ! tau_R in MPa of the state x in canonical units:
   ! x(1) sigma_n_MPa, contact normal stress, compression positive

@@ -167,6 +167,7 @@ C         sigma_n_MPa: -FNI/AREAS of the node
 C         v_rel_mm_s: tangential part of DX, DY, DZ, times FDT2
           x(2) = speed
 C         T_contact_C: mean of the node and the segment where it
+C           touches; UA(1) where no temperatures are computed
           if (itopaz(1) .eq. 999) then
             h1 = 0.25D0*(1.0D0 - ss(ii))*(1.0D0 - tt(ii))
             h2 = 0.25D0*(1.0D0 + ss(ii))*(1.0D0 - tt(ii))
