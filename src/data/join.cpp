@@ -169,11 +169,16 @@ class Join {
 public:
   Join(Part& part, const Dataset& second, const JoinOptions& options)
       : part_(part), second_(second), options_(options), rows_(part.data.rows()) {
-    for (const Column& column : second.columns)
-      if (column.name != options.by && !part.data.has(column.name))
-        added_.push_back(
-            {column.name, column.unit, std::vector<double>(rows_, no_value), column.levels}),
-            from_.push_back(&column);
+    for (const Column& column : second.columns) {
+      if (column.name == options.by) continue;
+      if (part.data.has(column.name)) {
+        in_both_.push_back(column.name);
+        continue;
+      }
+      added_.push_back(
+          {column.name, column.unit, std::vector<double>(rows_, no_value), column.levels});
+      from_.push_back(&column);
+    }
   }
 
   void join() {
@@ -273,6 +278,9 @@ private:
     for (const Column& column : added_)
       names.push_back(column.name);
     part_.data.notes.push_back(fmt::format("joined by {}: {}", options_.by, join_names(names)));
+    if (!in_both_.empty())
+      part_.data.notes.push_back("of data.join not taken, the rows have their own: " +
+                                 join_names(in_both_));
     if (!alone_.empty())
       part_.data.notes.push_back("without a partner in data.join: " + join_names(alone_));
   }
@@ -286,6 +294,7 @@ private:
   const JoinOptions& options_;
   std::size_t rows_;
   std::vector<Column> added_;
+  std::vector<std::string> in_both_;
   std::vector<const Column*> from_; // in the second set, of each
   std::vector<char> keep_;
   std::vector<std::string> alone_;

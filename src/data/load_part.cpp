@@ -152,6 +152,12 @@ void complete(Dataset& all, const DataOptions& options, const Beside& beside) {
                      "offset is added to the clock of data.join");
   if (std::string text = clocks_text(all.clocks, options.join); !text.empty())
     all.notes.push_back(std::move(text));
+  if (beside.second)
+    for (const Dataset::Dropped& dropped : beside.second->dropped)
+      all.notes.push_back(
+          fmt::format("data.join: {} {} left out ({}): its columns are interpolated "
+                      "between those before and behind",
+                      thousands(dropped.rows), dropped.rows == 1 ? "row" : "rows", dropped.rule));
   all.unused = unused_tests(all, beside);
   fingerprint(all);
 }

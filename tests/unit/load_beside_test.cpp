@@ -178,6 +178,19 @@ TEST_F(LoadJoin, BringsTheColumnsOfASimulationOntoTheRigsRows) {
   EXPECT_THAT(column(load_dataset({"rig/a.csv"}, options), "sigma_n_MPa"), ElementsAre(100, 150));
 }
 
+TEST_F(LoadJoin, TellsWhatOfItIsNotTaken) {
+  file("rig/a.csv", "time_s,F_R_N,F_N_N\n0,1,10\n0.25,1,10\n0.75,1,10\n");
+  file("fe/a.csv", "time_s,sigma_n_MPa,F_N_N\n0,100,9\n0.25,,9\n0.5,,9\n1,300,9\n");
+  options.join.offset = {0.0};
+  options.missing = data::Missing::drop;
+  const Dataset data = load_dataset({"rig/a.csv"}, options);
+  EXPECT_THAT(column(data, "sigma_n_MPa"), ElementsAre(100, 150, 250));
+  EXPECT_THAT(data.notes,
+              Contains("data.join: 2 rows left out (an empty cell): its columns are interpolated "
+                       "between those before and behind"));
+  EXPECT_THAT(data.notes, Contains("of data.join not taken, the rows have their own: F_N_N"));
+}
+
 TEST_F(LoadJoin, FindsTheOffsetOfTheClocks) {
   two_clocks("a", 0.07);
   two_clocks("b", -0.123);
