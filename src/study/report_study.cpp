@@ -94,6 +94,12 @@ Tally read_results(const Plan& plan, const std::filesystem::path& table) {
 } // namespace
 
 Tally report_study(const Plan& plan) {
+  const Counts there = counts_of(plan, Found(plan.study.directory));
+  if (there.done + there.failed == 0)
+    throw InputError(
+        {}, "there is no result in " + plan.study.directory,
+        "`frictab study run` computes them; where it has, give the -o, --stage and "
+        "--set it had. A study that cannot be written to is reported from a copy of it");
   io::OutputFiles files(plan.study.directory);
   Tally tally = read_results(plan, files.stage("campaigns.csv"));
   files.write("report.html", study_html(plan, tally));

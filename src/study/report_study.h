@@ -9,7 +9,7 @@
 namespace frictab::study {
 
 // Reads the results one by one and writes both files into the study's directory, whatever is
-// missing. Throws InputError for results that cannot be read.
+// missing. Throws InputError for results that cannot be read, and where there are none.
 Tally report_study(const Plan& plan);
 
 // The page; the same tally gives the same bytes.

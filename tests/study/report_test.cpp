@@ -136,7 +136,10 @@ TEST_F(StudyReport, AdviceRepeatsWhatTheCommandLineSaid) {
 }
 
 TEST_F(StudyReport, WithoutResultsSaysSo) {
-  study::report_study(plan(2));
+  const study::Plan all = plan(2);
+  EXPECT_THROW(study::report_study(all), InputError) << "the wrong directory?";
+  study::write_failure(all.study.directory, all.keys[1], {"twin-2", "no rows", true});
+  study::report_study(all);
   const std::string page = directory.read("study/report.html");
   EXPECT_THAT(page, HasSubstr("No campaign has a result yet."));
   EXPECT_THAT(page, Not(HasSubstr("nan")));

@@ -92,6 +92,16 @@ TEST_F(StudyRun, ReportsTheSameBytesAgain) {
   EXPECT_EQ(directory.read("study/campaigns.csv"), table);
 }
 
+TEST_F(StudyRun, OfWhichNothingIsThereIsNotReported) {
+  directory.write("study.toml", test::twin_study(2));
+  ASSERT_EQ(frictab({"study", "run"}).exit_code, 0);
+  const CommandResult elsewhere = frictab({"study", "report", "-o", "elsewhere"});
+  EXPECT_EQ(elsewhere.exit_code, 2);
+  EXPECT_THAT(elsewhere.err, HasSubstr("error: there is no result in "));
+  EXPECT_THAT(elsewhere.err, HasSubstr("give the -o, --stage and --set it had"));
+  EXPECT_FALSE(fs::exists(directory.path("elsewhere")));
+}
+
 TEST_F(SlowStudyRun, ThatIsKilledIsFinishedByTheNextToTheSameBytes) {
   directory.write("study.toml", test::twin_study(24));
   ASSERT_EQ(frictab({"study", "run", "-j1", "-o", "whole"}).exit_code, 0);
