@@ -98,7 +98,7 @@ void add_edges(Cells& cells, const data::Dataset& data, const std::vector<double
       if (count == end - begin)
         at = begin + c;
       else
-        while (0.5 * (before[at] + before[at + 1]) < wanted)
+        while (at + 1 < end && 0.5 * (before[at] + before[at + 1]) < wanted) // blocks may be long
           ++at;
       const auto edge = static_cast<Index>(at);
       if (c == 0 || edge > cells.edges.back()) cells.edges.push_back(edge);

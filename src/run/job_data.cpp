@@ -137,7 +137,7 @@ std::set<std::string> columns_of_laws(const calibrate::ModelOptions& options) {
   std::set<std::string> names;
   const auto& use = options.use;
   for (const auto& law : options.laws.own())
-    if (use.empty() || std::count(use.begin(), use.end(), law->name) > 0)
+    if (law->build && (use.empty() || std::count(use.begin(), use.end(), law->name) > 0))
       for (const std::string& name : models::inputs(*law, {.shear_limit = false}))
         if (!data::find_quantity(name) && !data::find_derived(name)) names.insert(name);
   return names;

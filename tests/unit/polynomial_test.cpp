@@ -299,6 +299,26 @@ TEST(PolynomialBins, OfCondensedRowsEndWhereThoseOfTheRowsDo) {
   }
 }
 
+// A text column that changes in every row of the beginning makes blocks of one row there, beside
+// long ones behind.
+TEST(PolynomialBins, OfBlocksOfVeryUnequalLengthStayInTheirExperiment) {
+  test::SampleOptions options;
+  options.experiments = 3;
+  options.rows = 20000;
+  Dataset rows = test::sample_data(known_polynomial(), options);
+  Column mode{"mode", "", {}, {"a", "b"}};
+  for (std::size_t i = 0; i < rows.rows(); ++i)
+    mode.values.push_back(i % options.rows < 900 ? static_cast<double>(i % 2) : 0.0);
+  rows.columns.push_back(mode);
+  const Dataset blocks = data::condense(rows, 10, nullptr);
+  ASSERT_GT(blocks.rows(), 3 * 880U);
+  const auto bins = calibrate::polynomial_bins({"sigma_n_MPa", "v_rel_mm_s"}, blocks, {});
+  ASSERT_EQ(bins.experiments(), 3U);
+  EXPECT_NEAR(bins.rows.sum(), 3 * 20000.0, 1e-6) << "each row is in one bin";
+  for (Index b = 0; b < bins.position.size(); ++b)
+    EXPECT_LE(std::abs(bins.position(b)), 0.5);
+}
+
 // ---- the law ----
 
 TEST(Polynomial, RecoversAKnownPolynomialOfSecondOrder) {
