@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/text.h"
+
 namespace frictab::data {
 
 Column* Part::find(std::string_view name) {
@@ -58,21 +60,37 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
   part.counted_notes = std::move(mapped.counted_notes);
 }
 
+namespace {
+
+// "E1, E2 and 7 more"
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t most = 12;
+  const std::size_t more = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - more);
+  return join(names, ", ") + (more > 0 ? " and " + thousands(more) + " more" : "");
+}
+
+} // namespace
+
 void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none) {
   Dataset& data = part.data;
   std::vector<std::size_t> first{0};
-  std::vector<std::string> names;
+  std::vector<std::string> names, gone;
   std::vector<std::size_t> kept;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
       if (keep[i]) kept.push_back(i);
-    if (kept.size() == first.back()) continue; // nothing of it is left
+    if (kept.size() == first.back()) { // nothing of it is left
+      gone.push_back(data.experiments[e]);
+      continue;
+    }
     names.push_back(data.experiments[e]);
     first.push_back(kept.size());
   }
   if (kept.size() == part.row.size()) return;
   if (kept.empty() && if_none && part.whole_file && part.faults.empty())
     part.faults.add({part.raw.file, 0, 0}, if_none);
+  if (if_none && !gone.empty()) data.notes.push_back("no row is left of " + some_of(gone));
   for (Column& column : data.columns) {
     std::vector<double> values;
     for (const std::size_t i : kept)

@@ -41,8 +41,8 @@ private:
 // experiment of a file that is one.
 void gather_experiments(Part& part, MappedFile&& mapped, const std::string& label);
 
-// The rows whose `keep` is not 0; an experiment without a row goes. Where no row is left, that is a
-// fault, in these words (nullptr: it is none).
+// The rows whose `keep` is not 0; an experiment without a row goes. With `if_none` a note names
+// those, and where no row is left at all, that is a fault in these words.
 void keep_rows(Part& part, const std::vector<char>& keep, const char* if_none);
 
 } // namespace frictab::data

@@ -66,6 +66,7 @@ TEST_F(DataCommand, ShowsEachTestAndWhatWasDoneToIt) {
             "read: F_N_N: kN as the file says, taken as N\n"
             "read: tests.csv: batch, by test\n"
             "read: joined by time_s: sigma_n_MPa\n"
+            "read: of data.join not taken, the rows have their own: F_N_N\n"
             "read: v_rel_mm_s = rpm*2*pi*5/60\n"
             "read: tau_R_MPa = F_R_N/F_N_N * sigma_n_MPa (eq. 1)\n"
             "read: s_mm integrated from v_rel_mm_s and time_s\n"

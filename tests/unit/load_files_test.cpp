@@ -313,6 +313,14 @@ TEST_F(LoadFiles, HaveRowsWithEmptyCellsLeftOutAndCountedWhereTheJobSaysSo) {
               HasSubstr("'x' is not a number"));
 }
 
+TEST_F(LoadFiles, NameTestsOfWhichNoRowIsLeft) {
+  options.missing = data::Missing::drop;
+  const Dataset data = read("experiment,F_R_N,F_N_N,sigma_n_MPa\nE1,1,10,5\nE2,,10,5\nE3,2,10,5\n"
+                            "E4,,10,5\nE4,,10,6\n");
+  EXPECT_THAT(data.experiments, ElementsAre("E1", "E3"));
+  EXPECT_THAT(data.notes, testing::Contains("no row is left of E2, E4"));
+}
+
 } // namespace
 
 } // namespace frictab::load_files_test
