@@ -62,12 +62,12 @@ void gather_experiments(Part& part, MappedFile&& mapped, const std::string& labe
 
 namespace {
 
-// "E1, E2 and 7 more"
+// "E1, E2 (and 7 more tests)"
 std::string some_of(std::vector<std::string> names) {
   constexpr std::size_t most = 12;
   const std::size_t more = names.size() > most ? names.size() - most : 0;
   names.resize(names.size() - more);
-  return join(names, ", ") + (more > 0 ? " and " + thousands(more) + " more" : "");
+  return join(names, ", ") + and_more(more, "test");
 }
 
 } // namespace

@@ -24,9 +24,9 @@ namespace {
 
 class Reading {
 public:
-  Reading(const Plan& plan, std::ostream& table)
-      : plan_(plan), directory_(plan.study.directory), found_(directory_), table_(table) {
-    tally_.counts = counts_of(plan, found_);
+  Reading(const Plan& plan, const Found& found, const Counts& counts, std::ostream& table)
+      : plan_(plan), directory_(plan.study.directory), found_(found), table_(table) {
+    tally_.counts = counts;
     write_header(table, plan.study);
   }
 
@@ -72,15 +72,16 @@ private:
 
   const Plan& plan_;
   const std::string& directory_;
-  Found found_;
+  const Found& found_;
   std::ostream& table_;
   std::unordered_set<std::uint64_t> seen_;
   Tally tally_;
 };
 
-Tally read_results(const Plan& plan, const std::filesystem::path& table) {
+Tally read_results(const Plan& plan, const Found& found, const Counts& counts,
+                   const std::filesystem::path& table) {
   std::ofstream out(table, std::ios::binary);
-  Reading reading(plan, out);
+  Reading reading(plan, found, counts, out);
   const Progress progress("reading results", plan.keys.size());
   for (std::size_t i = 0; i < plan.keys.size(); ++i) {
     reading.take(i);
@@ -94,14 +95,15 @@ Tally read_results(const Plan& plan, const std::filesystem::path& table) {
 } // namespace
 
 Tally report_study(const Plan& plan) {
-  const Counts there = counts_of(plan, Found(plan.study.directory));
-  if (there.done + there.failed == 0)
+  const Found found(plan.study.directory);
+  const Counts counts = counts_of(plan, found);
+  if (counts.done + counts.failed == 0)
     throw InputError(
         {}, "there is no result in " + plan.study.directory,
         "`frictab study run` computes them; where it has, give the -o, --stage and "
         "--set it had. A study that cannot be written to is reported from a copy of it");
   io::OutputFiles files(plan.study.directory);
-  Tally tally = read_results(plan, files.stage("campaigns.csv"));
+  Tally tally = read_results(plan, found, counts, files.stage("campaigns.csv"));
   files.write("report.html", study_html(plan, tally));
   files.commit();
   return tally;
