@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_resamples = 10'000;
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double rounding = 1e-12; // of the sum of two errors
 
 // One measure of error of all laws in one resample.
 struct Estimates {
@@ -64,12 +65,11 @@ Problem problem_of(std::span<const LawErrors> laws, Measure measure) {
   return problem;
 }
 
-// A difference in standard errors; `scale` is the sum of the two. A difference without scatter is
-// infinitely clear.
-double studentised(double difference, double error, double scale) {
-  const double rounding = 1e-12 * scale;
-  if (std::abs(difference) <= same_error * scale / 2) return 0;
-  return error > rounding ? difference / error : std::copysign(infinite, difference);
+// A difference in standard errors; `scale` is the sum of the two errors. A difference without
+// scatter is infinitely clear; one of not more than `least` of the scale is none.
+double studentised(double difference, double error, double scale, double least) {
+  if (std::abs(difference) <= least * scale) return 0;
+  return error > rounding * scale ? difference / error : std::copysign(infinite, difference);
 }
 
 std::size_t pair_index(std::size_t i, std::size_t j, std::size_t laws) { // i < j
@@ -88,7 +88,7 @@ void fill_pairs(const Problem& p, const Estimates& now, const Estimates& all,
     for (std::size_t j = i + 1; j < p.laws(); ++j, ++pair)
       s.again[pair][b] =
           studentised(all.value[j] - all.value[i] - s.difference[pair],
-                      p.error_of(all, i, j, times), std::abs(now.value[i]) + now.value[j]);
+                      p.error_of(all, i, j, times), now.value[i] + now.value[j], rounding);
 }
 
 Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t seed) {
@@ -99,8 +99,8 @@ Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t se
     for (std::size_t j = i + 1; j < p.laws(); ++j) {
       s.difference.push_back(now.value[j] - now.value[i]);
       s.error.push_back(p.error_of(now, i, j, once));
-      s.t.push_back(
-          studentised(s.difference.back(), s.error.back(), std::abs(now.value[i]) + now.value[j]));
+      s.t.push_back(studentised(s.difference.back(), s.error.back(), now.value[i] + now.value[j],
+                                same_error / 2));
     }
   s.again.assign(s.t.size(), std::vector<double>(resamples));
   parallel_for(resamples, [&](std::size_t b) {
@@ -134,8 +134,8 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   Difference d;
   d.value_MPa = s.difference[pair];
   d.p_value = share_beyond(static_cast<std::size_t>(beyond), size.size());
-  const bool equal = s.t[pair] == 0 && s.error[pair] == 0;
-  const double half = equal ? 0 : critical_value(std::move(size)) * s.error[pair];
+  double half = s.error[pair] == 0 ? 0 : critical_value(std::move(size)) * s.error[pair];
+  if (s.t[pair] == 0) half = std::max(half, std::abs(d.value_MPa)); // the same
   d.interval = {d.value_MPa - half, d.value_MPa + half};
   return d;
 }
@@ -150,6 +150,7 @@ double best_p_value(const Studentised& s, std::size_t i, std::size_t laws) {
   for (std::size_t j = 0; j < laws; ++j) {
     if (j == i) continue;
     const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws);
+    if (s.t[pair] == 0) continue; // the same
     lead = std::max(lead, i < j ? -s.t[pair] : s.t[pair]); // t: later law minus earlier one
     for (std::size_t b = 0; b < resamples; ++b)
       most[b] = std::max(most[b], std::abs(s.again[pair][b]));

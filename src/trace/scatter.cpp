@@ -71,19 +71,22 @@ double modelled_variance(const Search& search, const Rival& last) {
 
 void add_floor(Trace& trace, const Search& search, const Rival& last) {
   const data::Dataset& training = search.input.training;
-  const calibrate::Metrics& after = trace.after.training;
-  // (Of few experiments the likelihood may take any scatter for possible; what is left, with the
-  // fitted parameters' share, is more than the noise.)
+  // What a law leaves, with the fitted parameters' share, is more than the noise. (Of few
+  // experiments the likelihood may take any scatter for possible; and under the noise model's
+  // weights a law that lacks something within tests may predict them as a whole far worse than it
+  // did as it was calibrated.)
+  const calibrate::Metrics &after = trace.after.training, &before = trace.as_calibrated.training;
+  const calibrate::Metrics& least = before.rmse_MPa < after.rmse_MPa ? before : after;
   const double experiments = static_cast<double>(training.experiments.size());
   const double share_left = std::max(0.5, 1 - last.freedom / experiments);
   const double rmse =
-      std::min(std::sqrt(modelled_variance(search, last)), after.rmse_MPa / std::sqrt(share_left));
+      std::min(std::sqrt(modelled_variance(search, last)), least.rmse_MPa / std::sqrt(share_left));
   trace.noise_floor.method =
       "noise model: scatter between experiments, slow and white noise within, "
       "by restricted maximum likelihood; what no law goes below if nothing else is missing";
   trace.noise_floor.part = "training";
   trace.noise_floor.rmse_MPa = rmse;
-  trace.noise_floor.mae_MPa = after.rmse_MPa > 0 ? rmse * after.mae_MPa / after.rmse_MPa : 0;
+  trace.noise_floor.mae_MPa = least.rmse_MPa > 0 ? rmse * least.mae_MPa / least.rmse_MPa : 0;
   trace.noise_floor.n_rows = training.rows_behind();
   trace.noise_floor.n_experiments = training.experiments.size();
 }

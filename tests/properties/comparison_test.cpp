@@ -83,6 +83,21 @@ TEST(SlowComparison, OfALawWrittenInTwoWaysFindsNoBetterOne) {
   EXPECT_EQ(calibrate::choose_again(other_rank, 500, 1).best_in[0].share, 1) << "the first of both";
 }
 
+TEST(SlowComparison, OfLawsThatDifferByLessThanCountsHoldsNoDifferenceInItsInterval) {
+  const std::vector<double> mae{13, 18, 11, 12, 15, 16, 12};
+  for (const double scatter : {0.0, 1e-6, 1e-5}) {
+    std::vector<double> other = mae;
+    for (std::size_t e = 0; e < mae.size(); ++e)
+      other[e] *= 1 + 2e-5 + scatter * (e % 2 == 0 ? 1 : -1);
+    const Comparisons c = compare(std::vector<LawErrors>{law("a", mae), law("b", other)}, 999, 1);
+    for (const calibrate::Difference& d : {c.pairs[0].mae, c.pairs[0].rmse}) {
+      EXPECT_EQ(d.p_value, 1) << scatter;
+      EXPECT_LE(d.interval.low, 0) << scatter;
+      EXPECT_GE(d.interval.high, d.value_MPa) << scatter;
+    }
+  }
+}
+
 TEST(SlowComparison, OfALawThatIsAlwaysWorseByOneMPaIsOneMPa) {
   std::vector<double> mae{3, 8, 1, 12, 5, 6, 2}, worse = mae;
   for (double& value : worse)
