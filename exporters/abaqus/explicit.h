@@ -30,8 +30,8 @@ codegen::SolverGives force_gives(const ForceNames& names);
 
 // One history and one force per contact point.
 struct ForceRoutine {
-  codegen::Exporter about;
-  std::string entry; // "vfric"
+  codegen::Exporter about; // without options: force_exporter knows them
+  std::string entry;       // "vfric"
   codegen::SolverGives gives;
   std::string points;                 // "nContact"
   std::string time_increment;         // "dTimCur"

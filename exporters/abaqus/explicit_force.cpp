@@ -15,6 +15,7 @@
 #include "codegen/recipe_states.h"
 #include "codegen/solver_units.h"
 #include "codegen/speed_scale.h"
+#include "codegen/values_file.h"
 #include "contact_fields.h"
 #include "core/text.h"
 #include "deck.h"
@@ -247,8 +248,11 @@ std::string force_notes(const std::string& state_name, const std::string& state_
 }
 
 Exporter force_exporter(const ForceRoutine& routine) {
+  Exporter about = routine.about;
+  about.options = {values_option(), speed_scale_option(), outside_summary_option(),
+                   contact_fields_option()};
   return routine_exporter(
-      {.about = routine.about,
+      {.about = std::move(about),
        .entry = routine.entry,
        .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
        .check = check_contact_fields,

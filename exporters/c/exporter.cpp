@@ -170,20 +170,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                        "void frictab_tau_R_gradient_batch(" + many +
                            ", double* tau, double* derivative)",
                        "void frictab_count_outside(" + many + ", unsigned long* counts)"};
-  out["arguments"] = nlohmann::ordered_json::array();
-  for (const InputArgument& input : inputs)
-    out["arguments"].push_back({{"name", input.argument},
-                                {"quantity", input.name},
-                                {"unit", input.solver.name},
-                                {"meaning", input.meaning},
-                                {"used", input.used}});
-  out["result"] = {{"unit", solver_unit("MPa", request.units).name},
-                   {"meaning", "frictional shear stress tau_R"}};
-  out["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
-                        {"unit", "unit of the result per unit of the argument"},
-                        {"where_not_used", 0}};
-  out["state_variables"] = nlohmann::ordered_json::array();
-  out["properties"] = nlohmann::ordered_json::array();
+  describe_entry(out, request, inputs);
   const std::string gcc = "gcc " + optimisation(request.table) + " -std=c99 -ffp-contract=off ";
   out["compile"] = {gcc + "-c frictab_tau_R.c",
                     gcc + "-fPIC -shared -o libfrictab_tau_R.so frictab_tau_R.c -lm"};
@@ -233,10 +220,6 @@ const char* const notes =
     "Arguments the law does not use are ignored. Compile with -ffp-contract=off and without "
     "-ffast-math: otherwise the bits that were verified are not the bits that run.";
 
-// Functions are called by a program of the user's own.
-const char* const several_laws =
-    "give each law names of its own, [export.options] prefix = \"die_oil\"";
-
 const Registered<Exporter> registered{[] {
   return Exporter{.name = "c",
                   .order = 10,
@@ -248,7 +231,7 @@ const Registered<Exporter> registered{[] {
                   .variants = variants,
                   .drive = drive,
                   .batch = batch_entry,
-                  .several_laws = several_laws};
+                  .several_laws = told_apart_by_prefix};
 }};
 
 } // namespace

@@ -150,21 +150,7 @@ std::string recipe(const ExportRequest& request, const std::vector<InputArgument
                        "subroutine frictab_tau_R_gradient_batch(n, " + all +
                            ", tau, derivative) bind(C)",
                        "pure function frictab_outside(" + all + ") bind(C)"};
-  out["arguments"] = nlohmann::ordered_json::array();
-  for (const InputArgument& input : inputs)
-    out["arguments"].push_back({{"name", input.argument},
-                                {"quantity", input.name},
-                                {"type", "real(c_double)"},
-                                {"unit", input.solver.name},
-                                {"meaning", input.meaning},
-                                {"used", input.used}});
-  out["result"] = {{"unit", solver_unit("MPa", request.units).name},
-                   {"meaning", "frictional shear stress tau_R"}};
-  out["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
-                        {"unit", "unit of the result per unit of the argument"},
-                        {"where_not_used", 0}};
-  out["state_variables"] = nlohmann::ordered_json::array();
-  out["properties"] = nlohmann::ordered_json::array();
+  describe_entry(out, request, inputs, "real(c_double)");
   const std::string gfortran =
       "gfortran " + optimisation(request.table) + " -std=f2008 -ffp-contract=off ";
   out["compile"] = {gfortran + "-c frictab_tau_R.f90",
@@ -202,10 +188,6 @@ const char* const notes =
     "programs of your own, and for solvers whose routine you write yourself; those with a target "
     "here have their argument list written already. No state, safe from any thread.";
 
-// Functions are called by a program of the user's own.
-const char* const several_laws =
-    "give each law names of its own, [export.options] prefix = \"die_oil\"";
-
 const Registered<Exporter> registered{[] {
   return Exporter{.name = "fortran",
                   .order = 15,
@@ -217,7 +199,7 @@ const Registered<Exporter> registered{[] {
                   .variants = variants,
                   .drive = drive_entry,
                   .batch = batch_entry,
-                  .several_laws = several_laws};
+                  .several_laws = told_apart_by_prefix};
 }};
 
 } // namespace

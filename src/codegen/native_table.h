@@ -103,6 +103,17 @@ Exporter native_exporter(const NativeTarget& target);
 // neither held nor a column.
 table::PlainFormat native_plain_format(const NativeTarget& target);
 
+// `const RegisteredNative<target> registered;` at the end of a target's file registers both.
+template <NativeTarget (*target)()> struct RegisteredNative {
+  Registered<Exporter> exporter{[] { return native_exporter(target()); }};
+  Registered<table::PlainFormat> plain_format{[] { return native_plain_format(target()); }};
+};
+
+// What the notes of every such target say of a state that is no column.
+inline constexpr const char* native_held_states =
+    "is held at the job's constant:VALUE, else in the middle of its range, as the file, "
+    "recipe.json (held) and the run say; verify.json has what that costs on the validation rows. ";
+
 // The nodes at which value number i holds, one per column; NaN where the column is blank.
 std::vector<double> place_of(const NativeValues& values, std::size_t i);
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "codegen/combine.h"
-#include "codegen/entry_arguments.h"
 #include "codegen/table_text.h"
 #include "codegen/values_file.h"
 #include "core/error.h"
@@ -64,6 +63,26 @@ json recipe_head(const Exporter& exporter, const ExportRequest& request, const s
   if (const auto values = files.find(values_file_name); values != files.end())
     out["values_file"] = values_file_json(values->second);
   return out;
+}
+
+void describe_entry(json& recipe, const ExportRequest& request,
+                    const std::vector<InputArgument>& inputs, const std::string& type) {
+  recipe["arguments"] = json::array();
+  for (const InputArgument& input : inputs) {
+    json argument = {{"name", input.argument}, {"quantity", input.name}};
+    if (!type.empty()) argument["type"] = type;
+    argument["unit"] = input.solver.name;
+    argument["meaning"] = input.meaning;
+    argument["used"] = input.used;
+    recipe["arguments"].push_back(std::move(argument));
+  }
+  recipe["result"] = {{"unit", solver_unit("MPa", request.units).name},
+                      {"meaning", "frictional shear stress tau_R"}};
+  recipe["derivatives"] = {{"meaning", "of tau_R by every argument, in the order of the arguments"},
+                           {"unit", "unit of the result per unit of the argument"},
+                           {"where_not_used", 0}};
+  recipe["state_variables"] = json::array();
+  recipe["properties"] = json::array();
 }
 
 json recipe_table(const ExportRequest& request) {

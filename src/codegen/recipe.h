@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "codegen/entry_arguments.h"
 #include "codegen/exporter.h"
 
 namespace frictab::codegen {
@@ -13,6 +15,11 @@ namespace frictab::codegen {
 // signature_source; values_file, where the files hold one.
 nlohmann::ordered_json recipe_head(const Exporter& exporter, const ExportRequest& request,
                                    const std::string& entry, const SourceBundle& files);
+
+// Of a target whose entry is frictab_tau_R: arguments, each of `type` where the language has its
+// own, result, derivatives; no state variables and no properties.
+void describe_entry(nlohmann::ordered_json& recipe, const ExportRequest& request,
+                    const std::vector<InputArgument>& inputs, const std::string& type = "");
 
 // The table's axes with ranges, how the value becomes tau_R, and the drift it is known for.
 nlohmann::ordered_json recipe_table(const ExportRequest& request);

@@ -119,12 +119,13 @@ const char* const source_of_signature =
     "against your release: the slip rate varies fastest, linear between lines, constant beyond "
     "the ends";
 
-const char* const notes =
-    "Columns for slip rate, pressure, temperature, and field variables where [export.inputs] "
-    "says field:N (up to 4, counted from 1); every other state of the law is held at the job's "
-    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-    "run say; verify.json has what that costs on the validation rows. A column the law does not "
-    "depend on stays blank. TAUMAX holds the law's shear limit at the held flow stress. The "
+const std::string notes =
+    std::string("Columns for slip rate, pressure, temperature, and field variables where "
+                "[export.inputs] says field:N (up to 4, counted from 1); every other state of the "
+                "law ") +
+    native_held_states +
+    "A column the law does not depend on stays blank. TAUMAX holds the law's shear limit at the "
+    "held flow stress. The "
     "grid is made to table.tolerance_MPa with at most 30,000 lines. Beyond the ends Abaqus keeps "
     "the coefficient there; downwards the table goes to where tau_R is below the tolerance.";
 
@@ -147,8 +148,7 @@ NativeTarget target() {
           .plain_title = "*FRICTION data lines: mu over slip rate, pressure, temperature"};
 }
 
-const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
+const RegisteredNative<target> registered;
 
 } // namespace
 

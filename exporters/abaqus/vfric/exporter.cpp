@@ -2,12 +2,8 @@
 // input deck refers to it; the statements are those of every force routine (exporters/abaqus).
 #include "codegen/exporter.h"
 
-#include "abaqus/contact_fields.h"
 #include "abaqus/explicit.h"
 #include "abaqus/stop.h"
-#include "codegen/outside_summary.h"
-#include "codegen/speed_scale.h"
-#include "codegen/values_file.h"
 
 namespace frictab::abaqus::vfric {
 
@@ -36,9 +32,7 @@ abaqus::ForceRoutine routine() {
              .order = 20,
              .title = "Abaqus/Explicit VFRIC, contact pairs",
              .signature_source = source_of_signature,
-             .notes = notes(),
-             .options = {values_option(), speed_scale_option(), outside_summary_option(),
-                         abaqus::contact_fields_option()}};
+             .notes = notes()};
   r.entry = "vfric";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaSec of the surface node",
                                  .speed = "|dSlipFric|/dTimCur (0 where dTimCur = 0)",

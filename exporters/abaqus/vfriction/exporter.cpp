@@ -3,12 +3,8 @@
 // (exporters/abaqus).
 #include "codegen/exporter.h"
 
-#include "abaqus/contact_fields.h"
 #include "abaqus/explicit.h"
 #include "abaqus/stop.h"
-#include "codegen/outside_summary.h"
-#include "codegen/speed_scale.h"
-#include "codegen/values_file.h"
 
 namespace frictab::abaqus::vfriction {
 
@@ -41,9 +37,7 @@ abaqus::ForceRoutine routine() {
              .order = 21,
              .title = "Abaqus/Explicit VFRICTION, general contact",
              .signature_source = source_of_signature,
-             .notes = notes(),
-             .options = {values_option(), speed_scale_option(), outside_summary_option(),
-                         abaqus::contact_fields_option()}};
+             .notes = notes()};
   r.entry = "vfriction";
   r.gives = abaqus::force_gives({.pressure = "fNormal/areaCont of the contact point",
                                  .speed = "|dSlipFric|/rData(3) (0 where rData(3) = 0)",

@@ -103,11 +103,11 @@ const char* const source_of_signature =
     "reference). recalled, check against your release: linear between, constant beyond the "
     "ends; TAUMAX is real constant 9 of the contact elements";
 
-const char* const notes =
-    "Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N where "
-    "[export.inputs] says field:N (1 to 9); every other state of the law is held at the job's "
-    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-    "run say; verify.json has what that costs on the validation rows. RMODIF sets TAUMAX to the "
+const std::string notes =
+    std::string("Fields for pressure, sliding velocity, sliding distance, temperature, and UF0N "
+                "where [export.inputs] says field:N (1 to 9); every other state of the law ") +
+    native_held_states +
+    "RMODIF sets TAUMAX to the "
     "law's shear limit at the held flow stress: without it the friction exceeds the limit. Set "
     "ft_mat and ft_real to your material and real constant set. The grid is made to "
     "table.tolerance_MPa with at most 30,000 values.";
@@ -133,8 +133,7 @@ NativeTarget target() {
                          "temperature"};
 }
 
-const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
+const RegisteredNative<target> registered;
 
 } // namespace
 

@@ -104,11 +104,11 @@ const char* const source_of_signature =
     "against your release: linear between and constant beyond the ends (the manual does not "
     "say), lines that start with * are comments, numbers are separated by blanks";
 
-const char* const notes =
-    "Pressure, temperature and surface stretch are all this table knows, in 2-D as in 3-D; "
-    "every other state of the law, sliding speed and distance among them, is held at the job's "
-    "constant:VALUE, else in the middle of its range, as the file, recipe.json (held) and the "
-    "run say; verify.json has what that costs on the validation rows. deform_friction = "
+const std::string notes =
+    std::string("Pressure, temperature and surface stretch are all this table knows, in 2-D as in "
+                "3-D; every other state of the law, sliding speed and distance among them, ") +
+    native_held_states +
+    "deform_friction = "
     "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
     "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
     "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
@@ -133,8 +133,7 @@ NativeTarget target() {
           .plain_title = "FRCFAC of type 5: mu over pressure, temperature, stretch"};
 }
 
-const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
+const RegisteredNative<target> registered;
 
 } // namespace
 

@@ -108,10 +108,10 @@ const char* const source_of_signature =
     "of the keywords). recalled, check against your release: the curves stand directly behind "
     "*DEFINE_TABLE in the order of its values, linear between, constant beyond the ends";
 
-const char* const notes =
-    "Velocity and pressure are all this table knows; every other state of the law is held at "
-    "the job's constant:VALUE, else in the middle of its range, as the file, recipe.json (held) "
-    "and the run say; verify.json has what that costs on the validation rows. The shear limit "
+const std::string notes =
+    std::string("Velocity and pressure are all this table knows; every other state of the law ") +
+    native_held_states +
+    "The shear limit "
     "is part of the table, at the held flow stress. Table and curves are numbered from 90000: "
     "renumber them where your deck has these. The grid is made to table.tolerance_MPa with at "
     "most 30,000 points.";
@@ -136,8 +136,7 @@ NativeTarget target() {
       .plain_title = "*DEFINE_TABLE and *DEFINE_CURVE: mu over pressure, a curve per speed"};
 }
 
-const Registered<Exporter> registered{[] { return native_exporter(target()); }};
-const Registered<frictab::table::PlainFormat> plain{[] { return native_plain_format(target()); }};
+const RegisteredNative<target> registered;
 
 } // namespace
 
