@@ -251,33 +251,34 @@ Exporter force_exporter(const ForceRoutine& routine) {
   Exporter about = routine.about;
   about.options = {values_option(), speed_scale_option(), outside_summary_option(),
                    contact_fields_option()};
+  const RoutineParts parts = {
+      .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
+      .sources =
+          [routine](const ExportRequest& request, const std::vector<SolverInput>& inputs) {
+            SourceBundle files = {{file_of(routine), source(routine, request, inputs)}};
+            if (has_contact_fields(request))
+              files[contact_fields_file] = contact_fields_source(request);
+            return files;
+          },
+      .recipe =
+          [routine](json& out, const ExportRequest& request,
+                    const std::vector<SolverInput>& inputs) {
+            add_recipe(out, routine, request, inputs);
+          },
+      .variants =
+          [routine](const ExportRequest& request) {
+            return explicit_variants(request, files_of(routine, request));
+          },
+      .drive =
+          [routine](const ExportRequest&, const std::vector<SolverInput>&) {
+            return explicit_driver(routine.gives, fortran::Coefficient::stress);
+          }};
   return routine_exporter(
       {.about = std::move(about),
        .entry = routine.entry,
-       .gives = [routine](const ExportRequest&) -> const SolverGives& { return routine.gives; },
+       .parts = parts,
        .check = check_contact_fields,
-       .sources =
-           [routine](const ExportRequest& request, const std::vector<SolverInput>& inputs) {
-             SourceBundle files = {{file_of(routine), source(routine, request, inputs)}};
-             if (has_contact_fields(request))
-               files[contact_fields_file] = contact_fields_source(request);
-             return files;
-           },
-       .recipe =
-           [routine](json& out, const ExportRequest& request,
-                     const std::vector<SolverInput>& inputs) {
-             add_recipe(out, routine, request, inputs);
-           },
-       .variants =
-           [routine](const ExportRequest& request) {
-             return explicit_variants(request, files_of(routine, request));
-           },
-       .driver = "abaqus/" + routine.entry + "/driver.f",
        .driver_values = area_of_driver,
-       .drive =
-           [routine](const ExportRequest&, const std::vector<SolverInput>&) {
-             return explicit_driver(routine.gives, fortran::Coefficient::stress);
-           },
        .arguments = [routine](const ExportRequest&) { return arguments(routine); },
        .selector = routine.selector,
        .quit = [] { return quit(Solver::explicit_); }});

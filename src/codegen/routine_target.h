@@ -16,14 +16,10 @@
 
 namespace frictab::codegen {
 
-struct RoutineTarget {
-  Exporter about;    // name, order, title, signature_source, notes, options
-  std::string entry; // "ufric"
+// What every routine has: `.parts = {gives, sources, add_recipe, variants, driver}`.
+struct RoutineParts {
   // What the solver gives; may depend on the job's [export.options].
   std::function<const SolverGives&(const ExportRequest&)> gives;
-  // Refuses inputs that the routine cannot take (InputError); empty: takes all.
-  std::function<void(const ExportRequest&, const std::vector<SolverInput>&)> check = {};
-  std::function<std::string(const ExportRequest&)> caution = {}; // Exporter::caution
   // The sources by name, without values file and recipe.
   std::function<SourceBundle(const ExportRequest&, const std::vector<SolverInput>&)> sources;
   // Adds to recipe.json what stands between its head and the table.
@@ -31,11 +27,20 @@ struct RoutineTarget {
                      const std::vector<SolverInput>&)>
       recipe;
   std::function<std::vector<BuildVariant>(const ExportRequest&)> variants; // without the driver
-  std::string driver; // its template, "marc/ufric/driver.f"
-  // What that template is filled with; empty: nothing.
+  std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
+};
+
+// Its name is `marc_ufric`, so the template of its driver is marc/ufric/driver.f.
+struct RoutineTarget {
+  Exporter about;    // name, order, title, signature_source, notes, options
+  std::string entry; // "ufric"
+  RoutineParts parts;
+  // Refuses inputs that the routine cannot take (InputError); empty: takes all.
+  std::function<void(const ExportRequest&, const std::vector<SolverInput>&)> check = {};
+  std::function<std::string(const ExportRequest&)> caution = {}; // Exporter::caution
+  // What the driver's template is filled with; empty: nothing.
   std::function<TemplateValues(const ExportRequest&, const std::vector<SolverInput>&)>
       driver_values = {};
-  std::function<Driver(const ExportRequest&, const std::vector<SolverInput>&)> drive;
   // The head of the entry in its template: argument list and declarations of the arguments.
   std::function<std::string(const ExportRequest&)> arguments = {};
   LawSelector selector = {}; // what of them tells several laws apart

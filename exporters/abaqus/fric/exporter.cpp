@@ -117,12 +117,7 @@ const Registered<Exporter> registered{[] {
                  .options = {abaqus::coefficient_option(), values_option(),
                              outside_summary_option()}},
        .entry = "fric",
-       .gives = gives,
-       .sources = sources,
-       .recipe = add_recipe,
-       .variants = variants,
-       .driver = "abaqus/fric/driver.f",
-       .drive = driver,
+       .parts = {gives, sources, add_recipe, variants, driver},
        .arguments = arguments,
        .selector = abaqus::interaction(abaqus::Solver::standard, "ciname", "fgh"),
        .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});

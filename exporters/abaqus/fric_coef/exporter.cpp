@@ -123,16 +123,11 @@ const Registered<Exporter> registered{[] {
                       abaqus::coefficient_option(),
                       values_option()}},
        .entry = "fric_coef",
-       .gives = gives,
-       .sources = sources,
-       .recipe = add_recipe,
-       .variants = variants,
-       .driver = "abaqus/fric_coef/driver.f",
+       .parts = {gives, sources, add_recipe, variants, driver},
        .driver_values =
            [](const ExportRequest& request, const std::vector<SolverInput>&) {
              return TemplateValues{.text = {}, .flags = {{"new", is_2024(request)}}, .lists = {}};
            },
-       .drive = driver,
        .arguments = arguments,
        .selector = abaqus::interaction(abaqus::Solver::standard, "surfInt", "pqr"),
        .quit = [] { return abaqus::quit(abaqus::Solver::standard); }});

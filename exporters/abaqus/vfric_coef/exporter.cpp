@@ -156,12 +156,7 @@ const Registered<Exporter> registered{[] {
                  .notes = notes,
                  .options = {values_option(), speed_scale_option()}},
        .entry = "vfric_coef",
-       .gives = gives,
-       .sources = sources,
-       .recipe = add_recipe,
-       .variants = variants,
-       .driver = "abaqus/vfric_coef/driver.f",
-       .drive = driver,
+       .parts = {gives, sources, add_recipe, variants, driver},
        .arguments = arguments,
        .selector = abaqus::of_general_contact(
            abaqus::interaction(abaqus::Solver::explicit_, "surfInt", "uvw")),

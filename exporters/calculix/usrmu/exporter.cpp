@@ -133,12 +133,7 @@ const Registered<Exporter> registered{[] {
                                      .notes = notes,
                                      .options = {values_option()}},
                            .entry = "usrmu",
-                           .gives = gives,
-                           .sources = sources,
-                           .recipe = add_recipe,
-                           .variants = variants,
-                           .driver = "calculix/usrmu/driver.f",
-                           .drive = driver,
+                           .parts = {gives, sources, add_recipe, variants, driver},
                            .selector = {.meaning = "USRMU is called with numbers of the contact "
                                                    "point, which do not say which contact it is"}});
 }};
