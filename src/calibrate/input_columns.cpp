@@ -107,6 +107,16 @@ void check_cells(const data::Column& column, const models::Law& law, const Datas
       "repair the cell; in a job data.missing = \"drop\" leaves such rows out of the calibration");
 }
 
+std::string how_to_give(const models::Law& law, const std::vector<std::string>& names,
+                        const Dataset& data) {
+  const bool text = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return law.levels.count(name) > 0 && !recorded_column(name, data);
+  });
+  return text ? "record it, map it in [data.columns], or say it with labels = {...} of "
+                "[[data.files]]"
+              : "record it, map it in [data.columns], or give a constant in [data.constants]";
+}
+
 } // namespace
 
 std::vector<std::string> missing_inputs(const std::vector<std::string>& names,
@@ -131,8 +141,7 @@ InputColumns::InputColumns(const models::Law& law, std::vector<std::string> name
     throw InputError(
         place_of(data),
         fmt::format("the data have no column {}, which {} needs", join(missing, ", "), law.name),
-        "record it, map it in [data.columns], or give a constant in "
-        "[data.constants]");
+        how_to_give(law, names_, data));
   for (std::size_t i = 0; i < names_.size(); ++i) {
     follows_[i] = follows_tau(names_[i]);
     pointers_.push_back(find(law, i));

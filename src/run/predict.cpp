@@ -262,7 +262,8 @@ std::string prediction_text(const Prediction& p) {
       fmt::format("{} on {} of {}: {}\n", p.model.law->name, report::count_of(p.data.rows(), "row"),
                   report::count_of(p.data.experiments.size(), "experiment"), p.file);
   for (const auto& dropped : p.data.dropped)
-    text += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
+    text +=
+        fmt::format("  left out: {}, {}\n", report::count_of(dropped.rows, "row"), dropped.rule);
   if (p.fitted_to_all)
     text +=
         "The law was fitted to all experiments of its job: on these its errors are of the fit\n";

@@ -41,7 +41,8 @@ std::string data_text(const Pipeline& p) {
     out += "  " + how + "\n";
   for (const data::Dataset* data : {&training, &validation})
     for (const auto& dropped : data->dropped)
-      out += fmt::format("  left out: {} rows, {}\n", thousands(dropped.rows), dropped.rule);
+      out +=
+          fmt::format("  left out: {}, {}\n", report::count_of(dropped.rows, "row"), dropped.rule);
   for (const data::Dataset* data : {&training, &validation})
     for (const std::string& line : data->implausible)
       out += "  implausible: " + line + "\n";

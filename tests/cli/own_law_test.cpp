@@ -99,7 +99,7 @@ TEST_F(OwnLaw, IsNotFittedToRowsThatLackAColumnItTakes) {
   EXPECT_FALSE(std::filesystem::exists(directory.path("out/calibration.json")));
   const CommandResult left_out = calibrate("gap.csv", humid, "missing = \"drop\"\n");
   ASSERT_EQ(left_out.exit_code, 0) << left_out.err;
-  EXPECT_THAT(left_out.out, HasSubstr("\n  left out: 1 rows, no humidity_pct\n"));
+  EXPECT_THAT(left_out.out, HasSubstr("\n  left out: 1 row, no humidity_pct\n"));
   const auto parameters = [&] {
     return nlohmann::json::parse(directory.read("out/calibration.json"))["models"][0]["parameters"];
   };

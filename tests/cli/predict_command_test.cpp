@@ -329,6 +329,9 @@ TEST_F(PredictTraced, WhatTheLawCannotTakeIsAFault) {
   EXPECT_THAT(predict(test::csv_of(dry)).err,
               HasSubstr("rows.csv: error: the data have no column humidity_pct, which "
                         "log_coulomb_traced needs\n  hint: record it"));
+  data::Dataset unnamed = data;
+  drop(unnamed, "tool");
+  EXPECT_THAT(predict(test::csv_of(unnamed)).err, HasSubstr("labels = {...} of [[data.files]]\n"));
   data::Dataset still = data;
   drop(still, "s_mm");
   drop(still, "time_s");
