@@ -22,6 +22,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "data/options.h"
 #include "data/quantity.h"
 #include "effects/extended_law.h"
 
@@ -284,7 +285,7 @@ std::vector<double> predict(const models::Model& model, const Dataset& data) {
 }
 
 bool is_synthetic(const Dataset& data) {
-  const data::Column* origin = data.find("origin");
+  const data::Column* origin = data.find(data::origin_column);
   return origin &&
          std::any_of(origin->levels.begin(), origin->levels.end(), [](const std::string& level) {
            return level.find("synthetic") != std::string::npos;

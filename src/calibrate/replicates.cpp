@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "data/options.h"
 #include "data/quantity.h"
 
 namespace frictab::calibrate {
@@ -43,7 +44,7 @@ void append_means(Profile& profile, std::span<const double> x) {
 
 // The values of a column per experiment, where it was set for each: levels that several share.
 std::vector<double> set_values(const data::Column& column, const data::Dataset& data) {
-  if (data::find_quantity(column.name) || column.name == "origin") return {};
+  if (data::find_quantity(column.name) || column.name == data::origin_column) return {};
   std::vector<double> values;
   for (std::size_t e = 0; e < data.experiments.size(); ++e) {
     const auto first = column.values.begin() + static_cast<long>(data.first_row[e]);

@@ -28,6 +28,7 @@ public:
       names_.insert(source.names.begin(), source.names.end());
     if (options.experiment.empty()) names_.insert("experiment");
     names_.insert(experiment_column_of(options));
+    names_.insert(origin_column);
     if (options.bystanders) names_.insert(options.bystanders->begin(), options.bystanders->end());
   }
 

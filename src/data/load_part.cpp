@@ -118,8 +118,18 @@ Part load_part(io::CsvTable&& raw, const FilePlan& plan, const Beside& beside) {
 
 Beside load_beside(DataOptions& options) {
   Beside beside;
-  if (!options.tests.empty()) beside.tests = read_test_table(options);
-  if (!options.join.files.empty()) beside.second = load_second(options);
+  const auto know = [&](const std::vector<Column>& columns) {
+    for (const Column& column : columns)
+      options.columns_beside.insert(column.name);
+  };
+  if (!options.tests.empty()) {
+    beside.tests = read_test_table(options);
+    know(beside.tests->columns.columns);
+  }
+  if (!options.join.files.empty()) {
+    beside.second = load_second(options);
+    know(beside.second->columns);
+  }
   return beside;
 }
 

@@ -30,8 +30,7 @@ bool is_not_finite(const std::string& text) {
   return end != text.c_str() && *end == '\0' && !std::isfinite(value);
 }
 
-// A cell without a value: empty, or the word that spreadsheets and pandas put there.
-// Words of spreadsheets and statistics programs for a cell without a value.
+// A cell without a value: empty, or the word that spreadsheets and statistics programs put there.
 bool is_missing(const std::string& text) {
   const std::string word = lower_case(text);
   return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" ||
@@ -362,19 +361,33 @@ private:
     if (options_.bystanders) keep.insert(options_.bystanders->begin(), options_.bystanders->end());
     if (options_.bystanders)
       for (const std::string& name : *options_.bystanders)
-        if (!by_name(name))
+        if (const std::vector<std::string> others = from_elsewhere();
+            !by_name(name) && std::find(others.begin(), others.end(), name) == others.end()) {
+          std::vector<std::string> known = present();
+          known.insert(known.end(), others.begin(), others.end());
           faults_.add(header(), fmt::format("there is no column '{}' (data.bystanders)", name),
-                      suggest(name, present()));
+                      suggest(name, known));
+        }
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
-      if (options_.bystanders && !keep.count(column.name) &&
+      if (options_.bystanders && !keep.count(column.name) && column.name != origin_column &&
           !is_formula_input(options_, column.name))
         continue;
       if (by_name(column.name) != &column) continue; // a duplicate: the fault is told already
       check_case(column);
       add_bystander(column);
     }
+  }
+
+  // Columns that the job says of the whole file or of its tests: kept, named or not.
+  std::vector<std::string> from_elsewhere() const {
+    std::vector<std::string> names(options_.columns_beside.begin(), options_.columns_beside.end());
+    for (const auto& [name, value] : options_.constants)
+      names.push_back(name);
+    for (const auto& [name, text] : options_.labels)
+      names.push_back(name);
+    return names;
   }
 
   // "TAU_R_MPA" would be one more column among which tracing looks for a cause of tau_R_MPa.

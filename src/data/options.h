@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -97,6 +98,7 @@ struct DataOptions {
   std::string wide; // a regular expression: which columns are one test each (data/wide.h)
   Place wide_place;
   std::optional<std::vector<std::string>> bystanders; // other columns to keep; absent: all
+  std::set<std::string> columns_beside; // of `tests` and `join`, once they are read; no job key
   // Blocks of an experiment where rows are held as means over blocks (data/condense.h): a number, 0
   // = rows are held; none: usual_blocks above many_rows.
   AutoNumber condense;
@@ -105,6 +107,10 @@ struct DataOptions {
   Place place;                                    // of [data] or of data.training
   Place oracle_place;
 };
+
+// Says where rows come from. Read and kept whatever data.bystanders names: what is synthetic stays
+// so.
+inline constexpr const char* origin_column = "origin";
 
 // In front of the column in DataOptions::experiment where both name a test.
 inline constexpr std::string_view file_and_column = "file+";

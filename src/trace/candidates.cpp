@@ -18,6 +18,7 @@
 #include "core/order_statistics.h"
 #include "core/text.h"
 #include "data/derived.h"
+#include "data/options.h"
 #include "data/quantity.h"
 #include "trace/test_dates.h"
 
@@ -279,7 +280,8 @@ private:
   }
 
   bool allowed(const Column& column) {
-    if (data::is_measured(column.name) || column.name == "origin" || ignored(column.name))
+    if (data::is_measured(column.name) || column.name == data::origin_column ||
+        ignored(column.name))
       return false;
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())

@@ -85,12 +85,14 @@ TEST_F(Judgement, RepeatedTestsGiveTheFloorOfTheirPart) {
 
 TEST_F(Judgement, MeasuredDataHaveNoOracle) {
   calibrate({"--oracle"}, {two_laws});
+  directory.write("data/training.csv",
+                  replace_all(directory.read("data/training.csv"), ",origin\n", ",source\n"));
   const std::string job =
-      directory.write("data/measured.toml", "[data]\ntraining = \"training.csv\"\nbystanders = []\n"
+      directory.write("data/measured.toml", "[data]\ntraining = \"training.csv\"\n"
                                             "oracle = \"training_oracle.csv\"\n");
   const auto result = run_frictab({"calibrate", job});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, job + ":4:10: error: data.oracle is for synthetic data: measured data have "
+  EXPECT_EQ(result.err, job + ":3:10: error: data.oracle is for synthetic data: measured data have "
                               "no known truth\n  hint: synthetic data say so in a column `origin`; "
                               "for measured data, repeated tests give the noise floor\n");
 }

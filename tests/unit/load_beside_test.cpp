@@ -98,6 +98,24 @@ TEST_F(LoadFormula, IsToldWhereItCannotBeComputed) {
 
 // ---- a table of tests ----
 
+TEST_F(LoadBeside, BystandersMayNameColumnsThatStandBesideTheRows) {
+  options.tests = file("tests.csv", "experiment,batch,room\na,K7,20\n");
+  options.files.emplace_back();
+  options.files[0].match = "*";
+  options.files[0].labels = {{"material", "316SS"}};
+  options.bystanders = {"batch", "material", "humid"};
+  const std::string text = "time_s,F_R_N,F_N_N,sigma_n_MPa,humid,other,origin\n"
+                           "0,1,10,5,40,1,x\n1,2,10,5,41,2,x\n";
+  file("a.csv", text);
+  const Dataset data = load_dataset({"a.csv"}, options);
+  for (const char* kept : {"batch", "room", "material", "humid", "origin"})
+    EXPECT_TRUE(data.has(kept)) << kept;
+  EXPECT_FALSE(data.has("other"));
+  options.bystanders = {"batsch"};
+  EXPECT_THAT(fault(text), HasSubstr("there is no column 'batsch' (data.bystanders)\n"
+                                     "  hint: did you mean 'batch'?"));
+}
+
 TEST_F(LoadBeside, TableOfTestsIsJoinedByName) {
   options.tests = file("tests.csv", "experiment,batch,room [K],T_tool_C [degF]\n"
                                     "b,K7,293,212\na,K8,294,32\nspare,K9,295,68\n");
