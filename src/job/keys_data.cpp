@@ -200,7 +200,9 @@ std::vector<KeyRule> file_keys() {
           at_least(0) | blocks_problem,
       key<std::optional<std::vector<std::string>>>(
           "data.bystanders", [](Job & job) -> auto& { return job.data.bystanders; },
-          "columns to keep that no law uses", "all other columns are kept", "[\"room_C\"]"),
+          "columns of the files to keep that no law uses; those of tests, join, labels and "
+          "constants, and origin, are kept in any case",
+          "all other columns are kept", "[\"room_C\"]"),
   };
 }
 
