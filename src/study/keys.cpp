@@ -23,9 +23,7 @@ constexpr std::size_t piece_bytes = std::size_t{16} << 20;
 // Piece by piece, so that a large file needs no memory.
 std::string hash_of_file(const std::string& base, const std::string& file) {
   std::ifstream in(fs::path(base) / file, std::ios::binary);
-  if (!in)
-    throw InputError({file, 0, 0}, "cannot be read",
-                     "files of a campaign are named relative to the study");
+  if (!in) throw no_such_file(file);
   std::string hashes, piece(piece_bytes, '\0');
   do {
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
@@ -62,6 +60,11 @@ std::string data_text(const Study& study, const Campaign& campaign) {
 }
 
 } // namespace
+
+InputError no_such_file(const std::string& file) {
+  return InputError({file, 0, 0}, "cannot be read",
+                    "files of a campaign are named relative to the study");
+}
 
 std::uint64_t key_of(const Study& study, const Campaign& campaign) {
   return hash_of(fmt::format("{}\n{}\n{}\n{}", tool_version(), stage_name(study.stage),

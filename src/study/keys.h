@@ -16,6 +16,9 @@ namespace frictab::study {
 // the job's rules.
 std::uint64_t key_of(const Study& study, const Campaign& campaign);
 
+// What key_of throws for a file that cannot be read.
+InputError no_such_file(const std::string& file);
+
 // 16 hex digits, as the result's folder is called, and back.
 std::string key_text(std::uint64_t key);
 std::optional<std::uint64_t> read_key(std::string_view text);

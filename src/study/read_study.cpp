@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "data/file_list.h"
 #include "io/atomic_file.h"
 #include "study/campaign_list.h"
 #include "study/campaigns_csv.h"
+#include "study/keys.h"
 #include "study/resolved_jobs.h"
+#include "study/toml_values.h"
 #include "study/written_study.h"
 
 namespace frictab::study {
@@ -62,6 +65,7 @@ public:
       for (const WrittenTwin& twin : written_.twins)
         add_twin(twin, *jobs);
       check_together();
+      if (!faults_.empty()) tell_missing_files(jobs->folder());
     }
     faults_.throw_if_any();
     study_.jobs = jobs->take();
@@ -157,6 +161,23 @@ private:
       campaign.name = fmt::format("{}-{}", twin.name, seed);
       campaign.twin = TwinSeed{block, seed};
       study_.campaigns.push_back(campaign);
+    }
+  }
+
+  // A plan reads every file for its keys. Where other faults stop it before, files that are not
+  // there are told with them.
+  void tell_missing_files(const std::string& folder) {
+    for (const Campaign& one : study_.campaigns) {
+      const std::string about = fmt::format("campaign '{}': ", one.name);
+      std::vector<std::string> named = one.training;
+      named.insert(named.end(), one.validation.begin(), one.validation.end());
+      try {
+        for (const std::string& file : data::find_files(named, folder, one.place))
+          if (std::error_code ignored; !fs::exists(fs::path(folder) / file, ignored))
+            add_at(one.place, no_such_file(file), faults_, about);
+      } catch (const InputError& error) {
+        add_at(one.place, error, faults_, about);
+      }
     }
   }
 
