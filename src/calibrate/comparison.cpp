@@ -150,7 +150,7 @@ double best_p_value(const Studentised& s, std::size_t i, std::size_t laws) {
   for (std::size_t j = 0; j < laws; ++j) {
     if (j == i) continue;
     const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws);
-    if (s.t[pair] == 0) continue; // the same
+    if (s.t[pair] == 0) continue;                          // the same
     lead = std::max(lead, i < j ? -s.t[pair] : s.t[pair]); // t: later law minus earlier one
     for (std::size_t b = 0; b < resamples; ++b)
       most[b] = std::max(most[b], std::abs(s.again[pair][b]));
