@@ -226,6 +226,11 @@ std::string sentence_of(const trace::Trace& t) {
                      t.n_columns, thousands(t.n_candidates), t.alpha);
 }
 
+std::string gain_text(const calibrate::Difference& gain, int decimals) {
+  return fmt::format("{} MPa (95 %: {})", fixed(gain.value_MPa, decimals),
+                     interval_text(gain.interval, decimals));
+}
+
 TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace, int decimals) {
   TemplateValues values;
   values.text["model"] = svg::escape(trace.model);
@@ -234,9 +239,10 @@ TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace,
   values.text["sentence"] = sentence_of(trace);
   values.text["floor"] = fixed(trace.noise_floor.mae_MPa, decimals);
   values.flags["has_effects"] = !trace.extended_model.empty();
-  values.text["improvement"] =
-      fmt::format("{} MPa (95 %: {})", fixed(trace.improvement.value_MPa, decimals),
-                  interval_text(trace.improvement.interval, decimals));
+  values.text["improvement"] = gain_text(trace.improvement, decimals);
+  values.flags["has_calibrated"] = trace.over_calibrated.has_value();
+  values.text["over_calibrated"] =
+      trace.over_calibrated ? gain_text(*trace.over_calibrated, decimals) : "";
   auto& errors = values.lists["errors"];
   errors.push_back(error_row("as calibrated", trace.as_calibrated, decimals));
   errors.push_back(

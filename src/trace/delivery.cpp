@@ -54,6 +54,8 @@ public:
         take_all_back(contradiction(t_.improvement));
       else if (gain.value_MPa <= 0)
         take_all_back(gain.interval.high < 0 ? contradiction(gain) : no_better(gain));
+      else
+        t_.over_calibrated = gain;
     }
     add_leads();
     return std::move(d_);

@@ -177,6 +177,9 @@ struct Trace {
   // | nested_cross_validation | leave_one_out: nothing was found | nothing: one test, the fit
   std::string unseen = "validation";
   calibrate::Difference improvement; // MAE on unseen tests before minus after, paired by experiment
+  // The same against the law as it was calibrated, which effects must also beat: the weights of the
+  // trace may cost a law that lacks something more than the effects gain. On validation tests only.
+  std::optional<calibrate::Difference> over_calibrated;
   NestedCheck nested;
   ValidationShift validation_shift;
   std::vector<Lead> leads;              // strongest first

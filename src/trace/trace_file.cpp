@@ -274,6 +274,19 @@ Json nested_json(const NestedCheck& n) {
           {"effects_offered", n.offered}};
 }
 
+Json difference_json(const calibrate::Difference& gain) {
+  return {{"validation_mae_MPa", gain.value_MPa},
+          {"interval_95", {gain.interval.low, gain.interval.high}},
+          {"p_value", gain.p_value}};
+}
+
+calibrate::Difference parse_difference(const Json& j) {
+  const Json& interval = j.at("interval_95");
+  return {number_or_nan(j.at("validation_mae_MPa")),
+          {number_or_nan(interval.at(0)), number_or_nan(interval.at(1))},
+          number_or_nan(j.at("p_value"))};
+}
+
 Json errors_json(const TraceErrors& errors) {
   return {{"training", calibrate::metrics_json(errors.training)},
           {"validation", calibrate::metrics_json(errors.validation)}};
@@ -328,10 +341,9 @@ Json one_json(const Trace& t) {
           {"nested_cross_validation", nested_json(t.nested)},
           {"validation_against_training", worlds_json(t.validation_shift)},
           {"leads", leads_json(t.leads)},
-          {"improvement",
-           {{"validation_mae_MPa", t.improvement.value_MPa},
-            {"interval_95", {t.improvement.interval.low, t.improvement.interval.high}},
-            {"p_value", t.improvement.p_value}}},
+          {"improvement", difference_json(t.improvement)},
+          {"improvement_over_calibrated",
+           t.over_calibrated ? difference_json(*t.over_calibrated) : Json(nullptr)},
           {"noise_floor",
            {{"mae_MPa", floor.mae_MPa}, {"rmse_MPa", floor.rmse_MPa}, {"method", floor.method}}},
           {"scatter_between_experiments",
@@ -388,11 +400,9 @@ Trace parse_one(const Json& j) {
   t.leads = parse_leads(j.at("leads"));
   t.smallest_seen = limit(j.at("smallest_seen_between_halves"));
   t.after = parse_errors(j.at("after"));
-  const Json& gain = j.at("improvement");
-  t.improvement = {
-      number_or_nan(gain.at("validation_mae_MPa")),
-      {number_or_nan(gain.at("interval_95").at(0)), number_or_nan(gain.at("interval_95").at(1))},
-      number_or_nan(gain.at("p_value"))};
+  t.improvement = parse_difference(j.at("improvement"));
+  if (const auto over = j.find("improvement_over_calibrated"); over != j.end() && !over->is_null())
+    t.over_calibrated = parse_difference(*over);
   t.noise_floor.mae_MPa = number_or_nan(j.at("noise_floor").at("mae_MPa"));
   t.noise_floor.rmse_MPa = number_or_nan(j.at("noise_floor").at("rmse_MPa"));
   t.noise_floor.method = j.at("noise_floor").at("method");

@@ -43,6 +43,11 @@ bool weights_matter(const Trace& t) {
   return t.unseen == "validation" && std::abs(before - own) > 0.02 * own;
 }
 
+std::string gain_text(const calibrate::Difference& gain) {
+  return fmt::format("{} MPa (95 %: {} to {}, paired by test)", digits(gain.value_MPa),
+                     digits(gain.interval.low), digits(gain.interval.high));
+}
+
 // Before and after; wider where small stresses take more characters.
 std::string error_table(const Trace& t) {
   std::vector<std::vector<std::string>> rows = {
@@ -218,9 +223,10 @@ std::string found_text(const Trace& t) {
   if (t.effects.empty())
     out += "  calibrated again without what follows the order of tests: " + t.extended_model + "\n";
   out += error_table(t);
-  out += fmt::format("  gained on unseen tests: {} MPa (95 %: {} to {}, paired by test)\n",
-                     digits(t.improvement.value_MPa), digits(t.improvement.interval.low),
-                     digits(t.improvement.interval.high));
+  out += fmt::format("  gained on unseen tests: {}\n", gain_text(t.improvement));
+  if (weights_matter(t) && t.over_calibrated)
+    out +=
+        fmt::format("  beside the law as it was calibrated: {}\n", gain_text(*t.over_calibrated));
   return out + unseen_line(t);
 }
 

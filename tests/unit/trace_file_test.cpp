@@ -68,6 +68,30 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   EXPECT_EQ(trace_json(again, true), text);
 }
 
+TEST(TraceFile, GainBesideTheCalibratedLawIsToldWhereWeightsMoveTheLaw) {
+  PlacedEffect line;
+  line.form = find_effect("linear");
+  line.inputs = {{"T_tool_C", {}, 20, 120}};
+  line.parameters = {0.1, 70, 50};
+  Trace trace;
+  trace.model = "coulomb";
+  trace.extended_model = "coulomb_traced";
+  trace.effects = {traced(line)};
+  trace.as_calibrated.validation.mae_MPa = 8.71;
+  trace.before.validation.mae_MPa = 16.3;
+  trace.improvement = {7.79, {2.91, 12.7}, 0.01};
+  trace.over_calibrated = {0.212, {-0.753, 1.18}, 0.6};
+  const std::string json = trace_json({trace}, true);
+  const Trace again = parse_traces(json, "trace.json").front();
+  EXPECT_EQ(trace_json({again}, true), json);
+  EXPECT_THAT(trace_text(again),
+              HasSubstr("\n  gained on unseen tests: 7.79 MPa (95 %: 2.91 to 12.7, paired by test)"
+                        "\n  beside the law as it was calibrated: 0.212 MPa (95 %: -0.753 to 1.18, "
+                        "paired by test)\n"));
+  trace.before.validation.mae_MPa = 8.7;
+  EXPECT_THAT(trace_text(trace), testing::Not(HasSubstr("beside the law as it was")));
+}
+
 TEST(TraceFile, AnEffectWithoutThePartsOfItsFormIsRefused) {
   PlacedEffect whole;
   whole.form = find_effect("spline_by_level");

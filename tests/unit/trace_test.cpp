@@ -73,6 +73,8 @@ Trace traced(const Data& data, const std::string& law, const TraceOptions& how =
   // Of every campaign here: no effect is delivered that makes the calibrated law worse.
   if (!found.effects.empty() && found.unseen == "validation") {
     EXPECT_LT(found.after.validation.mae_MPa, found.as_calibrated.validation.mae_MPa);
+    EXPECT_NEAR(found.over_calibrated.value().value_MPa,
+                found.as_calibrated.validation.mae_MPa - found.after.validation.mae_MPa, 1e-9);
   }
   return found;
 }
