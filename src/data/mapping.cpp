@@ -361,13 +361,7 @@ private:
     if (options_.bystanders) keep.insert(options_.bystanders->begin(), options_.bystanders->end());
     if (options_.bystanders)
       for (const std::string& name : *options_.bystanders)
-        if (const std::vector<std::string> others = from_elsewhere();
-            !by_name(name) && std::find(others.begin(), others.end(), name) == others.end()) {
-          std::vector<std::string> known = present();
-          known.insert(known.end(), others.begin(), others.end());
-          faults_.add(header(), fmt::format("there is no column '{}' (data.bystanders)", name),
-                      suggest(name, known));
-        }
+        if (!by_name(name)) check_elsewhere(name);
     for (const CsvColumn& column : raw_.columns) {
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
@@ -380,14 +374,19 @@ private:
     }
   }
 
-  // Columns that the job says of the whole file or of its tests: kept, named or not.
-  std::vector<std::string> from_elsewhere() const {
-    std::vector<std::string> names(options_.columns_beside.begin(), options_.columns_beside.end());
-    for (const auto& [name, value] : options_.constants)
-      names.push_back(name);
-    for (const auto& [name, text] : options_.labels)
-      names.push_back(name);
-    return names;
+  // Columns that the job says of the whole file or of its tests are kept, named or not.
+  void check_elsewhere(const std::string& name) {
+    if (options_.columns_beside.count(name) || options_.constants.count(name) ||
+        options_.labels.count(name))
+      return;
+    std::vector<std::string> known = present();
+    known.insert(known.end(), options_.columns_beside.begin(), options_.columns_beside.end());
+    for (const auto& [constant, value] : options_.constants)
+      known.push_back(constant);
+    for (const auto& [label, text] : options_.labels)
+      known.push_back(label);
+    faults_.add(header(), fmt::format("there is no column '{}' (data.bystanders)", name),
+                suggest(name, known));
   }
 
   // "TAU_R_MPA" would be one more column among which tracing looks for a cause of tau_R_MPa.

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "data/options.h"
 #include "job/literature.h"
 #include "twin/twin_draft.h"
 #include "twin/twin_effect.h"
@@ -24,7 +25,8 @@ void hide_columns(const TwinOptions& options, data::Dataset& data) {
     hidden.insert(hidden.end(), {"run_order", "humidity_pct", "film_um", "Ra_um", "tool"});
   std::vector<std::string> known;
   for (const data::Column& column : data.columns)
-    if (column.name != "tau_R_MPa" && column.name != "origin") known.push_back(column.name);
+    if (column.name != "tau_R_MPa" && column.name != data::origin_column)
+      known.push_back(column.name);
   for (const std::string& name : hidden) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       faults.add({"--hide"}, "no column '" + name + "' to hide", suggest(name, known));
@@ -69,7 +71,7 @@ TwinPart finish(const TwinOptions& options, TwinDraft draft, std::size_t tests,
     tau[i] = round_to(part.oracle_MPa[i] * draft.noise[i], 3);
   part.data = std::move(draft.data);
   part.data.columns.push_back(
-      {"origin", "", std::vector<double>(tau.size(), 0.0), {twin_origin(options)}});
+      {data::origin_column, "", std::vector<double>(tau.size(), 0.0), {twin_origin(options)}});
   hide_columns(options, part.data);
   return part;
 }

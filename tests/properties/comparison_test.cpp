@@ -83,7 +83,7 @@ TEST(SlowComparison, OfALawWrittenInTwoWaysFindsNoBetterOne) {
   EXPECT_EQ(calibrate::choose_again(other_rank, 500, 1).best_in[0].share, 1) << "the first of both";
 }
 
-TEST(SlowComparison, OfLawsThatDifferByLessThanCountsHoldsNoDifferenceInItsInterval) {
+TEST(SlowComparison, OfLawsThatCountAsTheSameHasZeroInItsInterval) {
   const std::vector<double> mae{13, 18, 11, 12, 15, 16, 12};
   for (const double scatter : {0.0, 1e-6, 1e-5}) {
     std::vector<double> other = mae;

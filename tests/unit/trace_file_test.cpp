@@ -28,6 +28,17 @@ trace::TracedEffect traced(PlacedEffect placed) {
   return effect;
 }
 
+Trace with_a_hinge() {
+  PlacedEffect hinge;
+  hinge.form = find_effect("hinge");
+  hinge.inputs = {{"T_tool_C", {}, 20, 120}};
+  hinge.parameters = {0.5, 70, 50};
+  Trace trace;
+  trace.model = "coulomb";
+  trace.effects = {traced(hinge)};
+  return trace;
+}
+
 TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
   PlacedEffect curves;
   curves.form = find_effect("spline_by_level");
@@ -69,14 +80,8 @@ TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
 }
 
 TEST(TraceFile, GainBesideTheCalibratedLawIsToldWhereWeightsMoveTheLaw) {
-  PlacedEffect line;
-  line.form = find_effect("linear");
-  line.inputs = {{"T_tool_C", {}, 20, 120}};
-  line.parameters = {0.1, 70, 50};
-  Trace trace;
-  trace.model = "coulomb";
+  Trace trace = with_a_hinge();
   trace.extended_model = "coulomb_traced";
-  trace.effects = {traced(line)};
   trace.as_calibrated.validation.mae_MPa = 8.71;
   trace.before.validation.mae_MPa = 16.3;
   trace.improvement = {7.79, {2.91, 12.7}, 0.01};
@@ -116,14 +121,7 @@ TEST(TraceFile, AnEffectWithoutThePartsOfItsFormIsRefused) {
 }
 
 TEST(TraceFile, AnEffectThatActsNowhereIsRefused) {
-  PlacedEffect lost;
-  lost.form = find_effect("hinge");
-  lost.inputs = {{"T_tool_C", {}, 20, 120}};
-  lost.parameters = {0.5, 70, 50};
-  Trace trace;
-  trace.model = "coulomb";
-  trace.effects = {traced(lost)};
-  std::string text = trace_json({trace}, true);
+  std::string text = trace_json({with_a_hinge()}, true);
   const std::string place = "\"acts_on\": \"mu\"";
   const std::size_t at = text.find(place);
   ASSERT_NE(at, text.npos);

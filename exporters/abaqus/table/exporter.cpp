@@ -125,8 +125,8 @@ const std::string notes =
                 "law ") +
     native_held_states +
     "A column the law does not depend on stays blank. TAUMAX holds the law's shear limit at the "
-    "held flow stress. The "
-    "grid is made to table.tolerance_MPa with at most 30,000 lines. Beyond the ends Abaqus keeps "
+    "held flow stress. The grid is made to table.tolerance_MPa with at most 30,000 lines. Beyond "
+    "the ends Abaqus keeps "
     "the coefficient there; downwards the table goes to where tau_R is below the tolerance.";
 
 NativeTarget target() {

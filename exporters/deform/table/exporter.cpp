@@ -108,9 +108,9 @@ const std::string notes =
     std::string("Pressure, temperature and surface stretch are all this table knows, in 2-D as in "
                 "3-D; every other state of the law, sliding speed and distance among them, ") +
     native_held_states +
-    "deform_friction = "
-    "\"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow stress, which "
-    "DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear limit within. "
+    "deform_friction = \"shear\" writes m = tau_R/k with k = sigma_f/sqrt(3) at the held flow "
+    "stress, which DEFORM multiplies by its own k; coulomb writes mu = tau_R/pressure, the shear "
+    "limit within. "
     "Object numbers 1 and 2 are yours to change. The grid is made to table.tolerance_MPa with "
     "at most 30,000 values.";
 
