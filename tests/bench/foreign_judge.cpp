@@ -64,7 +64,9 @@ Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Opt
              double alpha) {
   trace::TraceOptions how;
   how.alpha = alpha;
-  Trace found = trace::trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
+  const data::Dataset validation =
+      options.no_validation ? campaign.validation.subset({}) : campaign.validation;
+  Trace found = trace::trace({campaign.training, validation, fit, how, 50, options.seed});
   if (options.show) std::fputs(trace::trace_text(found).c_str(), stderr);
   return found;
 }
@@ -238,7 +240,10 @@ Score judged(const Options& options, double alpha) try {
   score.absorbed = campaign.absorbed;
   score.gain_scatter = campaign.gain_scatter;
   score.gain_sample = campaign.gain_sample;
-  calibrate::CalibrationInput input{campaign.training, campaign.validation, {}, {}};
+  const bool alone = options.no_validation;
+  calibrate::CalibrationInput input{
+      campaign.training, alone ? campaign.training : campaign.validation, {}, {}};
+  if (alone) input.judged_by = calibrate::JudgedBy::leave_one_out;
   input.models.use = {campaign.base};
   input.options.bootstrap = 50; // no interval of it is judged here
   const calibrate::Calibration calibration = calibrate::calibrate(input);

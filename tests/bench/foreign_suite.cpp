@@ -4,7 +4,8 @@
 //
 // usage: frictab_bench_foreign [--only TEXT] [--seeds N] [--first-seed N] [--nulls N]
 //                              [--masked-seeds N] [--strengths A,B] [--factors A,B] [--alpha A]
-//                              [--search-only] [--show] [--threads N] [--csv FILE] [--list]
+//                              [--search-only] [--no-validation] [--show] [--threads N]
+//                              [--csv FILE] [--list]
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +24,7 @@ struct Arguments {
   double alpha = trace::TraceOptions{}.alpha;
   unsigned threads = 0;
   std::string csv;
-  bool list = false, show = false, search_only = false;
+  bool list = false, show = false, search_only = false, no_validation = false;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -41,6 +42,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--show", arguments.show, "print what tracing says of every campaign (stderr)");
   app.add_flag("--search-only", arguments.search_only,
                "all that is significant, whether it pays or not: a tenth of the time");
+  app.add_flag("--no-validation", arguments.no_validation,
+               "campaigns without validation tests, as most are");
   app.add_flag("--list", arguments.list, "name the campaigns, run nothing");
 }
 
@@ -80,6 +83,7 @@ int main(int argc, char** argv) try {
   for (Case& c : cases) {
     c.options.show = arguments.show;
     c.options.search_only = arguments.search_only;
+    c.options.no_validation = arguments.no_validation;
   }
   if (arguments.list) {
     for (const Case& c : cases)
