@@ -17,9 +17,6 @@ struct Delivery {
   bool contradicted = false; // a finding that is not delivered: by the validation tests
 };
 
-// With fewer validation tests than this, "unseen" are the training tests left out in turn.
-inline constexpr std::size_t enough_validation = 8;
-
 // Fills before, after, as_calibrated, unseen, improvement, nested and leads of `trace`.
 Delivery deliver(const Search& search, Trace& trace);
 

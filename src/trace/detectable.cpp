@@ -67,7 +67,7 @@ void add_between(Trace& trace, const Search& search) {
 
 void add_detectable(Trace& trace, const Search& search, std::uint64_t seed) {
   const ScreenResult& screened = search.last_screen;
-  const double threshold = screened.threshold(search.family_alpha());
+  const double threshold = screened.threshold(search.input.options.alpha);
   for (std::size_t s = 0; s < search.causes.size(); ++s) {
     if (search.causes[s].is_joint() || search.shapes[s].empty()) continue;
     const CandidateColumn& column = search.candidates.columns[search.causes[s].columns[0]];

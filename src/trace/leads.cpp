@@ -73,7 +73,7 @@ double between_threshold(const Search& search) {
   for (const TestShape& shape : search.test_shapes)
     causes.insert(shape.cause);
   const auto count = static_cast<double>(std::max<std::size_t>(causes.size(), 1));
-  return gsl_cdf_ugaussian_Qinv(search.family_alpha() / (2 * count));
+  return gsl_cdf_ugaussian_Qinv(search.input.options.alpha / (2 * count));
 }
 
 void add_between_leads(Trace& trace, const Search& search) {
@@ -208,7 +208,7 @@ Lead within_lead(const Trace& trace, const Search& search, std::size_t index) {
     lead.why += rate_sentence(search, d, amplitude);
   if (deserves_design(trace, lead))
     lead.design = design_for_lead(search, shape.effect, search.causes[d.cause],
-                                  search.last_screen.threshold(search.family_alpha()));
+                                  search.last_screen.threshold(search.input.options.alpha));
   return lead;
 }
 

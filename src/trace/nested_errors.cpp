@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 // of 400 leave to it at most (20 x 400 / tests), and never fewer than 4.
 constexpr std::size_t all_alone = 40, many_folds = 20, least_folds = 4;
 constexpr std::size_t tests_searched = many_folds * 400; // over all folds
+constexpr double level_in_folds = 2;
 
 } // namespace
 
@@ -84,7 +85,7 @@ FoldErrors fold_errors(const Search& all, const data::Dataset& training,
   if (order && values_of_tests(*order, training) < 3) options.order.clear(); // but of all it is one
   const TraceInput part{training, input.validation, input.fit,
                         options,  input.bootstrap,  input.seed};
-  const auto search = search_effects(part, {199, 299, &all.base.noise});
+  const auto search = search_effects(part, {199, 299, level_in_folds, &all.base.noise});
   FoldErrors errors;
   const auto evaluate = [&](const Rival& rival, std::size_t weights) {
     const std::vector<double> predicted = calibrate::predict(search->model_of(rival), left_out);

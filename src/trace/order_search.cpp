@@ -143,7 +143,7 @@ bool order_explains(const Search& search, const TestShape& shape) {
   MatrixXd beside = search.known_between();
   const int waves = std::min(6, std::max(2, static_cast<int>(tests) / 8));
   append_columns(beside, order_functions(search.candidates.order, waves));
-  return p_beside(search.gains, beside, shape) > search.family_alpha();
+  return p_beside(search.gains, beside, shape) > search.input.options.alpha;
 }
 
 bool follows_order(const Search& search, const Rival& rival) {
@@ -183,7 +183,8 @@ void attribute_to_order(Search& search, const Cause& cause, double p_value) {
     search.confounded.push_back(
         {cause, p_value, constant_in_experiments(cause, search.candidates)});
   forbid_causes(search, [&](const Cause& other) { return other == cause; });
-  remove_order_structure(search, p_value, 0);
+  // An effect also has to pay; a structure does not, so its p-value has to be smaller.
+  if (p_value <= search.input.options.alpha) remove_order_structure(search, p_value, 0);
 }
 
 void remove_order_structure(Search& search, double p_value, std::size_t site) {

@@ -1,6 +1,7 @@
 // What a search starts from: candidates, the law on blocks, its fit without effects.
 #include "trace/search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -220,6 +221,18 @@ Whitener Search::whitener() const {
   return {last_.noise, last_.predicted, blocks, campaign_->nuisance};
 }
 
+double Search::family_alpha() const {
+  constexpr double most = 0.5; // where a user asks for little, there is nothing left to relax
+  const bool validated = input.validation.experiments.size() >= enough_validation;
+  const double level = effort.level * (validated ? level_with_validation : 1);
+  return std::max(input.options.alpha, std::min(level * input.options.alpha, most));
+}
+
+bool Search::enough_units() const {
+  const auto count = *std::max_element(units.begin(), units.end()) + 1;
+  return static_cast<double>(count) >= tests_for(input.options.alpha);
+}
+
 bool Search::negligible() const {
   const VectorXd left = residual();
   return left.norm() / std::sqrt(static_cast<double>(left.size())) <
@@ -273,10 +286,10 @@ Screened screen_within_tests(const Search& search, bool keep_scores) {
   return found;
 }
 
-BetweenResult search_between_tests(const Search& search) {
+BetweenResult search_between_tests(const Search& search, double alpha) {
   const MatrixXd known = search.known_between();
-  return search_between({search.gains, known, search.test_shapes, search.candidates,
-                         search.family_alpha(), search.effort.permutations, search.input.seed});
+  return search_between({search.gains, known, search.test_shapes, search.candidates, alpha,
+                         search.effort.permutations, search.input.seed});
 }
 
 } // namespace frictab::trace

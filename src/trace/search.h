@@ -25,10 +25,23 @@ struct Finding {
   bool between = false;                // found on one value per test
 };
 
-// How many random draws a search makes: fewer where it is repeated for every fold.
+// With fewer validation tests than this they decide nothing: "unseen" are the training tests, left
+// out in turn.
+inline constexpr std::size_t enough_validation = 8;
+
+// p-value up to which either family takes what it finds, in units of trace.alpha, where there are
+// enough validation tests (1 where not). What is found also has to predict left-out tests
+// (nested_errors.h) and these (delivery.h). All of that happens by chance far more rarely than the
+// p-value alone, so a false alarm stays rarer than trace.alpha (docs/measurements.md).
+inline constexpr double level_with_validation = 2.5;
+
+// What a search spends and asks: fewer draws where it is repeated for every fold, and a larger
+// p-value. Without a test the same effect has a larger one, and a fold that finds nothing does not
+// say what an effect is worth.
 struct Effort {
   std::size_t permutations = 999; // between tests
   std::size_t flips = 1999;       // within tests
+  double level = 1;               // times the p-value of the search on all tests
   // Of the law on all tests: where a fold starts to fit its noise, and then fits it coarsely.
   const NoiseModel* earlier = nullptr;
 };
@@ -68,9 +81,10 @@ public:
   // Per test, what the parameters of the law, the effects in it and the order of tests explain of
   // the logarithm of its gain.
   Eigen::MatrixXd known_between() const;
-  // Of each of the two families. That what is found also has to predict tests that the search has
-  // not seen keeps false alarms of both together below it (docs/measurements.md).
-  double family_alpha() const { return input.options.alpha; }
+  // Whether so many units, which the screening flips, can give a p-value of trace.alpha.
+  bool enough_units() const;
+  // p-value that a finding of either family needs.
+  double family_alpha() const;
 
   const TraceInput& input;
   Effort effort;
@@ -123,7 +137,7 @@ struct Screened {
 };
 Screened screen_within_tests(const Search& search, bool keep_scores = false);
 // The test between tests (between_search.h), with what the law and its effects explain as known.
-BetweenResult search_between_tests(const Search& search);
+BetweenResult search_between_tests(const Search& search, double alpha);
 
 // The whole search: `last` is the law with everything that was found.
 std::unique_ptr<Search> search_effects(const TraceInput& input, const Effort& effort = {});

@@ -27,7 +27,7 @@ public:
     if (s_.campaign().quick) return; // a fold of nested cross-validation needs only the findings
     s_.last_screen = screen_within_tests(s_, true).result;
     s_.last_p_value = s_.negligible() ? 1 : s_.last_screen.p_value;
-    s_.last_between = search_between_tests(s_);
+    s_.last_between = search_between_tests(s_, s_.input.options.alpha);
   }
 
 private:
@@ -43,7 +43,7 @@ private:
 
   void find_between() {
     while (!s_.negligible()) {
-      BetweenResult result = search_between_tests(s_);
+      BetweenResult result = search_between_tests(s_, s_.family_alpha());
       if (result.found.empty()) return;
       const auto suspect =
           std::find_if(result.found.begin(), result.found.end(),
@@ -110,7 +110,7 @@ private:
   // --- within tests ---------------------------------------------------------------------------
 
   bool add_within() {
-    if (s_.negligible()) return false;
+    if (s_.negligible() || !s_.enough_units()) return false;
     const auto [screened, noise] = screen_within_tests(s_);
     if (screened.directions.empty() || screened.p_value > s_.family_alpha()) return false;
     // Under the same noise, whatever is added has to be likelier than nothing.

@@ -147,7 +147,6 @@ TEST(SlowTrace, SaysThatNothingWasFoundWhereTheLawIsTheTruth) {
     EXPECT_THAT(t.remaining.note, HasSubstr("repeat tests, or give trace.repeatability"));
     EXPECT_GT(t.smallest_seen, 0.02) << "tests differ by 4 %";
     EXPECT_LT(t.smallest_seen, 0.2);
-    EXPECT_EQ(t.nested.folds, 0u);
     EXPECT_FALSE(t.validation_shift.found);
   }
 }
@@ -478,6 +477,25 @@ Data with_factor(double size, double in_validation) {
   return data;
 }
 
+// Eight validation tests guard against chance as well, so the search may take more.
+TEST(SlowTrace, WithValidationTestsAnEffectMayHaveALargerPValue) {
+  TwinOptions options = campaign("log_coulomb", 6, "form=linear,column=Ra_um,strength=0.13");
+  options.design->points = 10;
+  Data data = data_of(options);
+  const Trace t = traced(data, "log_coulomb");
+  EXPECT_EQ(causes(t), std::vector<std::string>{"Ra_um"}) << trace_text(t);
+  EXPECT_GT(t.effects.at(0).p_value, t.alpha);
+  EXPECT_LE(t.effects.at(0).p_value, 2.5 * t.alpha);
+  EXPECT_GT(t.improvement.value_MPa, 0);
+  const std::vector<std::size_t> seven = {0, 1, 2, 3, 4, 5, 6};
+  data.validation = data.validation.subset(seven);
+  const Trace alone = traced(data, "log_coulomb");
+  EXPECT_TRUE(alone.effects.empty()) << trace_text(alone);
+  ASSERT_FALSE(alone.leads.empty());
+  EXPECT_EQ(alone.leads.front().columns, std::vector<std::string>{"Ra_um"});
+  EXPECT_NEAR(alone.leads.front().p_value, t.effects.at(0).p_value, 1e-9);
+}
+
 TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
   const Trace good = traced(with_factor(0.3, 1), "log_coulomb");
   EXPECT_EQ(good.verdict, Verdict::effect_added) << trace_text(good);
@@ -584,9 +602,9 @@ TEST(SlowTraceRates, CampaignsThatLackNothingGiveFalseAlarmsAsRarelyAsAsked) {
       for (const trace::Lead& lead : t.leads)
         EXPECT_LT(std::abs(lead.share), 3) << seed << noise << trace_text(t);
     }
-  // Binomial, 30 at 0.02 and at 0.01: more than 3 in 0.2 %.
-  EXPECT_LE(found, 3);
-  EXPECT_LE(added, 2) << "what the search finds has to predict left-out tests as well";
+  // Binomial of 30: more than 8 at two families of 0.05 each, more than 3 at 0.02, in 0.2 %.
+  EXPECT_LE(found, 8);
+  EXPECT_LE(added, 3) << "what the search finds has to predict left-out tests as well";
   EXPECT_LE(flagged, 3);
 }
 
