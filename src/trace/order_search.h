@@ -19,7 +19,7 @@ bool follows_order(const Search& search, const Rival& rival);
 bool order_explains(const Search& search, const TestShape& shape);
 
 // Notes the cause as one that the order of tests explains as well, forbids it, and takes the order
-// out of the calibration.
+// out of the calibration, if its p-value is at most trace.alpha.
 void attribute_to_order(Search& search, const Cause& cause, double p_value);
 
 // From here on nothing is explained that slow functions of the order can explain, at the site

@@ -53,6 +53,7 @@ private:
         return;
       }
       attribute_to_order(s_, suspect->shape.cause, suspect->p_value);
+      if (!s_.order.found) return; // too weak for a structure, and no effect
     }
   }
 
