@@ -10,6 +10,7 @@
 #include "calibrate/input_columns.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "trace/search.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
 #include "trace/trace_text.h"
@@ -304,6 +305,28 @@ TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
   EXPECT_EQ(by_name.nested.gain, by_job.nested.gain);
   EXPECT_EQ(by_name.nested.std_error, by_job.nested.std_error);
   EXPECT_EQ(trace_json({by_name}, true), trace_json({by_job}, true));
+}
+
+// A search that takes nearly everything finds much that the order explains as well, products of two
+// columns among it.
+TEST(SlowTrace, ASearchEndsWhereWeakFindingsGoWithTheOrderOfTests) {
+  std::size_t confounded = 0;
+  for (std::uint64_t seed = 1; seed < 31; ++seed) {
+    TwinOptions options = campaign("log_coulomb", seed, "form=linear,column=Ra_um,strength=0.2");
+    options.design->points = 5;
+    const Data data = data_of(options);
+    calibrate::ModelOptions models;
+    models.use = {"log_coulomb"};
+    const calibrate::Calibration calibrated =
+        calibrate::calibrate({data.training, data.validation, models, {}});
+    const TraceOptions how = declared_order();
+    const trace::TraceInput input{data.training, data.validation, calibrated.fits.front(), how, 0,
+                                  seed};
+    const auto search = trace::search_effects(input, {199, 299, 25});
+    EXPECT_FALSE(search->order.found) << "weak findings are no structure" << seed;
+    confounded += search->confounded.size();
+  }
+  EXPECT_GT(confounded, 5u);
 }
 
 TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
