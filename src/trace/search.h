@@ -32,7 +32,7 @@ inline constexpr std::size_t enough_validation = 8;
 // p-value up to which either family takes what it finds, in units of trace.alpha, where there are
 // enough validation tests (1 where not). What is found also has to predict left-out tests
 // (nested_errors.h) and these (delivery.h). All of that happens by chance far more rarely than the
-// p-value alone, so a false alarm stays rarer than trace.alpha (docs/measurements.md).
+// p-value alone: false alarms were rarer than trace.alpha (docs/measurements.md).
 inline constexpr double level_with_validation = 2.5;
 
 // What a search spends and asks: fewer draws where it is repeated for every fold, and a larger

@@ -64,9 +64,7 @@ Trace traced(const Campaign& campaign, const calibrate::ModelFit& fit, const Opt
              double alpha) {
   trace::TraceOptions how;
   how.alpha = alpha;
-  const data::Dataset validation =
-      options.no_validation ? campaign.validation.subset({}) : campaign.validation;
-  Trace found = trace::trace({campaign.training, validation, fit, how, 50, options.seed});
+  Trace found = trace::trace({campaign.training, campaign.validation, fit, how, 50, options.seed});
   if (options.show) std::fputs(trace::trace_text(found).c_str(), stderr);
   return found;
 }
@@ -235,15 +233,16 @@ Outcome of_search(const Campaign& campaign, const calibrate::ModelFit& fit, cons
 } // namespace
 
 Score judged(const Options& options, double alpha) try {
-  const Campaign campaign = make_campaign(options);
+  Campaign campaign = make_campaign(options);
+  const data::Dataset held_out = campaign.validation;
+  if (options.no_validation) campaign.validation = held_out.subset({});
   Score score;
   score.absorbed = campaign.absorbed;
   score.gain_scatter = campaign.gain_scatter;
   score.gain_sample = campaign.gain_sample;
-  const bool alone = options.no_validation;
   calibrate::CalibrationInput input{
-      campaign.training, alone ? campaign.training : campaign.validation, {}, {}};
-  if (alone) input.judged_by = calibrate::JudgedBy::leave_one_out;
+      campaign.training, options.no_validation ? campaign.training : held_out, {}, {}};
+  if (options.no_validation) input.judged_by = calibrate::JudgedBy::leave_one_out;
   input.models.use = {campaign.base};
   input.options.bootstrap = 50; // no interval of it is judged here
   const calibrate::Calibration calibration = calibrate::calibrate(input);
@@ -256,14 +255,12 @@ Score judged(const Options& options, double alpha) try {
   if (!options.effect.empty()) judge_truth(campaign, fit, alpha, options.seed, score);
   Judge(campaign, outcome.found).score(score);
   const auto error_of = [&](const models::Model& model) {
-    return mean_error(campaign.validation.values("tau_R_MPa"),
-                      calibrate::predict(model, campaign.validation));
+    return mean_error(held_out.values("tau_R_MPa"), calibrate::predict(model, held_out));
   };
   score.delivered = outcome.law.law != nullptr;
   score.before = error_of(fit.model);
   score.after = score.delivered ? error_of(outcome.law) : score.before;
-  score.oracle =
-      mean_error(campaign.validation.values("tau_R_MPa"), campaign.validation.oracle_MPa);
+  score.oracle = mean_error(held_out.values("tau_R_MPa"), held_out.oracle_MPa);
   return score;
 } catch (const std::exception& error) {
   Score failed;

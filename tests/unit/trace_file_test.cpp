@@ -28,15 +28,19 @@ trace::TracedEffect traced(PlacedEffect placed) {
   return effect;
 }
 
-Trace with_a_hinge() {
-  PlacedEffect hinge;
-  hinge.form = find_effect("hinge");
-  hinge.inputs = {{"T_tool_C", {}, 20, 120}};
-  hinge.parameters = {0.5, 70, 50};
+Trace of_coulomb(const char* form, effects::EffectInput input, std::vector<double> parameters) {
+  PlacedEffect placed;
+  placed.form = find_effect(form);
+  placed.inputs = {std::move(input)};
+  placed.parameters = std::move(parameters);
   Trace trace;
   trace.model = "coulomb";
-  trace.effects = {traced(hinge)};
+  trace.effects = {traced(placed)};
   return trace;
+}
+
+Trace with_a_hinge() {
+  return of_coulomb("hinge", {"T_tool_C", {}, 20, 120}, {0.5, 70, 50});
 }
 
 TEST(TraceFile, EffectsReadBackWithInputsKnotsAndPlace) {
@@ -131,13 +135,7 @@ TEST(TraceFile, AnEffectThatActsNowhereIsRefused) {
 }
 
 TEST(TraceFile, AParameterWithoutAnErrorSaysWhyInTextAndFile) {
-  PlacedEffect step;
-  step.form = find_effect("step");
-  step.inputs = {{"humidity_pct", {}, 30, 60}};
-  step.parameters = {0.2, 60, 2};
-  Trace trace;
-  trace.model = "coulomb";
-  trace.effects = {traced(step)};
+  Trace trace = of_coulomb("step", {"humidity_pct", {}, 30, 60}, {0.2, 60, 2});
   const double none = std::numeric_limits<double>::quiet_NaN();
   trace.effects[0].parameters = {{"a", 0.2, 0.01, "1", ""},
                                  {"x0", 60, none, "%", "at its bound"},
