@@ -143,7 +143,7 @@ bool order_explains(const Search& search, const TestShape& shape) {
   MatrixXd beside = search.known_between();
   const int waves = std::min(6, std::max(2, static_cast<int>(tests) / 8));
   append_columns(beside, order_functions(search.candidates.order, waves));
-  return p_beside(search.gains, beside, shape) > search.input.options.alpha;
+  return p_beside(search.gains, beside, shape) > search.family_alpha();
 }
 
 bool follows_order(const Search& search, const Rival& rival) {

@@ -53,7 +53,11 @@ private:
         return;
       }
       attribute_to_order(s_, suspect->shape.cause, suspect->p_value);
-      if (!s_.order.found) return; // too weak for a structure, and no effect
+      if (s_.order.found || !suspect->shape.cause.is_joint()) continue;
+      // Too weak for a structure, and a product would be found again; what came before it stands.
+      result.found.erase(suspect, result.found.end());
+      if (!result.found.empty()) add_between(result);
+      return;
     }
   }
 

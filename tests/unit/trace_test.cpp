@@ -331,7 +331,7 @@ TEST(SlowTrace, ASearchEndsWhereWeakFindingsGoWithTheOrderOfTests) {
     EXPECT_FALSE(search->order.found) << "weak findings are no structure" << seed;
     confounded += search->confounded.size();
   }
-  EXPECT_GT(confounded, 5u);
+  EXPECT_GT(confounded, 0u) << "nothing here goes with the order";
 }
 
 TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
