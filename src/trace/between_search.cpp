@@ -82,6 +82,17 @@ double squares_left(const VectorXd& y, const MatrixXd& columns) {
   return std::max((y - q * (q.transpose() * y)).squaredNorm(), 1e-300);
 }
 
+// F test of the columns given the others; 1: nothing of them is left beside the others.
+double f_test_p(const VectorXd& y, const MatrixXd& others, const MatrixXd& columns) {
+  const MatrixXd q = orthonormal(others);
+  const MatrixXd own = columns - q * (q.transpose() * columns);
+  if (own.norm() < 1e-6 * columns.norm()) return 1;
+  const MatrixXd a = orthonormal(own);
+  return std::exp(log_p_of((a.transpose() * y).squaredNorm() / squares_left(y, q),
+                           static_cast<double>(a.cols()),
+                           static_cast<double>(y.size() - q.cols())));
+}
+
 class Between {
 public:
   explicit Between(const BetweenInput& input) : in_(input) {}
@@ -196,34 +207,48 @@ private:
     critical_ = path;
     result_.leads = chosen;
     if (path.p_value > in_.alpha || chosen.empty()) return false;
-    if (ban_worst(y, known, w, chosen, path.critical_log_p)) return true;
+    if (ban_worst(y, known, w, chosen, path)) return true;
     if (chosen.size() > 1) keep_those_that_stand(y, known, w, open, chosen);
-    if (chosen.empty()) return false;
+    if (chosen.empty()) {
+      for (std::size_t i = 0; i < result_.leads.size(); ++i)
+        result_.doubtful.push_back(
+            {result_.leads[i], all_but(i, result_.leads), path.p_value, false});
+      return false;
+    }
     for (TestShape& shape : chosen)
       result_.found.push_back({std::move(shape), path.p_value, {}});
     result_.leads.clear();
     return true;
   }
 
+  static Taken all_but(std::size_t i, const Taken& all) {
+    Taken others = all;
+    others.erase(others.begin() + static_cast<long>(i));
+    return others;
+  }
+
   // Bans the shape of the path that holds least under unequal scatter: it lives on few tests that
   // scatter more than others. True where one was banned.
   bool ban_worst(const VectorXd& y, const MatrixXd& known, const VectorXd& w, const Taken& chosen,
-                 double critical) {
-    const double least = std::min(1.0, guard_slack * std::exp(critical));
+                 const PathResult& path) {
+    const double least = std::min(1.0, guard_slack * std::exp(path.critical_log_p));
     double worst = least;
-    const TestShape* out = nullptr;
-    for (const TestShape& shape : chosen) {
+    Doubtful out;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Taken beside = all_but(i, chosen);
       MatrixXd others = known;
-      for (const TestShape& other : chosen)
-        if (&other != &shape) append_columns(others, w.asDiagonal() * other.columns);
-      const double p = hc3_p(y, others, w.asDiagonal() * shape.columns);
-      if (p > worst) {
-        worst = p;
-        out = &shape;
-      }
+      for (const TestShape& other : beside)
+        append_columns(others, w.asDiagonal() * other.columns);
+      const MatrixXd columns = w.asDiagonal() * chosen[i].columns;
+      const double p = hc3_p(y, others, columns);
+      if (!(p > worst)) continue;
+      worst = p;
+      out = {chosen[i], beside, path.p_value, f_test_p(y, others, columns) <= least};
     }
-    if (out) banned_.insert({out->cause, out->form});
-    return out != nullptr;
+    if (!(worst > least)) return false;
+    banned_.insert({out.shape.cause, out.shape.form});
+    result_.doubtful.push_back(std::move(out));
+    return true;
   }
 
   // Each of several has to win alone beside the others.
@@ -254,8 +279,7 @@ private:
   void finish() {
     for (std::size_t i = 0; i < result_.found.size(); ++i) {
       const Taken all = taken();
-      Taken others = all;
-      others.erase(others.begin() + static_cast<long>(i));
+      const Taken others = all_but(i, all);
       const MatrixXd plain = known_with(others);
       const VectorXd w = weights(known_with(all));
       const MatrixXd known = w.asDiagonal() * plain;
@@ -394,15 +418,9 @@ double p_beside(const TestGains& gains, const MatrixXd& known, const TestShape& 
   append_columns(x, known);
   const double scatter = scatter_between(gains.gain, gains.variance, x);
   const VectorXd w = (scatter + gains.variance.array() + 1e-18).inverse().sqrt();
-  const MatrixXd q = orthonormal(w.asDiagonal() * x);
-  const VectorXd y = robust_response(w.cwiseProduct(gains.gain), q);
-  const MatrixXd columns = w.asDiagonal() * shape.columns;
-  const MatrixXd own = columns - q * (q.transpose() * columns);
-  const MatrixXd a = orthonormal(own);
-  const double left = squares_left(y, q), df = static_cast<double>(a.cols());
-  if (own.norm() < 1e-6 * columns.norm()) return 1;
-  return std::exp(log_p_of((a.transpose() * y).squaredNorm() / left, df,
-                           static_cast<double>(y.size() - q.cols())));
+  const MatrixXd others = w.asDiagonal() * x;
+  return f_test_p(robust_response(w.cwiseProduct(gains.gain), others), others,
+                  w.asDiagonal() * shape.columns);
 }
 
 double scatter_between(const VectorXd& gain, const VectorXd& variance, const MatrixXd& known) {

@@ -3,12 +3,10 @@
 //
 // A step of the search:
 // 1. Each test's gain has the weight 1/(sigma_b^2 + s_e^2): s_e^2 is how well the gain is known
-// from
-//    its own rows, sigma_b^2 the scatter between tests beyond that (Paule and Mandel 1982). Without
-//    the first a few short, noisy tests hide everything.
+//    from its own rows, sigma_b^2 the scatter between tests beyond that (Paule and Mandel 1982).
+//    Without the first a few short, noisy tests hide everything.
 // 2. Gains are cut at 2.5 robust standard deviations from Huber's fit, so that one wild test
-// decides
-//    nothing.
+//    decides nothing.
 // 3. Paths of one to three columns are searched and judged by permutation (path_search.h).
 // 4. Each column of the path also has to hold under unequal scatter (HC3: MacKinnon and White
 // 1985);
@@ -51,8 +49,19 @@ struct BetweenFinding {
   std::vector<Cause> as_good; // columns these tests cannot tell from it
 };
 
+// On a path whose p-value was small enough, and not added all the same.
+struct Doubtful {
+  TestShape shape;
+  std::vector<TestShape> beside; // the others of the path
+  double p_value = 1;            // as of a finding, of the whole path
+  // Sure as long as all tests scatter alike, but not otherwise (HC3): few tests carry it. Where
+  // not: it takes the others of the path to be sure of it, and is not beside them.
+  bool few_tests = false;
+};
+
 struct BetweenResult {
   std::vector<BetweenFinding> found; // in the order found
+  std::vector<Doubtful> doubtful;    // in the order met
   double last_p_value = 1;           // of what is left
   std::vector<TestShape> leads;      // the best path of what is left
   double scatter = 0;                // of the gains behind all that: relative, standard deviation

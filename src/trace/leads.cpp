@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gsl/gsl_cdf.h>
 
 #include "core/no_value.h"
@@ -21,7 +23,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_leads = 6, most_within = 3;
+constexpr std::size_t most_leads = 6, most_within = 3, most_doubtful = 3;
 constexpr double by_chance = 0.2;   // p-value from which chance is the simplest reading
 constexpr float as_strong = 0.8f;   // statistic of a recorded column, of what is computed from it
 constexpr double hardly_there = 10; // of tau_R: the amplitude of a direction with nothing in it
@@ -76,18 +78,41 @@ double between_threshold(const Search& search) {
   return gsl_cdf_ugaussian_Qinv(search.input.options.alpha / (2 * count));
 }
 
+void add_between_lead(Trace& trace, const Search& search, const TestShape& shape, double p_value,
+                      const std::string& why) {
+  Lead lead = lead_of(search, shape.cause);
+  lead.form = shape.form;
+  lead.between = true;
+  lead.p_value = p_value;
+  lead.why = why;
+  if (deserves_design(trace, lead))
+    lead.design = design_for_lead(search, plain_effect(search, shape.cause), shape.cause,
+                                  between_threshold(search));
+  add_lead(trace, std::move(lead));
+}
+
+std::string why_doubtful(const Search& search, const Doubtful& doubtful) {
+  std::vector<std::string> others;
+  for (const TestShape& shape : doubtful.beside)
+    others.push_back(lead_of(search, shape.cause).name);
+  const std::string path =
+      others.empty() ? "" : fmt::format(" together with {}", fmt::join(others, " and "));
+  const std::string doubt =
+      doubtful.few_tests
+          ? "but few tests, which scatter more than the others, carry it"
+          : fmt::format("and is not sure beside {}", others.size() == 1 ? "it" : "them");
+  return fmt::format("p = {:.2g} over all columns between tests{}, {}", doubtful.p_value, path,
+                     doubt);
+}
+
 void add_between_leads(Trace& trace, const Search& search) {
-  for (const TestShape& shape : search.last_between.leads) {
-    Lead lead = lead_of(search, shape.cause);
-    lead.form = shape.form;
-    lead.between = true;
-    lead.p_value = search.last_between.last_p_value;
-    lead.why = fmt::format("p = {:.2g} over all columns between tests", lead.p_value);
-    if (deserves_design(trace, lead))
-      lead.design = design_for_lead(search, plain_effect(search, shape.cause), shape.cause,
-                                    between_threshold(search));
-    add_lead(trace, std::move(lead));
-  }
+  const auto some = std::min(search.doubtful.size(), most_doubtful);
+  for (const Doubtful& one : std::span(search.doubtful).first(some))
+    add_between_lead(trace, search, one.shape, one.p_value, why_doubtful(search, one));
+  const double p = search.last_between.last_p_value;
+  for (const TestShape& shape : search.last_between.leads)
+    add_between_lead(trace, search, shape, p,
+                     fmt::format("p = {:.2g} over all columns between tests", p));
 }
 
 // --- within tests -----------------------------------------------------------------------------

@@ -102,6 +102,7 @@ public:
   double last_p_value = 1;        // of what is left within tests
   ScreenResult last_screen;
   BetweenResult last_between;
+  std::vector<Doubtful> doubtful; // of the last search between tests that looked for effects
   std::vector<std::string> rejected;
   // Causes that a drift over the order of tests explains as well.
   struct Confounded {

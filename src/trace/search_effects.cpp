@@ -44,6 +44,7 @@ private:
   void find_between() {
     while (!s_.negligible()) {
       BetweenResult result = search_between_tests(s_, s_.family_alpha());
+      s_.doubtful = result.doubtful;
       if (result.found.empty()) return;
       const auto suspect =
           std::find_if(result.found.begin(), result.found.end(),

@@ -143,6 +143,38 @@ TEST(SlowBetween, ALevelOfFourTestsThatScatterMoreIsNotNamedForThat) {
   EXPECT_LE(alarms, 11);
 }
 
+TEST(SlowBetween, WhatIsSureAndNotAddedIsToldWithTheReason) {
+  int carried_by_few = 0, not_alone = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Campaign c(24, 0.05, seed);
+    c.alpha = 0.1;
+    if (seed % 2) { // a level whose tests scatter more
+      VectorXd tool = VectorXd::Zero(c.tests);
+      tool.head(4).setOnes();
+      c.gains.gain.head(4) *= 3;
+      c.add(tool, {"old", "worn"});
+    } else { // two columns, each three standard errors strong
+      for (int i = 0; i < 2; ++i) {
+        const VectorXd x = c.halves();
+        c.gains.gain += 0.03 * x;
+        c.add(x);
+      }
+    }
+    c.add_bystanders(10, 0);
+    const BetweenResult result = c.run();
+    for (const trace::Doubtful& one : result.doubtful) {
+      EXPECT_LE(one.p_value, c.alpha);
+      EXPECT_TRUE(one.few_tests || !one.beside.empty());
+      (one.few_tests ? carried_by_few : not_alone) += 1;
+    }
+    if (result.found.empty() && result.last_p_value <= c.alpha) {
+      EXPECT_FALSE(result.doubtful.empty());
+    }
+  }
+  EXPECT_GT(carried_by_few, 0);
+  EXPECT_GT(not_alone, 0);
+}
+
 TEST(Between, OneWildTestDoesNotHideAColumn) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -10,6 +10,7 @@
 #include "calibrate/input_columns.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "trace/leads.h"
 #include "trace/search.h"
 #include "trace/trace.h"
 #include "trace/trace_file.h"
@@ -332,6 +333,35 @@ TEST(SlowTrace, ASearchEndsWhereWeakFindingsGoWithTheOrderOfTests) {
     confounded += search->confounded.size();
   }
   EXPECT_GT(confounded, 0u) << "nothing here goes with the order";
+}
+
+TEST(Trace, ALeadSaysWhyASmallPValueWasNotEnough) {
+  TwinOptions options = campaign("log_coulomb", 1);
+  options.design->points = 5;
+  const Data data = data_of(options);
+  calibrate::ModelOptions models;
+  models.use = {"log_coulomb"};
+  const calibrate::Calibration calibrated =
+      calibrate::calibrate({data.training, data.validation, models, {}});
+  const TraceOptions how;
+  const trace::TraceInput input{data.training, data.validation, calibrated.fits.front(), how, 0, 1};
+  const auto search = trace::search_effects(input, {49, 99});
+  const auto shape_of = [&](const std::string& name) {
+    return *std::find_if(
+        search->test_shapes.begin(), search->test_shapes.end(),
+        [&](const trace::TestShape& s) { return cause_name(s.cause, search->candidates) == name; });
+  };
+  const trace::TestShape roughness = shape_of("Ra_um"), tool = shape_of("tool"),
+                         humidity = shape_of("humidity_pct");
+  search->doubtful = {{roughness, {}, 0.03, true}, {tool, {roughness, humidity}, 0.04, false}};
+  Trace found;
+  trace::add_leads(found, *search);
+  ASSERT_GE(found.leads.size(), 2u);
+  EXPECT_EQ(found.leads[0].name, "Ra_um");
+  EXPECT_EQ(found.leads[0].why, "p = 0.03 over all columns between tests, but few tests, which "
+                                "scatter more than the others, carry it");
+  EXPECT_EQ(found.leads[1].why, "p = 0.04 over all columns between tests together with Ra_um and "
+                                "humidity_pct, and is not sure beside them");
 }
 
 TEST(SlowTrace, ABatchIsNotBlamedForWhatFollowsTheOrderOfTests) {
