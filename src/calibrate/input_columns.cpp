@@ -20,7 +20,7 @@ using data::Dataset;
 namespace {
 
 constexpr double settled_change = 1e-12; // relative change between two rounds
-constexpr int plain_rounds = 20, most_rounds = 80;
+constexpr int plain_rounds = 20, most_rounds = 400;
 
 // (A column that has the name of a history is not it.)
 const data::Column* recorded_column(const std::string& name, const Dataset& data) {
@@ -217,14 +217,19 @@ double largest(std::span<const double> values) {
   return most;
 }
 
-// One round: `tau` becomes `next`, or half of both where rounds swing. The change, relative.
-double replace_tau(std::vector<double>& tau, const std::vector<double>& next, bool half) {
-  double change = 0;
+// One round: `tau` becomes `next`, or half of both where it would swing: where `may_halve` and this
+// step goes against the one before, which it replaces. The change, relative.
+double replace_tau(std::vector<double>& tau, const std::vector<double>& next,
+                   std::vector<double>& step, bool may_halve) {
+  double along = 0;
   for (std::size_t i = 0; i < tau.size(); ++i) {
-    change = std::max(change, std::abs(next[i] - tau[i]));
-    tau[i] = half ? 0.5 * (tau[i] + next[i]) : next[i];
+    along += step[i] * (next[i] - tau[i]);
+    step[i] = next[i] - tau[i];
   }
-  return change / std::max(largest(next), 1e-300);
+  const bool half = may_halve && along < 0;
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    tau[i] = half ? 0.5 * (tau[i] + next[i]) : next[i];
+  return largest(step) / std::max(largest(next), 1e-300);
 }
 
 [[noreturn]] void does_not_settle(const models::Model& model, const Dataset& data, double change) {
@@ -259,15 +264,15 @@ Predicted predict_with_columns(const models::AssembledLaw& law, std::vector<std:
   };
   evaluate(out.tau_MPa);
   if (!out.columns.need_tau()) return out;
-  std::vector<double> next(data.rows());
+  std::vector<double> next(data.rows()), step(data.rows());
+  double change = 0;
   for (int round = 0; round < most_rounds; ++round) {
     out.columns.derive_from_tau(out.tau_MPa);
     evaluate(next);
-    const double change = replace_tau(out.tau_MPa, next, round >= plain_rounds);
+    change = replace_tau(out.tau_MPa, next, step, round >= plain_rounds);
     if (!(change > settled_change)) return out;
-    if (round + 1 == most_rounds) does_not_settle(model, data, change);
   }
-  return out;
+  does_not_settle(model, data, change);
 }
 
 void check_stress(const std::string& law, const Predicted& predicted, const Dataset& data) {

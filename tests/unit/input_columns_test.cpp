@@ -133,33 +133,52 @@ TEST(InputColumns, TakeAHistoryForWhatItIsWhateverIsRecordedUnderItsName) {
   EXPECT_EQ(predict(model, data), tau);
 }
 
-// d work/d s = p mu (1 + a work/w): work = (exp(p mu a s/w) - 1) w/a.
-TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
+// Coulomb friction of 0.08 times 1 + a work/(1000 N/mm).
+Model coulomb_with_work(double a) {
   effects::PlacedEffect effect = test::traced_effect("work");
   effect.form = effects::find_effect("linear");
-  effect.parameters = {0.4, 0, 1000};
+  effect.parameters = {a, 0, 1000};
   const effects::PlacedEffect effects[] = {effect};
   const double mu[] = {0.08};
   const models::Law& coulomb = *models::find_law("coulomb");
   Model model;
   model.law =
       models::unregistered_law(effects::extended_law(coulomb, {}, mu, effects, "coulomb_traced"));
-  model.parameters = {0.08, 0.4};
+  model.parameters = {0.08, a};
+  return model;
+}
+
+// One test under 1000 MPa, steps of ds.
+Dataset sliding(std::size_t rows, double ds) {
   Dataset data;
   data.experiments = {"one"};
   data.columns = {
       {"sigma_n_MPa", "MPa", {}, {}}, {"s_mm", "mm", {}, {}}, {"sigma_f_MPa", "MPa", {}, {}}};
-  for (int i = 0; i <= 400; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     data.columns[0].values.push_back(1000);
-    data.columns[1].values.push_back(0.05 * i);
-    data.columns[2].values.push_back(900);
+    data.columns[1].values.push_back(ds * static_cast<double>(i));
+    data.columns[2].values.push_back(9000);
   }
-  data.first_row = {0, 401};
-  const std::vector<double> tau = predict(model, data);
+  data.first_row = {0, rows};
+  return data;
+}
+
+// d work/d s = p mu (1 + a work/w): work = (exp(p mu a s/w) - 1) w/a.
+TEST(InputColumns, OfFrictionWorkSolveTheirEquation) {
+  const std::vector<double> tau = predict(coulomb_with_work(0.4), sliding(401, 0.05));
   for (std::size_t i = 0; i <= 400; i += 100) {
     const double s = 0.05 * static_cast<double>(i);
     EXPECT_NEAR(tau[i], 80 * std::exp(80 * 0.4 * s / 1000), 5e-5) << s;
   }
+}
+
+// The work of one step is the mean of both its ends: tau = 80 (1 + g) / (1 - g), where g is what a
+// change of tau at its end makes of itself. Rounds shrink a difference by |g| each.
+TEST(InputColumns, OfFrictionWorkSettleWhereAStepMakesNearlyAllOfItself) {
+  for (const double g : {0.6, 0.8, 0.92, -0.6, -0.8, -0.98})
+    EXPECT_NEAR(predict(coulomb_with_work(25 * g), sliding(2, 1))[1] / (80 * (1 + g) / (1 - g)), 1,
+                1e-10)
+        << g;
 }
 
 } // namespace
