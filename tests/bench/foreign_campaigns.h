@@ -29,7 +29,7 @@ struct Options {
   bool other_columns = false;            // the same columns in another order
   bool other_tests = false;              // the same tests in another order of the file
   bool search_only = false;              // nothing is left out, nothing is delivered
-  bool no_validation = false;            // the held-out tests are not shown to tracing
+  bool no_validation = false;            // none of the held-out tests is shown to tracing
   bool show = false;                     // print what tracing says of it
 };
 

@@ -232,16 +232,21 @@ Outcome of_search(const Campaign& campaign, const calibrate::ModelFit& fit, cons
 
 } // namespace
 
+// Tracing sees every second of the held-out tests, and may use them for what it delivers. The
+// others (all of them, where it sees none) say what that is worth.
 Score judged(const Options& options, double alpha) try {
   Campaign campaign = make_campaign(options);
-  const data::Dataset held_out = campaign.validation;
-  if (options.no_validation) campaign.validation = held_out.subset({});
+  std::vector<std::size_t> seen, judging;
+  for (std::size_t e = 0; e < campaign.validation.experiments.size(); ++e)
+    (options.no_validation || e % 2 ? judging : seen).push_back(e);
+  const data::Dataset held_out = campaign.validation.subset(judging);
+  campaign.validation = campaign.validation.subset(seen);
   Score score;
   score.absorbed = campaign.absorbed;
   score.gain_scatter = campaign.gain_scatter;
   score.gain_sample = campaign.gain_sample;
   calibrate::CalibrationInput input{
-      campaign.training, options.no_validation ? campaign.training : held_out, {}, {}};
+      campaign.training, options.no_validation ? campaign.training : campaign.validation, {}, {}};
   if (options.no_validation) input.judged_by = calibrate::JudgedBy::leave_one_out;
   input.models.use = {campaign.base};
   input.options.bootstrap = 50; // no interval of it is judged here
