@@ -243,6 +243,9 @@ TemplateValues trace_values(const ReportInput& input, const trace::Trace& trace,
   values.flags["has_calibrated"] = trace.over_calibrated.has_value();
   values.text["over_calibrated"] =
       trace.over_calibrated ? gain_text(*trace.over_calibrated, decimals) : "";
+  const std::string shown = trace::shown_by_validation(trace);
+  values.flags["has_shown"] = !shown.empty();
+  values.text["shown"] = svg::escape(shown);
   auto& errors = values.lists["errors"];
   errors.push_back(error_row("as calibrated", trace.as_calibrated, decimals));
   errors.push_back(

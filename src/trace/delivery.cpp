@@ -1,4 +1,4 @@
-// Nested cross-validation decides how many effects there are; validation may veto them.
+// Nested cross-validation decides how many effects there are; validation may add to them, and veto.
 #include "trace/delivery.h"
 
 #include <algorithm>
@@ -37,9 +37,12 @@ public:
     if (found > 0) {
       d_.nested = nested_errors(s_);
       best_ = d_.nested.best();
+      const std::size_t paying = best_.effects;
+      if (by_validation()) best_ = confirmed(best_);
       const std::size_t shown = best_.effects > 0 ? best_.effects : found;
       const NestedErrors::Gain gain = d_.nested.gain(shown, best_.weights);
-      t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score, gain.score_se, found};
+      t_.nested = {d_.nested.folds, gain.error, gain.error_se, gain.score,
+                   gain.score_se,   found,      paying};
     }
     take_findings(best_.effects, best_.weights);
     drop_contradicted();
@@ -110,6 +113,25 @@ private:
     const calibrate::LawErrors laws[] = {{"after", with}, {"before", without}};
     const calibrate::Comparisons compared = calibrate::compare(laws, in_.bootstrap, in_.seed);
     return compared.pairs.empty() ? Difference{} : compared.pairs.front().mae;
+  }
+
+  // Further effects that predict the validation tests better with 95 % confidence, where the
+  // left-out tests leave it open: do not speak against it with as much.
+  NestedErrors::Best confirmed(NestedErrors::Best best) const {
+    for (std::size_t k = best.effects + 1; k <= s_.findings.size(); ++k) {
+      const std::size_t weights = best.effects > 0 ? best.weights : d_.nested.better_weights(k);
+      const NestedErrors::Gain left_out = d_.nested.gain(k, weights, best.effects);
+      if (left_out.error < -2 * left_out.error_se) continue;
+      const Difference gain = gained(on_validation(with_first(k, weights)),
+                                     on_validation(with_first(best.effects, weights)));
+      if (gain.interval.low > 0) best = {k, weights};
+    }
+    return best;
+  }
+
+  Rival with_first(std::size_t effects, std::size_t weights) const {
+    const Rival& rival = s_.with_first(effects);
+    return weights == 0 ? rival : fit_rows_alike(s_.campaign(), rival).rival;
   }
 
   // Takes out, one by one, effects without which the validation tests are predicted clearly better.

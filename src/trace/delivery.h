@@ -1,5 +1,6 @@
 // Which findings are delivered with the law: those that pay on tests the search has not seen
-// (nested_errors.h) and that the validation tests do not contradict. The others become leads.
+// (nested_errors.h), or, where those leave it open, predict the validation tests better with 95 %
+// confidence; and that the validation tests do not contradict. The others become leads.
 #pragma once
 
 #include "trace/nested_errors.h"

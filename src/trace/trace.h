@@ -151,6 +151,7 @@ struct NestedCheck {
   double score = 0;      // gain of the log predictive density, mean over tests
   double score_se = 0;
   std::size_t offered = 0; // effects that the search found on all tests
+  std::size_t paying = 0;  // of them, effects that pay by this alone; the validation tests may add
 };
 
 struct Remaining {

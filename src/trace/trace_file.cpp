@@ -271,7 +271,8 @@ Json nested_json(const NestedCheck& n) {
           {"std_error", n.std_error},
           {"log_score", n.score},
           {"log_score_std_error", n.score_se},
-          {"effects_offered", n.offered}};
+          {"effects_offered", n.offered},
+          {"effects_that_pay", n.paying}};
 }
 
 Json difference_json(const calibrate::Difference& gain) {
@@ -395,7 +396,8 @@ Trace parse_one(const Json& j) {
               number_or_nan(nested.at("std_error")),
               number_or_nan(nested.at("log_score")),
               number_or_nan(nested.at("log_score_std_error")),
-              io::count_of(nested.at("effects_offered"))};
+              io::count_of(nested.at("effects_offered")),
+              io::count_of(nested.at("effects_that_pay"))};
   t.validation_shift = parse_worlds(j.at("validation_against_training"));
   t.leads = parse_leads(j.at("leads"));
   t.smallest_seen = limit(j.at("smallest_seen_between_halves"));

@@ -149,6 +149,18 @@ std::string not_searched_text(const std::vector<std::string>& notes) {
 
 } // namespace
 
+std::string shown_by_validation(const Trace& t) {
+  if (t.effects.size() <= t.nested.paying) return "";
+  const std::string left_out =
+      t.nested.paying == 0
+          ? fmt::format("leave it open: error {:+.2g} +- {:.2g} % of the stress",
+                        -100 * t.nested.gain, 100 * t.nested.std_error)
+          : fmt::format("show {} of the {} effects", t.nested.paying, t.effects.size());
+  return fmt::format("shown by the validation tests; training tests, left out in turn, {} ({} "
+                     "folds)",
+                     left_out, t.nested.folds);
+}
+
 const char* site_text(effects::ActsOn acts_on) {
   switch (acts_on) {
   case effects::ActsOn::mu:
@@ -227,7 +239,9 @@ std::string found_text(const Trace& t) {
   if (weights_matter(t) && t.over_calibrated)
     out +=
         fmt::format("  beside the law as it was calibrated: {}\n", gain_text(*t.over_calibrated));
-  return out + unseen_line(t);
+  out += unseen_line(t);
+  if (const std::string shown = shown_by_validation(t); !shown.empty()) out += "  " + shown + "\n";
+  return out;
 }
 
 std::string lead_text(const Lead& lead) {

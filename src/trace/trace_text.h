@@ -12,6 +12,9 @@ namespace frictab::trace {
 std::string trace_text(const Trace& trace);
 // The same without what is left and tried, and of the leads their names.
 std::string trace_brief(const Trace& trace);
+// Where training tests that were left out would not have been enough: that, without a full stop;
+// empty: they were.
+std::string shown_by_validation(const Trace& trace);
 // What is missing and what adding it gained: one line without its end.
 std::string trace_in_short(const Trace& trace);
 // `frictab trace --power`: what this campaign could have shown, and what would help.

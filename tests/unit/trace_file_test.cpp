@@ -150,7 +150,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
   Trace trace;
   trace.model = "coulomb";
   trace.unseen = "nested_cross_validation";
-  trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3};
+  trace.nested = {20, 0.031, 0.007, 0.4, 0.1, 3, 2};
   trace.validation_shift = {true, 57, {41, 76}, 0.21, 1e-6};
   const trace::Design design{
       {"tool", "film_um"}, {{"A", "1.5"}, {"B", "4"}}, "T07", {"tool"}, 0.83, 2};
@@ -183,6 +183,7 @@ TEST(TraceFile, WhatWasNotAddedReadsBackWithItsReasons) {
       EXPECT_EQ(again.verdict, verdict);
       EXPECT_EQ(again.smallest_seen, seen);
       EXPECT_EQ(again.nested.offered, 3u);
+      EXPECT_EQ(again.nested.paying, 2u);
       EXPECT_EQ(again.leads.at(1).columns, trace.leads[1].columns);
       EXPECT_EQ(again.leads.at(0).why, trace.leads[0].why);
       EXPECT_TRUE(again.leads.at(0).between);

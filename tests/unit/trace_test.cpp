@@ -554,6 +554,27 @@ TEST(SlowTrace, WithValidationTestsAnEffectMayHaveALargerPValue) {
   EXPECT_NEAR(alone.leads.front().p_value, t.effects.at(0).p_value, 1e-9);
 }
 
+// Twelve tests, left out in turn, leave open whether a run-in predicts better; forty others do not.
+TEST(SlowTrace, ManyValidationTestsShowWhatFewLeftOutTestsLeaveOpen) {
+  TwinOptions options = campaign("log_coulomb", 1, "form=saturation,column=s_mm,strength=0.3");
+  options.design = parse_design("p=500,1200,2750;psi=1,20;v=5,500;T=110;points=10;validation=40",
+                                twin::default_design(twin::twin_set("D")));
+  Data data = data_of(options);
+  ASSERT_EQ(data.training.experiments.size(), 12u);
+  const Trace t = traced(data, "log_coulomb");
+  EXPECT_EQ(causes(t), std::vector<std::string>{"s_mm"}) << trace_text(t);
+  EXPECT_EQ(t.nested.paying, 0u);
+  EXPECT_GT(t.improvement.interval.low, 0);
+  EXPECT_THAT(trace_text(t), HasSubstr("shown by the validation tests; training tests, left out "
+                                       "in turn, leave it open: error"));
+  const std::vector<std::size_t> eight = {0, 1, 2, 3, 4, 5, 6, 7};
+  data.validation = data.validation.subset(eight);
+  const Trace few = traced(data, "log_coulomb");
+  EXPECT_TRUE(few.effects.empty()) << trace_text(few);
+  ASSERT_FALSE(few.leads.empty());
+  EXPECT_EQ(few.leads.front().columns, std::vector<std::string>{"s_mm"});
+}
+
 TEST(SlowTrace, AnEffectThatValidationContradictsIsALeadThatSaysSo) {
   const Trace good = traced(with_factor(0.3, 1), "log_coulomb");
   EXPECT_EQ(good.verdict, Verdict::effect_added) << trace_text(good);
