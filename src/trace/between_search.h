@@ -9,8 +9,7 @@
 //    decides nothing.
 // 3. Paths of one to three columns are searched and judged by permutation (path_search.h).
 // 4. Each column of the path also has to hold under unequal scatter (HC3: MacKinnon and White
-// 1985);
-//    of several columns each has to be found again beside the others.
+//    1985); of several columns each has to be found again beside the others.
 // Steps are repeated until nothing more is found.
 #pragma once
 
@@ -54,8 +53,8 @@ struct Doubtful {
   TestShape shape;
   std::vector<TestShape> beside; // the others of the path
   double p_value = 1;            // as of a finding, of the whole path
-  // Sure as long as all tests scatter alike, but not otherwise (HC3): few tests carry it. Where
-  // not: it takes the others of the path to be sure of it, and is not beside them.
+  // True: sure if all tests scatter alike, and not if they need not (HC3), so few tests carry it.
+  // False: not sure beside the others of its path.
   bool few_tests = false;
 };
 
