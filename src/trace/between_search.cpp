@@ -227,6 +227,12 @@ private:
     return others;
   }
 
+  static MatrixXd with_shapes(MatrixXd known, const VectorXd& w, const Taken& shapes) {
+    for (const TestShape& shape : shapes)
+      append_columns(known, w.asDiagonal() * shape.columns);
+    return known;
+  }
+
   // Bans the shape of the path that holds least under unequal scatter: it lives on few tests that
   // scatter more than others. True where one was banned.
   bool ban_worst(const VectorXd& y, const MatrixXd& known, const VectorXd& w, const Taken& chosen,
@@ -236,9 +242,7 @@ private:
     Doubtful out;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const Taken beside = all_but(i, chosen);
-      MatrixXd others = known;
-      for (const TestShape& other : beside)
-        append_columns(others, w.asDiagonal() * other.columns);
+      const MatrixXd others = with_shapes(known, w, beside);
       const MatrixXd columns = w.asDiagonal() * chosen[i].columns;
       const double p = hc3_p(y, others, columns);
       if (!(p > worst)) continue;
@@ -255,17 +259,10 @@ private:
   void keep_those_that_stand(const VectorXd& y, const MatrixXd& known, const VectorXd& w,
                              const std::vector<TestShape>& open, Taken& chosen) const {
     for (std::size_t i = 0; i < chosen.size();) {
-      MatrixXd beside = known;
-      for (std::size_t j = 0; j < chosen.size(); ++j)
-        if (j != i) append_columns(beside, w.asDiagonal() * chosen[j].columns);
-      std::vector<TestShape> rest;
-      for (const TestShape& shape : open) {
-        bool other = false;
-        for (std::size_t j = 0; j < chosen.size(); ++j)
-          other = other || (j != i && chosen[j].cause == shape.cause);
-        if (!other) rest.push_back(shape);
-      }
-      const PathResult one = search(y, beside, w, rest, 1);
+      const Taken beside = all_but(i, chosen);
+      std::vector<TestShape> rest = open;
+      std::erase_if(rest, [&](const TestShape& shape) { return is_taken(shape.cause, beside); });
+      const PathResult one = search(y, with_shapes(known, w, beside), w, rest, 1);
       const bool stands = one.possible && one.p_value <= in_.alpha && !one.chosen.empty() &&
                           rest[one.chosen.front()].cause == chosen[i].cause;
       if (stands)

@@ -63,15 +63,18 @@ Data data_of(const TwinOptions& options) {
   return {std::move(twin.training.data), std::move(twin.validation.data)};
 }
 
-Trace traced(const Data& data, const std::string& law, const TraceOptions& how = {}) {
+calibrate::Calibration calibrated(const Data& data, const std::string& law) {
   calibrate::ModelOptions models;
   models.use = {law};
   calibrate::CalibrationOptions calibration;
   calibration.bootstrap = 100;
-  const calibrate::Calibration calibrated =
-      calibrate::calibrate({data.training, data.validation, models, calibration});
+  return calibrate::calibrate({data.training, data.validation, models, calibration});
+}
+
+Trace traced(const Data& data, const std::string& law, const TraceOptions& how = {}) {
+  const calibrate::Calibration fitted = calibrated(data, law);
   const Trace found =
-      trace::trace({data.training, data.validation, calibrated.fits.front(), how, 100, 1});
+      trace::trace({data.training, data.validation, fitted.fits.front(), how, 100, 1});
   // Of every campaign here: no effect is delivered that makes the calibrated law worse.
   if (!found.effects.empty() && found.unseen == "validation") {
     EXPECT_LT(found.after.validation.mae_MPa, found.as_calibrated.validation.mae_MPa);
@@ -317,34 +320,28 @@ TEST(SlowTrace, IsTheSameWhereTheOrderIsDeclaredByItsNameAndByTheJob) {
 // columns among it.
 TEST(SlowTrace, ASearchEndsWhereWeakFindingsGoWithTheOrderOfTests) {
   std::size_t confounded = 0;
-  for (std::uint64_t seed = 1; seed < 31; ++seed) {
+  for (std::uint64_t seed = 1; seed < 91; ++seed) {
     TwinOptions options = campaign("log_coulomb", seed, "form=linear,column=Ra_um,strength=0.2");
     options.design->points = 5;
     const Data data = data_of(options);
-    calibrate::ModelOptions models;
-    models.use = {"log_coulomb"};
-    const calibrate::Calibration calibrated =
-        calibrate::calibrate({data.training, data.validation, models, {}});
+    const calibrate::Calibration fitted = calibrated(data, "log_coulomb");
     const TraceOptions how = declared_order();
-    const trace::TraceInput input{data.training, data.validation, calibrated.fits.front(), how, 0,
+    const trace::TraceInput input{data.training, data.validation, fitted.fits.front(), how, 0,
                                   seed};
     const auto search = trace::search_effects(input, {199, 299, 25});
     EXPECT_FALSE(search->order.found) << "weak findings are no structure" << seed;
     confounded += search->confounded.size();
   }
-  EXPECT_GT(confounded, 0u) << "nothing here goes with the order";
+  EXPECT_GT(confounded, 5u);
 }
 
 TEST(Trace, ALeadSaysWhyASmallPValueWasNotEnough) {
   TwinOptions options = campaign("log_coulomb", 1);
   options.design->points = 5;
   const Data data = data_of(options);
-  calibrate::ModelOptions models;
-  models.use = {"log_coulomb"};
-  const calibrate::Calibration calibrated =
-      calibrate::calibrate({data.training, data.validation, models, {}});
+  const calibrate::Calibration fitted = calibrated(data, "log_coulomb");
   const TraceOptions how;
-  const trace::TraceInput input{data.training, data.validation, calibrated.fits.front(), how, 0, 1};
+  const trace::TraceInput input{data.training, data.validation, fitted.fits.front(), how, 0, 1};
   const auto search = trace::search_effects(input, {49, 99});
   const auto shape_of = [&](const std::string& name) {
     return *std::find_if(
