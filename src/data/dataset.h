@@ -1,6 +1,7 @@
 // A tribometer campaign in canonical units: columns of rows, cut into experiments.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -14,12 +15,33 @@
 
 namespace frictab::data {
 
+// What a column is to friction (data/roles.h).
+enum class Role {
+  undecided,
+  state,    // a canonical quantity
+  response, // what the measured stress is computed from, or equals
+  setting,  // one value per test, or set by the rig
+  channel,  // measured along with friction: may follow from it
+  outcome,  // known only after the test
+  label,
+  order,
+  clock,
+  test,
+  ignore
+};
+
 struct Column {
   std::string name;                // canonical name, or the file's own for a bystander
   std::string unit;                // canonical unit; empty for a bystander
   std::vector<double> values;      // one per row; the level's index where categorical
   std::vector<std::string> levels; // not empty: a text column; sorted
+  Role role = Role::undecided;
+  std::string why; // it has this role
 };
+
+// What a row shows of friction (data/phases.h).
+enum class Phase : std::uint8_t { sliding, rest, closing, opening, turning, unloaded };
+inline constexpr std::size_t phase_count = 6;
 
 // A column without a value in any row may be text as well as numbers. As text, its cells have the
 // level of their own that empty cells of a text column have.
@@ -85,13 +107,18 @@ public:
   std::vector<Column> columns;
   std::vector<std::string> experiments;  // names, in order of first appearance
   std::vector<std::size_t> first_row{0}; // experiments.size() + 1 entries
-  std::vector<std::string> sources;      // files read, as named by the user
-  std::uint64_t hash = 0;                // of all values and names: the data's fingerprint
+  // Of each experiment the number of the recording it is an interval of; empty: each is one.
+  std::vector<std::size_t> recording;
+  std::vector<std::string> sources; // files read, as named by the user
+  std::uint64_t hash = 0;           // of all values and names: the data's fingerprint
   struct Dropped {
     std::string rule; // "tau_R_MPa below 0.1"
     std::size_t rows;
   };
-  std::vector<Dropped> dropped;    // rows left out at the user's word
+  std::vector<Dropped> dropped;                  // rows left out at the user's word
+  std::array<std::size_t, phase_count> phases{}; // rows read, by phase; all 0: phases are not known
+  std::shared_ptr<const Dataset>
+      aside;                       // rows that are not sliding; a text column `phase` says what
   std::vector<std::string> notes;  // what was derived: "s_mm integrated from v_rel_mm_s and time_s"
   std::vector<ClockOffset> clocks; // of data.join, where they were found
   std::vector<std::string> unused; // "tests.csv: K7": a test beside the data that none of them has

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "data/dataset.h"
 
 namespace frictab::data {
 
@@ -90,6 +91,8 @@ struct DataOptions {
   // false: rows to predict. They need neither a measured stress nor what it is computed from (NaN
   // where a cell of it is empty), and an experiment may be one row.
   bool measured = true;
+  std::map<std::string, Role> roles;          // by the column's name: overrule what is inferred
+  bool sliding_only = true;                   // data.rows: which rows are fitted
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;
   std::string tests; // a file with one row per experiment
