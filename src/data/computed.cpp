@@ -179,13 +179,20 @@ void take_slopes(Part& part, const DataOptions& options) {
   }
 }
 
-bool is_formula_input(const DataOptions& options, const std::string& column) {
-  return std::any_of(options.columns.begin(), options.columns.end(), [&](const auto& source) {
-    const std::string& formula = source.second.formula;
-    if (formula.empty()) return false;
-    const auto names = expr::symbols(expr::parse_expr(formula));
-    return names.count(column) > 0 || names.count(written(column)) > 0;
-  });
+std::vector<std::string> computed_from(const DataOptions& options, const std::string& column) {
+  std::vector<std::string> quantities;
+  const auto look_at = [&](const std::map<std::string, ColumnSource>& columns) {
+    for (const auto& [canonical, from] : columns) {
+      if (from.formula.empty()) continue;
+      const auto names = expr::symbols(expr::parse_expr(from.formula));
+      if (names.count(column) > 0 || names.count(written(column)) > 0)
+        quantities.push_back(canonical);
+    }
+  };
+  look_at(options.columns);
+  for (const FileRule& rule : options.files)
+    look_at(rule.columns);
+  return quantities;
 }
 
 void compute_formulas(Part& part, const DataOptions& options) {
@@ -193,7 +200,7 @@ void compute_formulas(Part& part, const DataOptions& options) {
   if (!options.bystanders) return;
   const std::vector<std::string>& keep = *options.bystanders; // beside them, what formulas used
   std::erase_if(part.data.columns, [&](const Column& column) {
-    return !find_quantity(column.name) && is_formula_input(options, column.name) &&
+    return !find_quantity(column.name) && !computed_from(options, column.name).empty() &&
            std::find(keep.begin(), keep.end(), column.name) == keep.end();
   });
 }

@@ -2,6 +2,9 @@
 // coefficients, eq. 1 of the paper, the sliding distance.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "data/options.h"
 #include "data/part.h"
 
@@ -16,8 +19,8 @@ void take_slopes(Part& part, const DataOptions& options);
 // known. A formula may use the columns of other formulas. Faults are told at the formula.
 void compute_formulas(Part& part, const DataOptions& options);
 
-// Whether a formula of the job uses a column of this name.
-bool is_formula_input(const DataOptions& options, const std::string& column);
+// The quantities whose formulas in the job, of all or of some files, use a column of this name.
+std::vector<std::string> computed_from(const DataOptions& options, const std::string& column);
 
 // Measured coefficients times the column that the job names.
 void multiply_coefficients(Part& part, const DataOptions& options);

@@ -70,7 +70,7 @@ Dataset Dataset::subset(std::span<const std::size_t> keep) const {
   part.dropped = dropped;
   part.notes = notes;
   for (const Column& column : columns)
-    part.columns.push_back({column.name, column.unit, {}, column.levels});
+    part.columns.push_back({column.name, column.unit, {}, column.levels, column.role, column.why});
   if (condensed) {
     part.condensed.emplace();
     for (const Column& history : condensed->histories)

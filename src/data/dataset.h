@@ -36,7 +36,7 @@ struct Column {
   std::vector<double> values;      // one per row; the level's index where categorical
   std::vector<std::string> levels; // not empty: a text column; sorted
   Role role = Role::undecided;
-  std::string why; // it has this role
+  std::string why = {}; // it has this role
 };
 
 // What a row shows of friction (data/phases.h).

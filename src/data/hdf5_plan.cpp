@@ -36,7 +36,7 @@ public:
     const auto [known, is_new] = known_.emplace(name, false); // each test has the same names
     if (is_new)
       known->second = names_.count(name) > 0 || names_.count(io::read_header_name(name).name) > 0 ||
-                      is_formula_input(options_, name);
+                      !computed_from(options_, name).empty();
     return known->second;
   }
 

@@ -366,7 +366,7 @@ private:
       if (used_.count(&column) || column.name.empty()) continue;
       if (find_quantity(column.name)) continue; // its canonical name is mapped from elsewhere
       if (options_.bystanders && !keep.count(column.name) && column.name != origin_column &&
-          !is_formula_input(options_, column.name))
+          computed_from(options_, column.name).empty())
         continue;
       if (by_name(column.name) != &column) continue; // a duplicate: the fault is told already
       check_case(column);

@@ -52,6 +52,12 @@ struct FileRule {
   Place place, from_name_place;
 };
 
+// What the job says that a recorded column is.
+struct RoleWish {
+  Role role = Role::undecided;
+  Place place;
+};
+
 // A number, or "auto".
 struct AutoNumber {
   std::optional<double> value;
@@ -91,7 +97,7 @@ struct DataOptions {
   // false: rows to predict. They need neither a measured stress nor what it is computed from (NaN
   // where a cell of it is empty), and an experiment may be one row.
   bool measured = true;
-  std::map<std::string, Role> roles;          // by the column's name: overrule what is inferred
+  std::map<std::string, RoleWish> roles;      // by the column's name: overrule what is inferred
   bool sliding_only = true;                   // data.rows: which rows are fitted
   std::vector<std::string> allow_implausible; // names of checks (data/plausibility.h)
   std::vector<FileRule> files;

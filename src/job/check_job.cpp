@@ -29,6 +29,8 @@ void check_files(JobReader& reader) {
   data.oracle_place = reader.place_of("data.oracle");
   reader.job.calibration.place = reader.place_of("calibration.condition_on_mm");
   reader.job.trace.ignore_place = reader.place_of("trace.ignore");
+  for (auto& [name, wish] : reader.job.data.roles)
+    wish.place = reader.place_of("data.roles." + name);
   reader.job.trace.order_place = reader.place_of("trace.order");
   reader.job.trace.tool_distance_place = reader.place_of("trace.tool_distance");
 }

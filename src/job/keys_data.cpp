@@ -1,9 +1,11 @@
 // The keys of [data]: where rows come from and how a rig's file is read.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "data/plausibility.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "job/key_builder.h"
 
 namespace frictab::job::schema {
@@ -216,6 +218,13 @@ std::vector<KeyRule> mapping_keys() {
           "data.drop.*.above",
           [](Job & job, const std::string& name) -> auto& { return drop_rule(job, name).above; },
           "rows with a larger value are left out, and counted in the report", "none", "3000"),
+      named<data::Role>(
+          "data.roles.*",
+          [](Job & job, const std::string& name) -> auto& { return job.data.roles[name].role; },
+          "what a recorded column is: channels and outcomes may follow from friction and are leads "
+          "of a trace, settings and labels may be its causes, the others are not looked at",
+          "inferred, with a reason (frictab data)", "\"channel\"") |
+          Allowed{"", data::role_names},
       named<double>(
           "data.constants.*",
           [](Job & job, const std::string& name) -> auto& { return job.data.constants[name]; },
@@ -343,6 +352,14 @@ template <> data::Missing Kind<data::Missing>::from(KeyValue& v) {
   return std::get<std::string>(v) == "drop" ? data::Missing::drop : data::Missing::error;
 }
 
+template <> data::Role Kind<data::Role>::from(KeyValue& v) {
+  const auto names = data::role_names();
+  const auto at = std::find(names.begin(), names.end(), std::get<std::string>(v)) - names.begin();
+  return static_cast<data::Role>(static_cast<long>(data::Role::response) + at);
+}
+template <> std::string Kind<data::Role>::show(data::Role v) {
+  return toml_quoted(data::role_name(v));
+}
 template <> std::string Kind<data::Missing>::show(data::Missing v) {
   return toml_quoted(missing_words()[static_cast<std::size_t>(v)]);
 }

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "data/overview.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "report/data_lines.h"
 #include "report/judged.h"
 #include "report/numbers.h"
@@ -127,6 +128,16 @@ void add_tests(TemplateValues& values, const Dataset& data, const char* use) {
   }
 }
 
+// What each column is to friction.
+void add_columns(TemplateValues& values, const Dataset& data) {
+  for (const data::Column& column : data.columns)
+    values.lists["columns"].push_back({{{"name", svg::escape(column.name)},
+                                        {"role", data::role_name(column.role)},
+                                        {"why", svg::escape(column.why)}},
+                                       {},
+                                       {}});
+}
+
 } // namespace
 
 std::string data_html(const DataPage& page) {
@@ -145,6 +156,7 @@ std::string data_html(const DataPage& page) {
   add_strokes(values, page);
   add_tests(values, page.training, "training");
   add_tests(values, page.validation, "validation");
+  add_columns(values, page.training);
   add_data_lines(values, page.training, page.validation, page.judged_by);
   return codegen::render_template("report/data.html", values);
 }

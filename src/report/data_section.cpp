@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "data/condense.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "report/data_lines.h"
 #include "report/judged.h"
 #include "report/numbers.h"
@@ -43,7 +44,10 @@ std::vector<std::string> dropped_of(const data::Dataset& data) {
 std::vector<std::string> bystanders_of(const data::Dataset& data) {
   std::vector<std::string> list;
   for (const data::Column& column : data.columns)
-    if (!data::find_quantity(column.name)) list.push_back(column.name);
+    if (!data::find_quantity(column.name))
+      list.push_back(column.role == data::Role::undecided
+                         ? column.name
+                         : fmt::format("{} ({})", column.name, data::role_name(column.role)));
   return list.empty() ? list : std::vector<std::string>{join(list, ", ")};
 }
 

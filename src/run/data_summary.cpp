@@ -12,6 +12,7 @@
 #include "data/append.h"
 #include "data/overview.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "io/json.h"
 #include "report/judged.h"
 #include "report/numbers.h"
@@ -52,8 +53,8 @@ Cells cells_of(const data::TestOverview& test, const char* use) {
   return cells;
 }
 
-// Columns as wide as their widest cell; names to the left, numbers to the right.
-std::string aligned(const std::vector<Cells>& rows) {
+// Columns as wide as their widest cell; the first `names` to the left, numbers to the right.
+std::string aligned(const std::vector<Cells>& rows, std::size_t names = 2) {
   std::vector<std::size_t> width(rows.front().size());
   for (const Cells& cells : rows)
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -62,8 +63,8 @@ std::string aligned(const std::vector<Cells>& rows) {
   for (const Cells& cells : rows) {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      line += i < 2 ? fmt::format("{:<{}}  ", cells[i], width[i])
-                    : fmt::format("{:>{}}  ", cells[i], width[i]);
+      line += i < names ? fmt::format("{:<{}}  ", cells[i], width[i])
+                        : fmt::format("{:>{}}  ", cells[i], width[i]);
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return out;
@@ -94,11 +95,27 @@ std::string clock_text(const data::ClockOffset& clock) {
                      clock.offset, clock.std_error, clock.correlation);
 }
 
-std::vector<std::string> bystanders(const Dataset& data) {
-  std::vector<std::string> names;
+// What each column is to friction, but for quantities, which say so by their names.
+std::string roles_text(const Dataset& data) {
+  constexpr std::size_t shown = 100;
+  std::vector<Cells> rows = {{"column", "role", "why"}};
+  std::size_t more = 0;
   for (const data::Column& column : data.columns)
-    if (!data::find_quantity(column.name)) names.push_back(column.name);
-  return names;
+    if (!data::find_quantity(column.name)) {
+      if (rows.size() <= shown)
+        rows.push_back({column.name, data::role_name(column.role), column.why});
+      else
+        ++more;
+    }
+  return rows.size() == 1 ? "" : aligned(rows, 3) + (more ? and_more(more, "column") + "\n" : "");
+}
+
+Json roles_json(const Dataset& data) {
+  Json roles = Json::array();
+  for (const data::Column& column : data.columns)
+    roles.push_back(
+        {{"column", column.name}, {"role", data::role_name(column.role)}, {"why", column.why}});
+  return roles;
 }
 
 Json number(double value) {
@@ -136,12 +153,8 @@ std::string data_text(const JobData& data) {
     add_lines(out, "implausible", part->implausible);
   }
   add_lines(out, "in none of the data", data.training.unused);
-  if (auto names = bystanders(data.training); !names.empty()) {
-    constexpr std::size_t shown = 100;
-    const std::size_t more = names.size() - std::min(names.size(), shown);
-    names.resize(names.size() - more);
-    out += "other columns: " + join(names, ", ") + and_more(more, "column") + "\n";
-  }
+  if (const std::string roles = roles_text(data.training); !roles.empty())
+    out += "\n" + roles + "\n";
   if (const std::string how = report::condensed_text(data.training, data.validation); !how.empty())
     out += "rows are " + how + "\n";
   if (const std::string how = report::uneven_text(data.judged_by, data.training, data.validation);
@@ -159,7 +172,7 @@ std::string data_json(const JobData& data) {
                {"clocks", Json::array()},
                {"implausible", Json::array()},
                {"unused", data.training.unused},
-               {"other_columns", bystanders(data.training)}};
+               {"columns", roles_json(data.training)}};
   std::size_t use = 0;
   for (const Dataset* part : {&data.training, &data.validation}) {
     for (const data::TestOverview& test : data::overview(*part))

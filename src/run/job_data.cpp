@@ -20,6 +20,7 @@
 #include "data/oracle.h"
 #include "data/plausibility.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "effects/extended_law.h"
 
 namespace frictab::run {
@@ -83,6 +84,12 @@ data::Dataset load(const std::vector<std::string>& files, const data::DataOption
                     : data::load_dataset(files, options);
 }
 
+void find_roles(std::span<data::Dataset* const> parts, const data::DataOptions& options) {
+  FaultList faults;
+  data::find_roles(parts, options, faults);
+  faults.throw_if_any();
+}
+
 JobData with_validation_files(const data::DataOptions& options, FaultList& implausible) {
   JobData data;
   const std::size_t blocks = data::blocks_to_condense(options);
@@ -90,6 +97,8 @@ JobData with_validation_files(const data::DataOptions& options, FaultList& impla
   data.validation = load(options.validation, options, blocks);
   for (data::Dataset* part : {&data.training, &data.validation})
     data::check_plausibility(*part, options.allow_implausible, options.place, implausible);
+  data::Dataset* const parts[] = {&data.training, &data.validation};
+  find_roles(parts, options);
   data.training.unused = unused_by_both(data.training, data.validation);
   data.validation.unused.clear();
   data.leak = calibrate::leak_note(data.training, data.validation);
@@ -127,6 +136,8 @@ JobData without_validation_files(const data::DataOptions& options, std::uint64_t
                                  FaultList& implausible) {
   data::Dataset all = load(options.training, options, data::blocks_to_condense(options));
   data::check_plausibility(all, options.allow_implausible, options.place, implausible);
+  data::Dataset* const parts[] = {&all};
+  find_roles(parts, options);
   if (!options.holdout && all.experiments.size() < few_experiments)
     return without_others(std::move(all));
   return with_held_out_tests(std::move(all), options.holdout.value_or(usual_share), seed);

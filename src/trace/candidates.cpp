@@ -20,6 +20,7 @@
 #include "data/derived.h"
 #include "data/options.h"
 #include "data/quantity.h"
+#include "data/roles.h"
 #include "trace/test_dates.h"
 
 namespace frictab::trace {
@@ -283,6 +284,8 @@ private:
     if (data::is_measured(column.name) || column.name == data::origin_column ||
         ignored(column.name))
       return false;
+    const bool is_apart = !data::may_be_cause(column.role) && column.role != data::Role::order;
+    if (is_apart && !data::find_quantity(column.name)) return left_out_by_role(column);
     if (column.name == found_.order_column) {
       if (column.name != "run_order" && column.levels.empty())
         add_column(column.name, {column.name}, false, column.values);
@@ -304,6 +307,14 @@ private:
       return false;
     }
     return !has_empty_cells(column, *in_validation->second);
+  }
+
+  // What the measured stress comes from is told where it was read; channels and outcomes are leads.
+  bool left_out_by_role(const Column& column) {
+    if (column.role == data::Role::response)
+      found_.notes.push_back(
+          fmt::format("{} is the measured friction ({}){}", column.name, column.why, not_searched));
+    return false;
   }
 
   // Nothing is made up for a cell without a value, and rows are not left out for a column that may
@@ -338,6 +349,7 @@ private:
     column.two_values = has_two_values(values);
     column.reach = usual_reach(values, training_);
     column.gap = widest_gap(column.tested);
+    column.is_reading = !derived && is_reading(name);
     const bool orders = name == "test_order" || name == found_.order_column;
     column.between = orders ? declared_wear(name) : !derived && name != "time_s" && name != "s_mm";
     column.in_law =
@@ -349,6 +361,13 @@ private:
       return;
     }
     keep(std::move(column), at);
+  }
+
+  bool is_reading(const std::string& name) const {
+    const Column* column = training_.find(name);
+    return column && !data::find_quantity(name) && column->levels.empty() &&
+           column->why != data::said_by_job &&
+           2 * values_of_tests(*column, training_) > training_.experiments.size();
   }
 
   // The first column that is the same but for zero and scale; nullptr where there is none.

@@ -25,7 +25,10 @@ struct CandidateColumn {
   double gap = 0;                  // between the two of them that are furthest apart
   double reach = 0;                // part of its range that a usual experiment runs through
   bool in_law = false;             // the law uses it: its form may be wrong
-  bool between = false;            // may differ between tests: no history, time or distance
+  // Recorded, with a value of its own in most tests, and nobody said that it was set: it may be a
+  // reading of what came of the test.
+  bool is_reading = false;
+  bool between = false; // may differ between tests: no history, time or distance
 };
 
 inline constexpr const char* not_searched = ": not searched";

@@ -15,6 +15,7 @@
 #include "trace/choose_effect.h"
 #include "trace/delivery.h"
 #include "trace/design.h"
+#include "trace/followers.h"
 
 namespace frictab::trace {
 
@@ -247,10 +248,13 @@ void add_within_leads(Trace& trace, const Search& search) {
 
 } // namespace
 
-void add_leads(Trace& trace, const Search& search) {
+void add_leads(Trace& trace, const Search& search, const Rival& delivered) {
   add_confounded(trace, search);
   add_between_leads(trace, search);
-  if (!search.negligible()) add_within_leads(trace, search);
+  if (search.negligible()) return;
+  add_within_leads(trace, search);
+  for (Lead& lead : leads_that_may_follow(search, delivered))
+    add_lead(trace, std::move(lead));
 }
 
 } // namespace frictab::trace

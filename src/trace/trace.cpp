@@ -49,7 +49,7 @@ public:
     const Progress progress("what would have been seen", 0);
     add_scatter(trace, search_, delivery_.rival);
     add_detectable(trace, search_, in_.seed);
-    add_leads(trace, search_);
+    add_leads(trace, search_, delivery_.rival);
     add_verdict(trace, search_, delivery_.contradicted);
     return trace;
   }

@@ -25,7 +25,8 @@
 //   what comes of it
 //     nested_errors    the whole search repeated without some tests
 //     delivery         which findings are delivered with the law
-//     leads, design    what is not, and the tests that would settle it, with candidate_tests
+//     leads, design    what is not, and the tests that would settle it, with candidate_tests;
+//                      followers: what may follow from friction
 //     refit_traced     the law with them, fitted again to all experiments
 //     uncertainty      standard errors of its parameters
 //     scatter          what stays unexplained

@@ -1,0 +1,31 @@
+// Recorded columns that are the measured friction once more: a torque, a friction force, a
+// coefficient. As causes they would explain everything and say nothing.
+//
+// What gives them away is not that they follow friction (its causes and its consequences do), but
+// that they carry what the states leave of it, at slope one. With y = ln tau_R and z = +-ln c (or
+// +-ln c +- ln w with one other recorded column), each less its regression on the logarithms of the
+// states: the share of y's mean square that y - z still has, on the steps from row to row, from
+// twentieth to twentieth of a test, and on means of tests.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+
+#include "data/dataset.h"
+
+namespace frictab::data {
+
+struct Disguise {
+  bool sure = false; // else a question
+  std::string how;   // "tau_R_MPa = constant * COF * sigma_n_MPa"
+};
+
+// By the column's name, over the rows of all parts together. `known` are not looked at. Settings
+// (few values, each of whole tests) are never called: what was set is no reading of what came of
+// it.
+std::map<std::string, Disguise> find_disguises(std::span<const Dataset* const> parts,
+                                               const std::set<std::string>& known);
+
+} // namespace frictab::data

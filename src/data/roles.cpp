@@ -1,0 +1,269 @@
+// The job's word first, then what the data show, then names.
+#include "data/roles.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/pattern.h"
+#include "core/text.h"
+#include "data/computed.h"
+#include "data/disguise.h"
+#include "data/quantity.h"
+
+namespace frictab::data {
+
+namespace {
+
+constexpr std::array<const char*, 11> role_words = {"",        "state",   "response", "setting",
+                                                    "channel", "outcome", "label",    "order",
+                                                    "clock",   "test",    "ignore"};
+
+// A column that a rig holds at few values within a test, for this many rows each, was set.
+constexpr std::size_t most_held = 12, rows_held = 5;
+
+struct Given {
+  Role role = Role::undecided;
+  std::string why;
+};
+
+// What columns are called that are no cause, whatever they hold. The first that fits counts;
+// `when`: of columns that are one value per test, of others, or of both.
+enum class When { any, per_test, within };
+struct NameRule {
+  const char* pattern; // in lower case
+  When when;
+  Role role;
+};
+constexpr NameRule name_rules[] = {
+    {"^(run|test)_?(order|no|nr|number)$|^(order|run|sequence|seq)$", When::per_test, Role::order},
+    {"^(time_?stamp|date|date_?time|start(ed|_time|ed_at)|test_date)$", When::per_test,
+     Role::order},
+    {"time|clock|stamp|^(t|ms|tick)$", When::within, Role::clock},
+    {"^(test|specimen|sample|probe|versuch|exp(eriment)?)_?(id|no|nr|number|name)?$",
+     When::per_test, Role::test},
+    {"remark|comment|bemerkung|kommentar|^notes?$", When::any, Role::ignore},
+    {"wear|worn|mass_?loss|weight_?loss|debris|scar", When::within, Role::channel},
+    {"^wear(_(um|mm|mm2|mm3|mg|g))?$|wear_?(rate|loss|depth|volume|mass|scar|track_?(depth|width))|"
+     "mass_?loss|weight_?loss|"
+     "verschlei|debris|(mass|weight|ra|rz|sa|roughness)\\w*_?(after|end|final)|"
+     "(after|end|final)_?\\w*(mass|weight|ra|rz|roughness)",
+     When::per_test, Role::outcome},
+};
+
+// Names that speak of a reading of friction.
+constexpr const char* friction_names =
+    "(^|[^a-z])(cof|mu|friction|torque|drag|shear|pull|f_?[xtr])([^a-z]|$)|reib|friction|torque";
+
+// In lower case, with _ for what is no letter or digit: "Mass loss [mg]" is mass_loss__mg_.
+bool fits(const char* pattern, const std::string& name) {
+  std::string plain = lower_case(name);
+  for (char& c : plain)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return Pattern(pattern, {}).search(plain).has_value();
+}
+
+// A column over all parts, as far as roles ask.
+class Look {
+public:
+  Look(std::span<Dataset* const> parts, const std::string& name) {
+    for (const Dataset* part : parts) {
+      const Column* column = part->find(name);
+      if (!column) continue;
+      is_text = is_text || !column->levels.empty();
+      for (std::size_t e = 0; e < part->experiments.size(); ++e)
+        look_at(*column, part->first_row[e], part->first_row[e + 1]);
+      rows += part->rows();
+    }
+  }
+
+  std::size_t tests = 0, rows = 0, held = 0;
+  std::size_t filled_tests = 0; // text: that have a word
+  std::set<std::string> words;
+  std::set<double> values; // first ones of tests, and all while there are few
+  bool is_text = false, within = false;
+  bool is_constant() const { return is_text ? words.size() <= 1 : values.size() <= 1; }
+
+private:
+  void look_at(const Column& column, std::size_t begin, std::size_t end) {
+    ++tests;
+    bool filled = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double value = column.values[i];
+      const bool moves = i > begin && value != column.values[i - 1] &&
+                         !(std::isnan(value) && std::isnan(column.values[i - 1]));
+      within = within || moves;
+      held += i > begin && !moves;
+      if (is_text && i > begin && !moves) continue;
+      if (is_text) {
+        words.insert(column.levels[static_cast<std::size_t>(value)]);
+        filled = filled || !column.levels[static_cast<std::size_t>(value)].empty();
+      } else if ((i == begin || values.size() <= most_held) && !std::isnan(value)) {
+        values.insert(value);
+      }
+    }
+    filled_tests += filled;
+  }
+};
+
+class RoleFinder {
+public:
+  RoleFinder(std::span<Dataset* const> parts, const DataOptions& options)
+      : parts_(parts), options_(options) {
+    std::set<std::string> known;
+    for (const Column& column : parts.front()->columns)
+      if (!said_before_looking(column.name).why.empty()) known.insert(column.name);
+    const std::vector<const Dataset*> all(parts.begin(), parts.end());
+    if (parts.front()->has("tau_R_MPa")) disguises_ = find_disguises(all, known);
+  }
+
+  Given of(const Column& column) {
+    const std::string& name = column.name;
+    if (const Given said = said_before_looking(name); !said.why.empty()) return said;
+    const auto disguise = disguises_.find(name);
+    if (disguise != disguises_.end() && disguise->second.sure)
+      return {Role::response, disguise->second.how};
+    const Look look(parts_, name);
+    Given given = look.is_text ? of_text(name, look) : of_numbers(name, look);
+    if (given.role != Role::setting && given.role != Role::channel && given.role != Role::outcome)
+      return given;
+    if (disguise != disguises_.end())
+      given.why += question(name, disguise->second.how);
+    else if (fits(friction_names, name))
+      given.why += question(name, "by its name");
+    return given;
+  }
+
+  const std::map<std::string, Disguise>& disguises() const { return disguises_; }
+
+private:
+  // By the job or by what a quantity is.
+  Given said_before_looking(const std::string& name) const {
+    if (const auto said = options_.roles.find(name); said != options_.roles.end())
+      return {said->second.role, said_by_job};
+    if (is_measured(name)) return {Role::response, "what was measured of friction"};
+    if (name == "time_s") return {Role::clock, "the time"};
+    if (find_quantity(name)) return {Role::state, "a quantity that laws or routines take"};
+    if (name == origin_column) return {Role::ignore, "says where rows come from"};
+    if (name == "interval") return {Role::setting, "number of the interval in its recording"};
+    if (name == "recording") return {Role::label, "the recording that tests are intervals of"};
+    if (name == "direction") return {Role::setting, "sense of the motion"};
+    return by_formula(name);
+  }
+
+  // What the job computes the friction from is the friction; what it computes a state from is the
+  // state.
+  Given by_formula(const std::string& name) const {
+    std::string friction, state;
+    for (const std::string& canonical : computed_from(options_, name))
+      (is_measured(canonical) ? friction : state) = canonical;
+    if (!state.empty()) return {Role::state, state + " is computed from it"};
+    if (!friction.empty()) return {Role::response, friction + " is computed from it"};
+    return {};
+  }
+
+  static std::string question(const std::string& name, const std::string& why) {
+    return fmt::format("; another reading of the friction ({})? Then [data.roles] \"{}\" = "
+                       "\"response\"",
+                       why, name);
+  }
+
+  static Given by_name(const std::string& name, bool within) {
+    for (const NameRule& rule : name_rules)
+      if ((rule.when == When::any || (rule.when == When::within) == within) &&
+          fits(rule.pattern, name))
+        return {rule.role, "by its name"};
+    return {};
+  }
+
+  static Given of_text(const std::string& name, const Look& look) {
+    if (const Given named = by_name(name, look.within); named.role == Role::ignore) return named;
+    if (const Given named = by_name(name, look.within); named.role == Role::order) return named;
+    const std::size_t words = look.words.size() - look.words.count("");
+    if (look.is_constant()) return {Role::label, "one value in all tests"};
+    const std::size_t usable = std::max<std::size_t>(2, look.tests / 2);
+    if (look.words.size() > usable)
+      return {Role::ignore,
+              fmt::format("free text: {} values in {} tests", look.words.size(), look.tests)};
+    if (4 * look.filled_tests < look.tests && 2 * words > look.filled_tests)
+      return {Role::ignore,
+              fmt::format("free text: a remark in {} of {} tests", look.filled_tests, look.tests)};
+    return {Role::label, fmt::format("{} levels", look.words.size())};
+  }
+
+  static Given of_numbers(const std::string& name, const Look& look) {
+    if (look.is_constant()) return {Role::setting, "one value in all rows"};
+    if (const Given named = by_name(name, look.within); !named.why.empty()) return named;
+    const bool one_row_each = look.rows == look.tests;
+    if (!look.within && one_row_each && look.values.size() > look.tests / 2)
+      return {Role::setting, "one value per test; known before it, not measured in it?"};
+    if (!look.within)
+      return {Role::setting, fmt::format("one value per test, {} of them", look.values.size())};
+    if (look.values.size() <= most_held && look.rows > look.tests &&
+        look.held * (rows_held + 1) >= (look.rows - look.tests) * rows_held)
+      return {Role::setting, fmt::format("held at {} values within tests", look.values.size())};
+    return {Role::channel, "varies within tests, measured along with friction"};
+  }
+
+  std::span<Dataset* const> parts_;
+  const DataOptions& options_;
+  std::map<std::string, Disguise> disguises_;
+};
+
+void check_names(const Dataset& data, const DataOptions& options, FaultList& faults) {
+  std::vector<std::string> known;
+  for (const Column& column : data.columns)
+    if (!find_quantity(column.name)) known.push_back(column.name);
+  for (const auto& [name, wish] : options.roles)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      faults.add(wish.place,
+                 find_quantity(name)
+                     ? fmt::format("data.roles: {} is a quantity, no recorded column", name)
+                     : fmt::format("data.roles: the data have no column '{}'", name),
+                 find_quantity(name) ? "roles are those of the other columns; trace.ignore takes a "
+                                       "state out of the search"
+                                     : suggest(name, known));
+}
+
+} // namespace
+
+const char* role_name(Role role) {
+  return role_words[static_cast<std::size_t>(role)];
+}
+
+std::vector<std::string> role_names() {
+  return {role_words.begin() + static_cast<long>(Role::response), role_words.end()};
+}
+
+bool may_be_cause(Role role) {
+  return role == Role::undecided || role == Role::state || role == Role::setting ||
+         role == Role::label;
+}
+
+bool may_follow_friction(Role role) {
+  return role == Role::channel || role == Role::outcome;
+}
+
+void find_roles(std::span<Dataset* const> parts, const DataOptions& options, FaultList& faults) {
+  check_names(*parts.front(), options, faults);
+  RoleFinder finder(parts, options);
+  for (Column& column : parts.front()->columns) {
+    const Given given = finder.of(column);
+    for (Dataset* part : parts)
+      for (Column& same : part->columns)
+        if (same.name == column.name) {
+          same.role = given.role;
+          same.why = given.why;
+        }
+    if (given.role == Role::response && !find_quantity(column.name))
+      parts.front()->notes.push_back(
+          fmt::format("{} is the measured friction, no cause of it: {}", column.name, given.why));
+  }
+}
+
+} // namespace frictab::data

@@ -1,0 +1,287 @@
+// Roles of columns on campaigns of an invented pin-on-disc rig: raw channels that are the friction
+// once more, consequences of friction, causes, and what a log book has beside them. Synthetic.
+#include <cmath>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "data/disguise.h"
+#include "data/roles.h"
+#include "twin/twin.h"
+
+namespace frictab::roles_test {
+
+using data::Column;
+using data::Dataset;
+using data::Role;
+using testing::Contains;
+using testing::HasSubstr;
+
+namespace {
+
+// Coefficients that fall with the load, and with a film which is the rig's own cause; a gain of
+// each test; noise that remembers a few rows.
+class Rig {
+public:
+  Rig(std::uint64_t seed, std::size_t tests, std::size_t rows) : random_(seed, 7) {
+    for (const char* name : {"time_s", "sigma_n_MPa", "v_rel_mm_s", "tau_R_MPa", "film_nm"})
+      data.columns.push_back({name, "", {}, {}});
+    for (std::size_t t = 0; t < tests; ++t)
+      add_test(t, rows);
+  }
+
+  // A column of every row: from its test's number and its row's.
+  void add(const std::string& name,
+           const std::function<double(std::size_t test, std::size_t row)>& value) {
+    Column column{name, "", {}, {}};
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+      for (std::size_t i = data.first_row[e]; i < data.first_row[e + 1]; ++i)
+        column.values.push_back(value(e, i));
+    data.columns.push_back(std::move(column));
+  }
+
+  double at(const char* name, std::size_t row) const { return data.values(name)[row]; }
+  double normal() { return random_.normal(); }
+  double uniform() { return random_.uniform(); }
+  // One draw for each test.
+  std::vector<double> of_tests(const std::function<double()>& draw) {
+    std::vector<double> values;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+      values.push_back(draw());
+    return values;
+  }
+
+  Dataset data;
+
+private:
+  void add_test(std::size_t t, std::size_t rows) {
+    const double pressure = 20 * std::pow(2.0, double(t % 4)),
+                 speed = 5 * std::pow(4.0, double(t % 3));
+    const double film = 100 * std::exp(0.3 * random_.normal());
+    const double gain = std::exp(0.04 * random_.normal());
+    double slow = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      slow = 0.9 * slow + 0.01 * random_.normal();
+      const double p = pressure * (1 + 0.02 * random_.normal());
+      const double mu = 0.12 * std::pow(p / 50, -0.15) * std::pow(film / 100, -0.2) * gain;
+      const double tau = p * mu * std::exp(slow + 0.01 * random_.normal());
+      const double row[] = {0.1 * double(i), p, speed, tau, film};
+      for (std::size_t c = 0; c < std::size(row); ++c)
+        data.columns[c].values.push_back(row[c]);
+    }
+    data.experiments.push_back("t" + std::to_string(t));
+    data.first_row.push_back(data.first_row.back() + rows);
+  }
+
+  Random random_;
+};
+
+std::map<std::string, data::Disguise> disguises(const Dataset& data) {
+  const Dataset* const parts[] = {&data};
+  return data::find_disguises(parts, {});
+}
+
+bool is_called(const Dataset& data, const std::string& name) {
+  const auto found = disguises(data);
+  return found.count(name) > 0 && found.at(name).sure;
+}
+
+// Readings of the friction, each by another instrument.
+struct Reading {
+  const char* name;
+  std::function<void(Rig&)> add;
+};
+const Reading readings[] = {
+    {"a force",
+     [](Rig& rig) { rig.add("x", [&](auto, auto i) { return 20 * rig.at("tau_R_MPa", i); }); }},
+    {"a coefficient",
+     [](Rig& rig) {
+       rig.add("x",
+               [&](auto, auto i) { return rig.at("tau_R_MPa", i) / rig.at("sigma_n_MPa", i); });
+     }},
+    {"a torque over a radius of each test",
+     [](Rig& rig) {
+       const auto radius = rig.of_tests([&] { return 10 + 10 * rig.uniform(); });
+       rig.add("radius", [=](auto e, auto) { return radius[e]; });
+       rig.add("x", [&, radius](auto e, auto i) { return rig.at("tau_R_MPa", i) * radius[e]; });
+     }},
+    {"a second cell with noise and another zero",
+     [](Rig& rig) {
+       rig.add("x", [&](auto, auto i) {
+         return 3 + 1.7 * rig.at("tau_R_MPa", i) * (1 + 0.001 * rig.normal());
+       });
+     }},
+    {"the power of the drive",
+     [](Rig& rig) {
+       rig.add("x", [&](auto, auto i) { return rig.at("tau_R_MPa", i) * rig.at("v_rel_mm_s", i); });
+     }},
+    {"a signed force", [](Rig& rig) {
+       rig.add("x", [&](auto e, auto i) { return (e % 2 ? -5 : 5) * rig.at("tau_R_MPa", i); });
+     }}};
+
+// What follows friction, goes before it, or has nothing to do with it.
+void add_company(Rig& rig) {
+  double wear = 0;
+  const auto humidity = rig.of_tests([&] { return std::round(45 + 8 * rig.normal()); });
+  const auto setting = rig.of_tests([&] { return double(rig.uniform() < 0.5); });
+  rig.add("humidity", [=](auto e, auto) { return humidity[e]; });
+  rig.add("coated", [=](auto e, auto) { return setting[e]; });
+  rig.add("vibration",
+          [&](auto, auto i) { return rig.at("tau_R_MPa", i) * std::exp(0.2 * rig.normal()); });
+  rig.add("sound", [&](auto, auto i) {
+    return std::sqrt(rig.at("tau_R_MPa", i) * rig.at("v_rel_mm_s", i)) *
+           std::exp(0.1 * rig.normal());
+  });
+  rig.add("depth", [&](auto, auto i) {
+    const bool starts = rig.at("time_s", i) == 0;
+    return wear = (starts ? 0 : wear) + 1e-3 * rig.at("tau_R_MPa", i) * (1 + 0.3 * rig.normal());
+  });
+  rig.add("rise_C", [&](auto, auto i) {
+    return 25 + 5 * (1 - std::exp(-rig.at("time_s", i) / 3)) * rig.at("tau_R_MPa", i) / 10 +
+           0.2 * rig.normal();
+  });
+}
+
+Role role_of(const Dataset& data, const std::string& name) {
+  return data.find(name)->role;
+}
+
+Dataset with_roles(Dataset data, const data::DataOptions& options = {}) {
+  FaultList faults;
+  Dataset* const parts[] = {&data};
+  data::find_roles(parts, options, faults);
+  faults.throw_if_any();
+  return data;
+}
+
+} // namespace
+
+TEST(Roles, AReadingOfTheFrictionIsCalledOne) {
+  std::size_t found = 0, of = 0;
+  for (const Reading& reading : readings)
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Rig rig(seed, 12, 120);
+      reading.add(rig);
+      const bool called = is_called(rig.data, "x");
+      EXPECT_TRUE(called || seed > 1) << reading.name;
+      found += called;
+      ++of;
+    }
+  EXPECT_GE(100 * found, 97 * of) << found << " of " << of;
+}
+
+TEST(Roles, CausesConsequencesAndLogBooksAreNoReadings) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Rig rig(seed, 10 + seed % 20, seed % 3 == 0 ? 3 : 100);
+    add_company(rig);
+    for (const auto& [name, disguise] : disguises(rig.data))
+      EXPECT_FALSE(disguise.sure) << name << ": " << disguise.how << ", seed " << seed;
+  }
+}
+
+TEST(Roles, AReadingOfOneRowPerTestIsCalledOne) {
+  Rig rig(1, 27, 1);
+  rig.add("pull", [&](auto, auto i) { return 0.37 * rig.at("tau_R_MPa", i); });
+  rig.add("humidity", [&](auto, auto) { return 45 + 8 * rig.normal(); });
+  EXPECT_TRUE(is_called(rig.data, "pull"));
+  EXPECT_FALSE(is_called(rig.data, "humidity"));
+  EXPECT_FALSE(is_called(rig.data, "film_nm"));
+}
+
+TEST(Roles, TextWhoseNumbersAreTheFrictionIsAReading) {
+  Rig rig(1, 20, 1);
+  rig.add("noted", [&](auto, auto i) { return double(i); });
+  for (std::size_t e = 0; e < 20; ++e)
+    rig.data.columns.back().levels.push_back("F = " + std::to_string(100 * rig.at("tau_R_MPa", e)) +
+                                             " N");
+  EXPECT_TRUE(is_called(rig.data, "noted"));
+}
+
+TEST(Roles, TheTwinHasNoReadings) {
+  std::size_t columns = 0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    twin::TwinOptions options;
+    options.seed = seed;
+    options.more_bystanders = true;
+    options.profile = seed % 2 ? "constant" : options.profile;
+    options.noise = seed % 3 ? "normal" : options.noise;
+    options.design =
+        twin::parse_design(seed % 5 ? "points=40;validation=1" : "points=12;validation=1",
+                           twin::default_design(twin::twin_set("D")));
+    const Dataset data = twin::make_twin(options).training.data;
+    columns += data.columns.size();
+    for (const auto& [name, disguise] : disguises(data))
+      ADD_FAILURE() << name << ": " << disguise.how << ", seed " << seed;
+  }
+  EXPECT_GT(columns, 400u);
+}
+
+TEST(Roles, FollowFromTheJobTheDataAndNamesInThatOrder) {
+  Rig rig(3, 12, 60);
+  add_company(rig);
+  rig.add("torque", [&](auto, auto i) { return 0.3 * rig.at("tau_R_MPa", i); });
+  rig.add("rpm", [&](auto, auto i) { return 10 * rig.at("v_rel_mm_s", i); });
+  rig.add("Mass loss [mg]", [](auto e, auto) { return 1.0 + double(e * e % 7); });
+  rig.add("step_pct", [](auto, auto i) { return double(i / 20 % 3); });
+  data::DataOptions options;
+  options.columns["tau_R_MPa"].formula = "torque/0.3";
+  options.columns["v_rel_mm_s"].formula = "rpm/10";
+  options.roles["vibration"] = {Role::setting, {}};
+  const Dataset data = with_roles(rig.data, options);
+  EXPECT_EQ(role_of(data, "torque"), Role::response);
+  EXPECT_EQ(data.find("torque")->why, "tau_R_MPa is computed from it");
+  EXPECT_EQ(role_of(data, "rpm"), Role::state);
+  EXPECT_EQ(role_of(data, "vibration"), Role::setting);
+  EXPECT_EQ(role_of(data, "sound"), Role::channel);
+  EXPECT_EQ(role_of(data, "rise_C"), Role::channel);
+  EXPECT_EQ(role_of(data, "humidity"), Role::setting);
+  EXPECT_EQ(role_of(data, "film_nm"), Role::setting);
+  EXPECT_EQ(role_of(data, "Mass loss [mg]"), Role::outcome);
+  EXPECT_EQ(role_of(data, "step_pct"), Role::setting);
+  EXPECT_EQ(role_of(data, "time_s"), Role::clock);
+  EXPECT_THAT(data.notes, Contains(HasSubstr("torque is the measured friction")));
+}
+
+TEST(Roles, FreeTextIsNoLabel) {
+  Rig rig(4, 20, 5);
+  const auto text = [&](const char* name, std::vector<std::string> levels, auto of_test) {
+    rig.add(name, [&](auto e, auto) { return double(of_test(e)); });
+    rig.data.columns.back().levels = std::move(levels);
+  };
+  text("machine", {"A", "B"}, [](std::size_t e) { return e % 2; });
+  text("seen", {"", "noise at the end", "oil spilt"}, [](std::size_t e) {
+    return e == 3 ? 1 : e == 8 ? 2 : 0;
+  });
+  std::vector<std::string> names;
+  for (int i = 0; i < 20; ++i)
+    names.push_back("p" + std::to_string(100 + i));
+  text("piece", names, [](std::size_t e) { return e; });
+  text("additive", {"", "MoS2"}, [](std::size_t e) { return e < 4; });
+  text("Bemerkung", {"", "gut"}, [](std::size_t e) { return e % 2; });
+  const Dataset data = with_roles(rig.data);
+  EXPECT_EQ(role_of(data, "machine"), Role::label);
+  EXPECT_EQ(role_of(data, "seen"), Role::ignore);
+  EXPECT_EQ(role_of(data, "piece"), Role::ignore);
+  EXPECT_EQ(role_of(data, "additive"), Role::label);
+  EXPECT_EQ(role_of(data, "Bemerkung"), Role::ignore);
+}
+
+TEST(Roles, ANameThatTheDataDoNotHaveIsAFault) {
+  Rig rig(1, 4, 5);
+  data::DataOptions options;
+  options.roles["flim_nm"] = {Role::channel, {"job.toml", 7, 3}};
+  options.roles["sigma_n_MPa"] = {Role::ignore, {"job.toml", 8, 3}};
+  try {
+    with_roles(rig.data, options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("job.toml:7:3: error: data.roles: the data have no column "
+                                        "'flim_nm'"));
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'film_nm'?"));
+    EXPECT_THAT(error.what(), HasSubstr("data.roles: sigma_n_MPa is a quantity"));
+  }
+}
+
+} // namespace frictab::roles_test
