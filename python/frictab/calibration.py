@@ -69,6 +69,16 @@ class Calibration:
         """Whether the data came from the twin."""
         return bool(self.record["synthetic_data"])
 
+    @property
+    def best(self):
+        """Name of the law with the smallest error on unseen tests, of those that compete."""
+        return self.record.get("best") # None: of a version that did not write it
+
+    @property
+    def recommended(self):
+        """Name of the simplest law that is not worse than it by more than a standard error."""
+        return self.record.get("recommended")
+
     def errors(self):
         """{law: mean absolute error in MPa on experiments it was not trained on}, best first."""
         found = {f["name"]: f["validation"]["mae_MPa"] for f in self.record["models"]}

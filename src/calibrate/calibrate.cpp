@@ -97,6 +97,12 @@ void tell_missing(const models::Law& law, const std::vector<std::string>& missin
                         "or leave the law out of models.use");
 }
 
+// A constant of the literature is there to be compared with, unless the job names it.
+bool is_reference(const models::Law& law, const ModelOptions& options) {
+  return law.calibrated == Calibrated::fixed && models::is_registered(law) &&
+         std::find(options.use.begin(), options.use.end(), law.name) == options.use.end();
+}
+
 struct Selection {
   std::vector<const models::Law*> laws;
   std::vector<LeftOut> left_out;
@@ -202,7 +208,7 @@ void add_other_splits(Calibration& calibration, const models::Conventions& conve
   const std::size_t folds = std::max<std::size_t>(2, tests / held);
   std::vector<const models::Law*> laws;
   for (const ModelFit& fit : calibration.fits)
-    laws.push_back(input.models.laws.find(fit.model.law->name));
+    if (!fit.reference) laws.push_back(input.models.laws.find(fit.model.law->name));
   const CrossValidation cross =
       cross_validate(laws, conventions, *input.undivided, input.options,
                      experiment_folds(tests, folds, input.options.seed, 0));
@@ -257,6 +263,7 @@ Calibration calibrate(const CalibrationInput& input) {
   Progress progress("calibrating laws", selection.laws.size());
   parallel_for(selection.laws.size(), [&](std::size_t i) {
     calibration.fits[i] = calibrated(*selection.laws[i], conventions, input);
+    calibration.fits[i].reference = is_reference(*selection.laws[i], input.models);
     progress.tick();
   });
   if (input.judged_by == JudgedBy::leave_one_out)

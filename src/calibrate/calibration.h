@@ -27,6 +27,7 @@
 //     cross_validation  experiments predicted by laws fitted without them
 //     comparison        which law is better than which
 //     choice            what the best law's error owes to its having been chosen
+//     recommended       the simplest law that is hardly worse than the best
 //     noise_floor       what no law can go below, with replicates (repeated tests)
 //     band              how experiments lie around a law, and laws at their quantiles
 //     conditional       one gain per experiment from its own first millimetres
@@ -76,6 +77,8 @@ struct ModelFit {
   // `training` errors are of all of them, its `validation` errors cross-validated over them.
   std::shared_ptr<const ModelFit> on_all;
   bool fitted_to_all = false; // it is such a one itself
+  // A constant of the literature that the job does not name: shown beside the laws, no candidate.
+  bool reference = false;
 
   // What tables, sources, predictions and models/NAME.json are made of.
   const ModelFit& delivered() const { return on_all ? *on_all : *this; }
@@ -102,6 +105,7 @@ struct Calibration {
   std::vector<std::string> validation_experiments; // by name, as filed
   Comparisons comparisons;                         // of all pairs, on the validation experiments
   Choice choice;                        // what choosing the best of them does to its error
+  Recommended recommended;              // which law to take
   std::vector<NoiseFloor> noise_floors; // the most trustworthy first
   Conditional conditional;
   Deliver deliver = Deliver::training;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/judgement_json.h"
+#include "calibrate/recommended.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -343,6 +344,7 @@ Json fit_json(const ModelFit& fit) {
   if (!models::is_registered(*fit.model.law))
     j["law"] = made_law_json(*fit.model.law, fit.model.conventions);
   j["expressions"] = expressions_json(fit.model);
+  if (fit.reference) j["candidate"] = false;
   if (fit.fitted_to_all) j["fitted_to"] = "all";
   if (fit.on_all) j["delivered"] = delivered_json(*fit.on_all);
   return j;
@@ -432,10 +434,19 @@ LeftOut parse_left_out(const std::string& text, const std::string& file) {
 
 } // namespace
 
+namespace {
+
+Json name_or_null(const std::string& law) {
+  return law.empty() ? Json() : Json(law);
+}
+
+} // namespace
+
 std::string calibration_json(const Calibration& calibration) {
   Json models = Json::array();
   for (const ModelFit& fit : calibration.fits)
     models.push_back(fit_json(fit));
+  const std::string best = calibration.fits.empty() ? "" : best_fit(calibration).model.law->name;
   return io::json_text({{"schema", calibration_schema},
                         {"tool_version", tool_version()},
                         {"data_hash", calibration.data_hash},
@@ -451,6 +462,9 @@ std::string calibration_json(const Calibration& calibration) {
                         {"left_out", left_out_json(calibration.left_out)},
                         {"comparisons", comparisons_json(calibration.comparisons)},
                         {"choice", choice_json(calibration.choice)},
+                        {"best", name_or_null(best)},
+                        {"recommended", name_or_null(calibration.recommended.law)},
+                        {"recommendation", recommended_json(calibration.recommended)},
                         {"conditional", conditional_json(calibration.conditional)}});
 }
 
@@ -475,12 +489,15 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
       calibration.delivery_folds = io::count_of(j.at("delivery_folds"));
     }
     calibration.choice = parse_choice(j.at("choice"));
+    if (j.contains("recommendation")) // not in files of 0.1
+      calibration.recommended = parse_recommended(j.at("recommendation"));
     calibration.comparisons = parse_comparisons(j.at("comparisons"));
     calibration.conditional = parse_conditional(j.at("conditional"));
     for (const Json& one : j.at("models")) {
       ModelFit fit = parse_whole_fit(one, "validation", file);
       if (one.contains("delivered"))
         fit.on_all = parse_delivered(one.at("delivered"), fit.model.law->name, file);
+      fit.reference = !one.value("candidate", true); // none: files of 0.1
       fit.unseen =
           parse_unseen(one.at("by_experiment_left_out"), calibration.validation_experiments);
       calibration.fits.push_back(std::move(fit));

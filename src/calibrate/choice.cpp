@@ -129,9 +129,12 @@ std::string share_sentence(const Choice& choice) {
       named.push_back(
           fmt::format("{:.0f} % {}{}", 100 * one.share, named.empty() ? "choose " : "", one.law));
   if (named.empty()) return "";
-  return fmt::format("of {} {} {}", thousands(choice.draws),
+  const bool all = std::any_of(choice.best_in.begin(), choice.best_in.end(),
+                               [&](const Choice::Share& one) { return one.law == choice.law; });
+  return fmt::format("of {} {} {}{}", thousands(choice.draws),
                      choice.splits ? "other splits of all tests" : "resamples of the tests",
-                     join(named, ", "));
+                     join(named, ", "),
+                     all ? "" : ", of the laws without the effects: these were not searched there");
 }
 
 } // namespace frictab::calibrate

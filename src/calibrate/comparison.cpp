@@ -10,6 +10,8 @@
 #include "calibrate/calibration.h"
 #include "calibrate/choice.h"
 #include "calibrate/experiment_errors.h"
+#include "calibrate/recommended.h"
+#include "core/no_value.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -78,6 +80,7 @@ std::size_t pair_index(std::size_t i, std::size_t j, std::size_t laws) { // i < 
 
 // What the data say, and t of every pair (law j minus law i) in every resample, centred.
 struct Studentised {
+  std::vector<double> value;                // per law
   std::vector<double> difference, error, t; // per pair
   std::vector<std::vector<double>> again;   // per pair, one entry per resample
 };
@@ -95,6 +98,7 @@ Studentised studentise(const Problem& p, std::size_t resamples, std::uint64_t se
   const std::vector<double> once(p.experiments(), 1.0);
   const Estimates now = p.at(once);
   Studentised s;
+  s.value = now.value;
   for (std::size_t i = 0; i < p.laws(); ++i)
     for (std::size_t j = i + 1; j < p.laws(); ++j) {
       s.difference.push_back(now.value[j] - now.value[i]);
@@ -140,30 +144,86 @@ Difference difference_of(const Studentised& s, std::size_t pair) {
   return d;
 }
 
-// "No law is better than law i", by the largest studentised lead of another law over it, against
-// the largest difference to another law either way: as in the interval of a pair. So it is never
-// more certain than that pair alone.
-double best_p_value(const Studentised& s, std::size_t i, std::size_t laws) {
-  const std::size_t resamples = s.again.empty() ? 0 : s.again.front().size();
-  double lead = 0;
-  std::vector<double> most(resamples);
-  for (std::size_t j = 0; j < laws; ++j) {
-    if (j == i) continue;
-    const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws);
-    if (s.t[pair] == 0) continue;                          // the same
-    lead = std::max(lead, i < j ? -s.t[pair] : s.t[pair]); // t: later law minus earlier one
-    for (std::size_t b = 0; b < resamples; ++b)
-      most[b] = std::max(most[b], std::abs(s.again[pair][b]));
+// A pair's p-value, and those that its resamples would have had: their ranks, with the data's own
+// difference as one of them.
+struct PairRanks {
+  double p_value = 1;
+  std::vector<double> again;
+};
+
+PairRanks ranks_of(const Studentised& s, std::size_t pair) {
+  std::vector<double> size{std::abs(s.t[pair])};
+  for (const double t : s.again[pair])
+    size.push_back(std::abs(t));
+  std::vector<double> sorted = size;
+  std::sort(sorted.begin(), sorted.end());
+  for (double& one : size) {
+    const auto below = std::lower_bound(sorted.begin(), sorted.end(), one) - sorted.begin();
+    one = static_cast<double>(sorted.size() - static_cast<std::size_t>(below)) /
+          static_cast<double>(sorted.size());
   }
-  const auto beyond = std::count_if(most.begin(), most.end(), [&](double t) { return t >= lead; });
+  return {size.front(), {size.begin() + 1, size.end()}};
+}
+
+// "No candidate is better than law i". Never less than the p-value of a pair that i loses.
+double best_p_value(const Studentised& s, const std::vector<PairRanks>& ranks,
+                    std::span<const LawErrors> laws, std::size_t i) {
+  const std::size_t resamples = s.again.empty() ? 0 : s.again.front().size();
+  double now = 1;
+  std::vector<double> least(resamples, 1.0);
+  for (std::size_t j = 0; j < laws.size(); ++j) {
+    if (j == i || !laws[j].candidate) continue;
+    const std::size_t pair = pair_index(std::min(i, j), std::max(i, j), laws.size());
+    if (s.t[pair] == 0) continue; // the same
+    if (s.value[j] < s.value[i]) now = std::min(now, ranks[pair].p_value);
+    for (std::size_t b = 0; b < resamples; ++b)
+      least[b] = std::min(least[b], ranks[pair].again[b]);
+  }
+  const auto beyond = std::count_if(least.begin(), least.end(), [&](double p) { return p <= now; });
   return share_beyond(static_cast<std::size_t>(beyond), resamples);
 }
 
-std::string all_but(const Comparisons& c, const std::vector<std::string>& others,
+// Whether a candidate beats law i in a pair of their own.
+bool loses_for_certain(const Studentised& s, const std::vector<PairRanks>& ranks,
+                       std::span<const LawErrors> laws, std::size_t i) {
+  for (std::size_t j = 0; j < laws.size(); ++j)
+    if (j != i && laws[j].candidate && s.value[j] < s.value[i] &&
+        ranks[pair_index(std::min(i, j), std::max(i, j), laws.size())].p_value < 0.05)
+      return true;
+  return false;
+}
+
+// Of all laws: NaN where one is no candidate.
+std::vector<double> best_p_values_of(const Studentised& s, std::span<const LawErrors> laws) {
+  std::vector<PairRanks> ranks(s.t.size());
+  parallel_for(ranks.size(), [&](std::size_t pair) { ranks[pair] = ranks_of(s, pair); });
+  std::vector<double> p(laws.size(), no_value);
+  std::vector<std::size_t> worst_first;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (laws[i].candidate) worst_first.push_back(i);
+  std::stable_sort(worst_first.begin(), worst_first.end(),
+                   [&](std::size_t a, std::size_t b) { return s.value[a] > s.value[b]; });
+  double at_least = 0;
+  for (const std::size_t i : worst_first) {
+    p[i] = std::max(at_least, best_p_value(s, ranks, laws, i));
+    if (loses_for_certain(s, ranks, laws, i)) at_least = std::max(at_least, p[i]);
+  }
+  return p;
+}
+
+// The candidates, by rank.
+std::vector<std::string> candidates_of(const Comparisons& c) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < c.laws.size(); ++i)
+    if (!std::isnan(c.best_p_values[i])) names.push_back(c.laws[i]);
+  return names;
+}
+
+std::string all_but(const std::vector<std::string>& laws, const std::vector<std::string>& others,
                     const std::string& note) {
-  if (others.size() + 1 == c.laws.size() && !others.empty())
-    return fmt::format("{} is not distinguishable from any other law ({})", c.laws.front(), note);
-  return fmt::format("{} is better than all {} ({})", c.laws.front(),
+  if (others.size() + 1 == laws.size() && !others.empty())
+    return fmt::format("{} is not distinguishable from any other law ({})", laws.front(), note);
+  return fmt::format("{} is better than all {} ({})", laws.front(),
                      others.empty() ? "others" : "but " + join(others, ", "), note);
 }
 
@@ -176,9 +236,9 @@ Comparisons compare(std::span<const LawErrors> laws, std::size_t resamples, std:
   result.resamples = std::min(resamples, most_resamples);
   const auto mae = studentise(problem_of(laws, Measure::mean), result.resamples, seed);
   const auto rmse = studentise(problem_of(laws, Measure::root_mean), result.resamples, seed);
+  result.best_p_values = best_p_values_of(mae, laws);
   for (std::size_t i = 0, pair = 0; i < laws.size(); ++i) {
     result.laws.push_back(laws[i].law);
-    result.best_p_values.push_back(best_p_value(mae, i, laws.size()));
     for (std::size_t j = i + 1; j < laws.size(); ++j, ++pair)
       result.pairs.push_back(
           {laws[i].law, laws[j].law, difference_of(mae, pair), difference_of(rmse, pair)});
@@ -194,24 +254,28 @@ std::vector<std::string> possibly_best(const Comparisons& comparisons) {
 }
 
 std::vector<std::string> as_good_as_first(const Comparisons& comparisons) {
+  const std::vector<std::string> laws = candidates_of(comparisons);
   std::vector<std::string> names;
   for (const Comparison& pair : comparisons.pairs)
-    if (pair.law == comparisons.laws.front() && !pair.mae.distinguishable())
+    if (pair.law == laws.front() && !pair.mae.distinguishable() &&
+        std::find(laws.begin(), laws.end(), pair.other) != laws.end())
       names.push_back(pair.other);
   return names;
 }
 
 std::string pairwise_sentence(const Comparisons& comparisons) {
-  if (comparisons.laws.size() < 2) return "";
-  return all_but(comparisons, as_good_as_first(comparisons), "95 % per pair, paired by experiment");
+  const std::vector<std::string> laws = candidates_of(comparisons);
+  if (laws.size() < 2) return "";
+  return all_but(laws, as_good_as_first(comparisons), "95 % per pair, paired by experiment");
 }
 
 std::string family_sentence(const Comparisons& comparisons) {
-  if (comparisons.laws.size() < 2) return "";
+  const std::size_t laws = candidates_of(comparisons).size();
+  if (laws < 2) return "";
   const std::vector<std::string> names = possibly_best(comparisons);
-  const std::string note = fmt::format("95 % for all {} laws together", comparisons.laws.size());
+  const std::string note = fmt::format("95 % for all {} laws together", laws);
   if (names.size() == 1) return fmt::format("{} is the best of them ({})", names.front(), note);
-  if (names.size() == comparisons.laws.size()) return "any of them may be the best (" + note + ")";
+  if (names.size() == laws) return "any of them may be the best (" + note + ")";
   return fmt::format("the best of them is one of {} ({})", join(names, ", "), note);
 }
 
@@ -219,11 +283,13 @@ void add_comparisons(Calibration& calibration, const CalibrationInput& input) {
   std::vector<LawErrors> laws(calibration.fits.size());
   parallel_for(laws.size(), [&](std::size_t i) {
     const ModelFit& fit = calibration.fits[i];
-    laws[i] = {fit.model.law->name, unseen_sums(fit, input.validation)};
+    laws[i] = {fit.model.law->name, unseen_sums(fit, input.validation), !fit.reference};
   });
   calibration.comparisons = compare(laws, input.options.bootstrap, input.options.seed);
   const Choice before = std::move(calibration.choice);
+  std::erase_if(laws, [](const LawErrors& law) { return !law.candidate; });
   calibration.choice = choose_again(laws, input.options.bootstrap, input.options.seed);
+  add_recommended(calibration, input);
   if (!before.splits) return;
   calibration.choice.best_in = before.best_in; // traced laws are not fitted to other splits
   calibration.choice.splits = true;

@@ -66,8 +66,8 @@ struct Comparison {
 struct Comparisons {
   std::vector<Comparison> pairs; // (1,2), (1,3), ..., (2,3), ... by rank; empty: not compared
   std::vector<std::string> laws; // by rank
-  std::vector<double>
-      best_p_values; // per law: of "no law has a smaller MAE", for all laws together
+  // Per law: of "no law has a smaller MAE", for all candidates together; NaN: no candidate.
+  std::vector<double> best_p_values;
   std::size_t n_experiments = 0;
   std::size_t resamples = 0;
 };
@@ -85,6 +85,16 @@ struct Choice {
   std::vector<Share> best_in; // by rank
   std::size_t draws = 0;      // 0: not known, with less than 2 laws, 2 tests or a resample
   bool splits = false;        // best_in: of splits of all tests, else of resampled tests
+};
+
+// The simplest law that is not worse than the best by more than one standard error.
+struct Recommended {
+  std::string law; // empty: nothing judges the laws
+  std::string best;
+  std::size_t numbers = 0; // that fitting it has found: parameters, weights, terms
+  std::size_t numbers_of_best = 0;
+  double behind_MPa = 0;    // MAE on unseen tests beyond that of the best law
+  double std_error_MPa = 0; // of that difference, paired by experiment
 };
 
 // How much error is left where a law of the state is exact.

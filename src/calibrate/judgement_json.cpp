@@ -181,6 +181,28 @@ Choice parse_choice(const Json& j) {
   return c;
 }
 
+Json recommended_json(const Recommended& r) {
+  if (r.law.empty()) return nullptr;
+  return {{"meaning", "the law of fewest fitted numbers that is not worse than the best by more "
+                      "than one standard error on unseen tests, paired by experiment"},
+          {"law", r.law},
+          {"best", r.best},
+          {"numbers", r.numbers},
+          {"numbers_of_best", r.numbers_of_best},
+          {"behind_MPa", r.behind_MPa},
+          {"std_error_MPa", r.std_error_MPa}};
+}
+
+Recommended parse_recommended(const Json& j) {
+  if (j.is_null()) return {};
+  return {j.at("law"),
+          j.at("best"),
+          io::count_of(j.at("numbers")),
+          io::count_of(j.at("numbers_of_best")),
+          number_or_nan(j.at("behind_MPa")),
+          number_or_nan(j.at("std_error_MPa"))};
+}
+
 Json comparisons_json(const Comparisons& c) {
   Json pairs = Json::array(), laws = Json::array();
   for (const Comparison& pair : c.pairs)
@@ -194,7 +216,7 @@ Json comparisons_json(const Comparisons& c) {
                     {"p_value", c.best_p_values[i]},
                     {"may_be_best", c.best_p_values[i] >= 0.05}});
   return {{"meaning", "differences: other minus law; intervals and p-values per pair, paired by "
-                      "experiment; best_of_all: for all laws together"},
+                      "experiment; best_of_all: for all laws together, null: no candidate"},
           {"n_experiments", c.n_experiments},
           {"resamples", c.resamples},
           {"best_of_all", laws},

@@ -24,6 +24,10 @@ std::vector<ExperimentError> parse_unseen(const nlohmann::ordered_json& j,
 nlohmann::ordered_json choice_json(const Choice& choice);
 Choice parse_choice(const nlohmann::ordered_json& j);
 
+// null where nothing judges the laws.
+nlohmann::ordered_json recommended_json(const Recommended& recommended);
+Recommended parse_recommended(const nlohmann::ordered_json& j);
+
 nlohmann::ordered_json comparisons_json(const Comparisons& comparisons);
 Comparisons parse_comparisons(const nlohmann::ordered_json& j);
 

@@ -173,9 +173,10 @@ Explanation about_table_layout() {
       {"tau_R", "the formula `combine` of the interpolated value, the states and the constants"},
       {"axes", "1 to 8, or none for a constant; outside, the nearest edge is used, or what "
                "outside_low and outside_high say"},
-      {"not needed", "all other attributes; frictab writes model, data_hash, "
-                     "data_origin, tool_version, tolerance_MPa, worst_case_MPa, refinement "
-                     "and others to the root, and Conventions, title, source and comment of CF"}};
+      {"not needed",
+       "all other attributes; frictab writes model, data_hash, "
+       "data_origin, tool_version, tolerance_MPa, tolerance_from, worst_case_MPa, refinement "
+       "and others to the root, and Conventions, title, source and comment of CF"}};
   out.items = {
       {"value", "numbers, row-major in the order of the axes, finite; any HDF5 storage", {}},
       {"value: quantity", "mu or tau_R: what is tabulated", {}},

@@ -158,13 +158,18 @@ int export_law(const LawOptions& options, const CommonOptions& common) {
   const auto given = assignments(options.ranges, "--range", "sigma_f_MPa=300..900");
   const models::AssembledLaw law(model_of(options, given));
   const auto exporters = codegen::exporters_named(options.targets);
-  const table::TableOptions usual;
-  table::Table table = table::build_table(law, ranges_of(law, given), usual);
+  const auto ranges = ranges_of(law, given);
+  const table::Tolerance allowed = table::auto_tolerance(law, ranges);
+  table::TableOptions usual;
+  usual.tolerance_MPa = allowed.MPa;
+  usual.tolerance_from = allowed.from;
+  table::Table table = table::build_table(law, ranges, usual);
   table.record.tool_version = tool_version();
   table.record.data_origin = "none: constants given by hand";
-  verify::Verification verification{usual.tolerance_MPa, {}};
-  verification.records =
-      verify::verify({law, table, "the new table", nullptr, usual.tolerance_MPa}, {});
+  verify::VerifyInput input{law, table, "the new table", nullptr, allowed.MPa};
+  input.allowed_from = allowed.from;
+  verify::Verification verification{allowed.MPa, {}};
+  verification.records = verify::verify(input, {});
   verify::set_drift(table.record, verification.records.front());
   io::OutputFiles output(common.output);
   table::write_table(table, output.stage(options.law + ".h5"), usual.hdf5);

@@ -50,6 +50,15 @@ void write_junit(const Options& options, const verify::Verification& verificatio
   out.commit();
 }
 
+// What the command says, else what the table was made to; a table from elsewhere says neither.
+table::Tolerance tolerance_of(const Options& options, const models::AssembledLaw& law,
+                              const table::Table& table, const data::Dataset* rows) {
+  if (options.max_drift_MPa) return {*options.max_drift_MPa, ""};
+  if (table.record.tolerance_MPa)
+    return {*table.record.tolerance_MPa, table.record.tolerance_from.value_or("")};
+  return table::auto_tolerance(law, table::table_ranges(table, rows, options.table));
+}
+
 int verify_alone(const Options& options, const CommonOptions& common) {
   const table::Table table = table::read_table(options.table);
   const models::AssembledLaw law(
@@ -57,10 +66,12 @@ int verify_alone(const Options& options, const CommonOptions& common) {
                              table.quantile(), {options.table, 0, 0}));
   std::optional<data::Dataset> rows;
   if (!options.data.empty()) rows = load_rows(options, common);
-  const double allowed = options.max_drift_MPa.value_or(table.record.tolerance_MPa.value_or(0.5));
-  verify::Verification verification{allowed, {}, options.require_proof};
-  verification.records =
-      verify::verify({law, table, options.table, rows ? &*rows : nullptr, allowed}, {});
+  verify::VerifyInput input{law, table, options.table, rows ? &*rows : nullptr};
+  const table::Tolerance allowed = tolerance_of(options, law, table, input.rows);
+  input.max_drift_MPa = allowed.MPa;
+  input.allowed_from = allowed.from;
+  verify::Verification verification{allowed.MPa, {}, options.require_proof};
+  verification.records = verify::verify(input, {});
   write_junit(options, verification);
   if (common.json)
     show(verify::verification_json(verification));

@@ -121,6 +121,9 @@ KeyRule key(std::string path, T& (*at)(Job&), std::string meaning, std::string a
   return rule;
 }
 
+// "auto" or a number, which is absent where it is auto.
+KeyRule or_auto(std::string path, std::optional<double>& (*at)(Job&), std::string meaning);
+
 // A key below a name of the user's.
 template <class T>
 KeyRule named(std::string path, T& (*at)(Job&, const std::string&), std::string meaning,
@@ -169,6 +172,7 @@ std::vector<std::string> option_names();
 std::vector<std::string> constant_names();
 std::vector<std::string> laws_or_all();
 std::vector<std::string> laws_best_or_all();
+std::vector<std::string> laws_to_tabulate(); // and recommended
 std::vector<std::string> target_names();
 std::vector<std::string> targets_or_all();
 

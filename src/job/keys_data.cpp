@@ -348,6 +348,19 @@ std::string Kind<data::AutoNumber>::show(const data::AutoNumber& v) {
   return v.value ? shortest(*v.value) : toml_quoted("auto");
 }
 
+KeyRule or_auto(std::string path, std::optional<double>& (*at)(Job&), std::string meaning) {
+  KeyRule rule = key(std::move(path), at, std::move(meaning));
+  rule.type = KeyType::automatic;
+  rule.store = [at](Job& job, const std::string&, KeyValue value) {
+    at(job) = Kind<data::AutoNumber>::from(value).value;
+  };
+  rule.show = [at](const Job& job) {
+    Job copy = job;
+    return Kind<data::AutoNumber>::show({at(copy)});
+  };
+  return rule;
+}
+
 template <> data::Missing Kind<data::Missing>::from(KeyValue& v) {
   return std::get<std::string>(v) == "drop" ? data::Missing::drop : data::Missing::error;
 }

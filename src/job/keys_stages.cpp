@@ -233,18 +233,20 @@ std::vector<KeyRule> table_keys() {
       key<std::vector<std::string>>(
           "table.model", [](Job & job) -> auto& { return job.table.model; },
           "law or laws to tabulate: best (on held-out experiments, which so give it too small an "
+          "error), recommended (the simplest that is not worse than it by more than a standard "
           "error), a name, a list, or all; NAME_traced is the law with the effects that trace "
           "found") |
-          Allowed{"friction law", laws_best_or_all, false, true, true},
+          Allowed{"friction law", laws_to_tabulate, false, true, true},
       key<std::vector<double>>(
           "table.quantile", [](Job & job) -> auto& { return job.table.quantile; },
           "share of experiments that stay below the table: 0.5 = the law itself, "
           "[0.05, 0.5, 0.95] = the law and both ends of the band in which experiments lie") |
           at_least(0.001, 0.999),
-      key<double>(
+      or_auto(
           "table.tolerance_MPa", [](Job & job) -> auto& { return job.table.tolerance_MPa; },
           "largest drift of the table from its law, anywhere in the range; the grid is made to "
-          "fit it") |
+          "fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen tests, the "
+          "smaller") |
           above(0),
       key<std::optional<table::Interpolation>>(
           "table.interpolation", [](Job & job) -> auto& { return job.table.interpolation; },
@@ -372,7 +374,7 @@ std::vector<KeyRule> proof_keys() {
   return {
       key<std::optional<double>>(
           "verify.max_drift_MPa", [](Job & job) -> auto& { return job.verify.max_drift_MPa; },
-          "largest drift that passes", "table.tolerance_MPa", "0.5") |
+          "largest drift that passes", "table.tolerance_MPa, of each law", "0.5") |
           above(0),
       key<std::size_t>(
           "verify.samples", [](Job & job) -> auto& { return job.verify.samples; },
@@ -436,6 +438,12 @@ std::vector<std::string> laws_or_all() {
 std::vector<std::string> laws_best_or_all() {
   std::vector<std::string> names = laws_or_all();
   names.insert(names.begin(), "best");
+  return names;
+}
+
+std::vector<std::string> laws_to_tabulate() {
+  std::vector<std::string> names = laws_best_or_all();
+  names.insert(names.begin() + 1, "recommended");
   return names;
 }
 

@@ -34,10 +34,12 @@ bool check_name(JobReader& reader, const models::LawText& text) {
   if (!plain)
     reader.fault(text.place, fmt::format("a law cannot be called '{}'", name),
                  "letters, digits, _ and -, at most 60");
-  else if (name == "best" || name == "all" || read.base || read.traced || read.quantile)
-    reader.fault(text.place, fmt::format("a law cannot be called '{}': that is taken", name),
-                 "names of `frictab list models`, best, all, and endings _traced and _q05 mean "
-                 "something else");
+  else if (name == "best" || name == "recommended" || name == "all" || read.base || read.traced ||
+           read.quantile)
+    reader.fault(
+        text.place, fmt::format("a law cannot be called '{}': that is taken", name),
+        "names of `frictab list models`, best, recommended, all, and endings _traced and _q05 mean "
+        "something else");
   else
     return true;
   return false;

@@ -29,7 +29,8 @@ struct ValueReader {
   }
 
   std::string type_hint(const TomlNode& node) const {
-    const bool wants_number = rule.type == KeyType::whole || rule.type == KeyType::number;
+    const bool wants_number = rule.type == KeyType::whole || rule.type == KeyType::number ||
+                              rule.type == KeyType::automatic;
     const bool wants_text = rule.type == KeyType::text || rule.type == KeyType::texts;
     if (node.type == Type::text && rule.type == KeyType::flag) return "write true or false";
     if (node.type == Type::text && wants_number &&

@@ -37,11 +37,11 @@ std::string parameters(const calibrate::ModelFit& fit) {
 std::string row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) {
   const calibrate::Metrics& v = fit.validation;
   const std::string remarks = join(fit.remarks, "; ");
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", rank,
-                     markdown_cell(fit.model.law->name), fixed(v.mae_MPa, decimals),
-                     interval_text(v.mae_interval, decimals), fixed(v.rmse_MPa, decimals),
-                     fixed(v.bias_MPa, decimals), fixed(fit.training.mae_MPa, decimals),
-                     markdown_cell(parameters(fit)), markdown_cell(remarks));
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", rank, markdown_law(fit),
+                     fixed(v.mae_MPa, decimals), interval_text(v.mae_interval, decimals),
+                     fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals),
+                     fixed(fit.training.mae_MPa, decimals), markdown_cell(parameters(fit)),
+                     markdown_cell(remarks));
 }
 
 // What is delivered: of laws fitted to all experiments, errors and parameters of their own.
@@ -122,6 +122,7 @@ std::string benchmark_md(const calibrate::Calibration& calibration) {
     for (std::size_t i = 0; i < calibration.fits.size(); ++i)
       out += row(calibration.fits[i], i + 1, decimals);
     out += floor_row(calibration, decimals);
+    out += recommended_paragraph(calibration);
     add_choice(out, calibration.choice, decimals);
     add_delivery(out, calibration, decimals);
   }

@@ -1,11 +1,14 @@
 // All errors, all pairs of laws, noise floors and conditional use as Markdown.
 #include "report/benchmark_parts.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "core/text.h"
 #include "report/numbers.h"
 
@@ -85,6 +88,18 @@ std::string floor_row(const calibrate::Calibration& calibration, int decimals) {
                      calibrate::noise_floor_name(f), calibrate::noise_floor_limits(f));
 }
 
+std::string markdown_law(const calibrate::ModelFit& fit) {
+  return markdown_cell(fit.model.law->name) +
+         (fit.reference ? std::string(" (") + calibrate::reference_words + ")" : "");
+}
+
+std::string recommended_paragraph(const calibrate::Calibration& calibration) {
+  std::string text = calibrate::recommended_sentence(calibration, error_decimals(calibration));
+  if (text.empty()) return "";
+  text.front() = 'R';
+  return "\n" + markdown_cell(text) + ".\n";
+}
+
 void add_choice(std::string& out, const calibrate::Choice& choice, int decimals) {
   if (choice.draws == 0) return;
   out += fmt::format("\nThe best law was chosen by the tests that give its error: {}; {}.\n",
@@ -125,15 +140,17 @@ void add_comparison(std::string& out, const calibrate::Calibration& calibration,
       fmt::format("\n## Is law A better than law B?\n\n{}; {}.\n\n"
                   "Paired by experiment: both laws on the same {} resamples of the {}. Intervals "
                   "and p-values are of one pair each; with many pairs some are small by chance. "
-                  "The last column is for all laws together and allows for the data having "
+                  "The last column is for all candidates together and allows for the data having "
                   "chosen the leader: p of \"no law is better than this one\".\n\n"
                   "| law | MAE behind the best (95 %) | p | RMSE behind it (95 %) | p | verdict | "
                   "may be the best |\n|---|--:|--:|--:|--:|---|---|\n",
                   calibrate::pairwise_sentence(c), calibrate::family_sentence(c), c.resamples,
                   count_of(c.n_experiments, "validation experiment"));
   for (std::size_t j = 0; j < c.laws.size(); ++j) {
-    const std::string may = fmt::format("{} (p {})", c.best_p_values[j] < 0.05 ? "no" : "yes",
-                                        p_text(c.best_p_values[j]));
+    const double p = c.best_p_values[j];
+    const std::string may = std::isnan(p)
+                                ? calibrate::reference_words
+                                : fmt::format("{} (p {})", p < 0.05 ? "no" : "yes", p_text(p));
     if (j == 0) {
       out += fmt::format("| {} | | | | | | {} |\n", markdown_cell(c.laws[j]), may);
       continue;

@@ -1,5 +1,6 @@
 // Is law A better than law B: a triangular table of all pairs, and who may be the best.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -56,8 +57,8 @@ void add_comparisons(codegen::TemplateValues& page, const ReportInput& input) {
     rows.push_back({{{"rank", std::to_string(i + 1)},
                      {"law", svg::escape(c.laws[i])},
                      {"cells", cells_of(c, i, decimals)},
-                     {"best_p", svg::escape(p_text(p))},
-                     {"best_class", p < 0.05 ? "no" : "may"}},
+                     {"best_p", std::isnan(p) ? "reference" : svg::escape(p_text(p))},
+                     {"best_class", p >= 0.05 ? "may" : "no"}},
                     {},
                     {}});
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
+#include "calibrate/recommended.h"
 #include "data/quantity.h"
 #include "expr/program.h"
 #include "report/numbers.h"
@@ -29,7 +30,7 @@ struct DrawnLaw {
 };
 
 std::optional<DrawnLaw> drawn_law(const ReportInput& input) {
-  const calibrate::ModelFit& fit = input.calibration.fits.front();
+  const calibrate::ModelFit& fit = calibrate::best_fit(input.calibration);
   models::AssembledLaw law(fit.model);
   const auto at = std::find(law.inputs.begin(), law.inputs.end(), abscissa_name);
   if (at == law.inputs.end()) return std::nullopt;
@@ -151,7 +152,7 @@ codegen::TemplateValues panel(const ReportInput& input, const DrawnLaw& drawn, s
   svg::Plot plot(340, 200, x_axis, y_axis);
   draw_rows(plot, input, x_axis, y_axis);
   const std::vector<Level> levels = levels_of(drawn, x, other);
-  draw_band(plot, input.calibration.fits.front().band, x, levels[1].tau);
+  draw_band(plot, calibrate::best_fit(input.calibration).band, x, levels[1].tau);
   std::string what = "sigma_n_MPa alone", lines;
   if (other == drawn.sigma) {
     plot.line(x, levels[1].tau, {levels[1].colour, 2.2, "", true});

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/recommended.h"
 #include "core/text.h"
 
 namespace frictab::report {
@@ -72,11 +73,21 @@ std::string conditional_counts(const calibrate::Conditional& c) {
   return text;
 }
 
+int column_decimals(double least, double largest) {
+  if (!std::isfinite(least) || least <= 0) return 2;
+  const auto digit_of = [](double value) {
+    return static_cast<int>(std::floor(std::log10(value)));
+  };
+  const int most = std::isfinite(largest) && largest > 0 ? 5 - digit_of(largest) : 6;
+  return std::clamp(2 - digit_of(least), 2, std::clamp(most, 6, 12));
+}
+
 int error_decimals(const calibrate::Calibration& calibration) {
   if (calibration.fits.empty()) return 2;
-  const double best = calibration.fits.front().validation.mae_MPa;
-  if (!std::isfinite(best) || best <= 0) return 2;
-  return std::clamp(2 - static_cast<int>(std::floor(std::log10(best))), 2, 6);
+  double largest = 0;
+  for (const calibrate::ModelFit& fit : calibration.fits)
+    if (std::isfinite(fit.validation.mae_MPa)) largest = std::max(largest, fit.validation.mae_MPa);
+  return column_decimals(calibrate::best_fit(calibration).validation.mae_MPa, largest);
 }
 
 std::string short_figures(double value, int digits) {

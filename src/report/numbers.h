@@ -37,7 +37,10 @@ std::string p_text(double p_value);
 // How many experiments conditional use had to do without their start, or could not judge.
 std::string conditional_counts(const calibrate::Conditional& conditional);
 
-// Decimals that show three digits of the best law's error, so that a column lines up.
+// Decimals of a column of numbers, so that it lines up: three digits of `least`, at least two
+// decimals, and none beyond the sixth digit of `largest` where that takes more than six.
+int column_decimals(double least, double largest);
+// Those of the ranking: of the best law's error and the largest.
 int error_decimals(const calibrate::Calibration& calibration);
 
 // Value and standard error with as many digits as the error is known to: "0.1276", "0.0005".

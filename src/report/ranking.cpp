@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "calibrate/refit.h"
 #include "core/no_value.h"
 #include "core/text.h"
@@ -48,7 +49,7 @@ std::string bar_colour(const models::Law& law) {
 
 // Fixed constants may be many times worse than the rest: their bars are cut at four times the best.
 svg::Axis bar_axis(const calibrate::Calibration& calibration) {
-  const double best = calibration.fits.front().validation.mae_MPa;
+  const double best = calibrate::best_fit(calibration).validation.mae_MPa;
   double high = best;
   for (const calibrate::ModelFit& fit : calibration.fits) {
     const calibrate::Metrics& v = fit.validation;
@@ -108,7 +109,7 @@ TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::A
   const svg::Bar bar{floor.mae_MPa,
                      floor.mae_interval.low,
                      floor.mae_interval.high,
-                     calibration.fits.front().validation.mae_MPa,
+                     calibrate::best_fit(calibration).validation.mae_MPa,
                      "#9c9268",
                      "noise floor: " + figures(floor.mae_MPa) + " MPa"};
   return {
@@ -122,15 +123,16 @@ TemplateValues floor_row(const calibrate::Calibration& calibration, const svg::A
       {}};
 }
 
-TemplateValues law_row(const calibrate::ModelFit& fit, std::size_t rank, int decimals) {
+TemplateValues law_row(const calibrate::ModelFit& fit, std::size_t rank, bool best, int decimals) {
   const calibrate::Metrics& v = fit.validation;
+  const std::string reference = std::string("; ") + calibrate::reference_words;
   TemplateValues row;
   row.text = {{"rank", std::to_string(rank)},
-              {"row_class", rank == 1 ? "best" : "other"},
+              {"row_class", best ? "best" : "other"},
               {"name", svg::escape(fit.model.law->name)},
               {"title", svg::escape(fit.model.law->title)},
               {"formula", formula_html(*fit.model.law)},
-              {"kind", kind_text(*fit.model.law)},
+              {"kind", kind_text(*fit.model.law) + (fit.reference ? reference : "")},
               {"mae", fixed(v.mae_MPa, decimals)},
               {"interval", interval_text(v.mae_interval, decimals)},
               {"rmse", fixed(v.rmse_MPa, decimals)},
@@ -174,7 +176,7 @@ std::string delivery_text(const calibrate::Calibration& calibration) {
   std::string text = calibrate::delivery_sentence(calibration, error_decimals(calibration));
   if (text.empty()) return "";
   text.front() = 'D';
-  const bool others = calibration.fits.front().on_all != nullptr;
+  const bool others = calibrate::best_fit(calibration).on_all != nullptr;
   return " " + svg::escape(text) + "." +
          (others ? " Their parameters stand in models/NAME.json and in benchmark.md." : "");
 }
@@ -214,14 +216,15 @@ void add_ranking(TemplateValues& page, const ReportInput& input) {
   page.text["validation_size"] = page.text["bar_scale"] = "";
   page.text["plotted_rows"] = judged_words(calibration.judged_by).plotted;
   if (has_laws) {
-    const calibrate::Metrics& v = calibration.fits.front().validation;
+    const calibrate::Metrics& v = calibrate::best_fit(calibration).validation;
     const svg::Axis axis = bar_axis(calibration);
     page.text["validation_size"] = judged_text(calibration);
     page.text["bar_scale"] = svg::bar_scale(axis, bar_width, bar_height);
     if (!calibration.noise_floors.empty())
       page.lists["floor_rows"].push_back(floor_row(calibration, axis));
     for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
-      laws.push_back(law_row(calibration.fits[i], i + 1, error_decimals(calibration)));
+      laws.push_back(law_row(calibration.fits[i], i + 1, i == calibrate::best_place(calibration),
+                             error_decimals(calibration)));
       laws.back().text["bar"] = bar_of(calibration.fits[i], v.mae_MPa, axis);
     }
   }

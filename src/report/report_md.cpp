@@ -29,26 +29,33 @@ void add_md_ranking(std::string& out, const calibrate::Calibration& calibration)
   for (std::size_t i = 0; i < calibration.fits.size(); ++i) {
     const calibrate::ModelFit& fit = calibration.fits[i];
     const calibrate::Metrics& v = fit.validation;
-    out +=
-        fmt::format("| {} | {} | {} | {} | {} | {} |\n", i + 1, markdown_cell(fit.model.law->name),
-                    fixed(v.mae_MPa, decimals), interval_text(v.mae_interval, decimals),
-                    fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals));
+    out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", i + 1, markdown_law(fit),
+                       fixed(v.mae_MPa, decimals), interval_text(v.mae_interval, decimals),
+                       fixed(v.rmse_MPa, decimals), fixed(v.bias_MPa, decimals));
   }
+  out += recommended_paragraph(calibration);
+}
+
+std::string result_of(const verify::Verification& verification, const verify::DriftRecord& r) {
+  if (verification.failed(r)) return "**over**";
+  return r.over_law_error ? "**more than the law errs**" : "ok";
 }
 
 void add_md_drift(std::string& out, const verify::Verification& verification) {
   if (verification.records.empty()) return;
   out += fmt::format("\n## Drift from the law\nMPa over the whole range; allowed: {}.\n\n"
                      "| law | subject | largest found | proven | result |\n|---|---|--:|--:|---|\n",
-                     short_figures(verification.max_drift_MPa));
+                     verify::allowed_text(verification));
   for (const verify::DriftRecord& r : verification.records) {
     const std::string proven = r.proven_MPa ? figures(table::rounded_up(*r.proven_MPa)) : "\u2013";
     const std::string result =
-        r.ran ? verification.failed(r) ? "**over**" : "ok" : "not run: " + markdown_cell(r.why_not);
+        r.ran ? result_of(verification, r) : "not run: " + markdown_cell(r.why_not);
     out += fmt::format("| {} | {} | {} | {} | {} |\n", markdown_cell(r.model),
                        markdown_cell(r.subject), r.ran ? figures(r.worst_case_MPa) : "\u2013",
                        proven, result);
   }
+  for (const std::string& chosen : verify::chosen_tolerances(verification))
+    out += fmt::format("\nAllowed, {}.\n", markdown_cell(chosen));
 }
 
 void add_md_reach(std::string& out, const std::vector<table::Table>& tables) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/input_columns.h"
+#include "calibrate/recommended.h"
 #include "report/judged.h"
 #include "report/numbers.h"
 #include "report/sections.h"
@@ -97,10 +98,10 @@ void add_predicted_strokes(codegen::TemplateValues& page, const ReportInput& inp
   page.text["strokes_link"] = any ? "<a href=\"#strokes\">Strokes</a> " : "";
   page.text["stroke_law"] = page.text["judged_count"] = page.text["trained_count"] = "";
   if (!any) return;
-  const calibrate::ModelFit& best = input.calibration.fits.front();
+  const calibrate::ModelFit& best = calibrate::best_fit(input.calibration);
   page.text["stroke_law"] = svg::escape(best.model.law->name);
   page.text["judged_count"] = count_of(data.experiments.size(), "test");
-  add_part(judged, data, input.predicted.front());
+  add_part(judged, data, input.predicted[calibrate::best_place(input.calibration)]);
   if (!on_other_experiments(input.calibration.judged_by) || !training.has("tau_R_MPa") ||
       !calibrate::missing_inputs(models::AssembledLaw(best.model).inputs, training).empty())
     return;

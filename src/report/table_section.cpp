@@ -130,6 +130,7 @@ std::string subject_text(const DriftRecord& r) {
 
 const char* result_of(const DriftRecord& r) {
   if (!r.passed) return "failed";
+  if (r.over_law_error) return "within the tolerance, but more than the law errs";
   return r.over_by_proof ? "passed as found; over the tolerance by proof" : "passed";
 }
 
@@ -153,7 +154,7 @@ TemplateValues record_row(const DriftRecord& r, const DriftRecord& table) {
               {"p99", on_rows(r.rows.p99)},
               {"outside", outside_text(r)},
               {"result", result_of(r)},
-              {"result_class", r.passed ? "pass" : "fail"},
+              {"result_class", r.passed && !r.over_law_error ? "pass" : "fail"},
               {"why_not", svg::escape(r.why_not)}};
   return row;
 }
@@ -186,7 +187,7 @@ void add_drift(TemplateValues& page, const ReportInput& input) {
     records.push_back(record_row(record, *table));
   }
   page.flags["has_records"] = !records.empty();
-  page.text["allowed"] = short_figures(input.verification.max_drift_MPa);
+  page.text["allowed"] = verify::allowed_text(input.verification);
 }
 
 } // namespace frictab::report

@@ -7,6 +7,7 @@
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "core/text.h"
 #include "report/numbers.h"
 #include "report/published.h"
@@ -24,7 +25,7 @@ const calibrate::ModelFit* best_of_literature(const calibrate::Calibration& cali
 }
 
 std::string best_sentence(const calibrate::Calibration& calibration) {
-  const calibrate::ModelFit& best = calibration.fits.front();
+  const calibrate::ModelFit& best = calibrate::best_fit(calibration);
   const calibrate::Metrics& v = best.validation;
   const std::string on = count_of(v.n_experiments, "experiment");
   if (calibration.judged_by == calibrate::JudgedBy::fit)
@@ -58,6 +59,13 @@ std::string comparison_sentences(const calibrate::Calibration& calibration) {
                      svg::escape(calibrate::family_sentence(c)));
 }
 
+std::string recommended_text(const calibrate::Calibration& calibration) {
+  std::string text =
+      svg::escape(calibrate::recommended_sentence(calibration, error_decimals(calibration)));
+  if (!text.empty()) text.front() = 'R';
+  return text.empty() ? "" : text + ".";
+}
+
 std::string floor_sentence(const calibrate::Calibration& calibration) {
   const std::string advice = calibrate::noise_floor_advice(calibration);
   std::string text = calibrate::noise_floor_sentence(calibration, error_decimals(calibration));
@@ -68,15 +76,18 @@ std::string floor_sentence(const calibrate::Calibration& calibration) {
 std::string literature_sentence(const calibrate::Calibration& calibration) {
   const auto span = mae_span(calibration, LawKind::literature);
   const calibrate::ModelFit* best = best_of_literature(calibration);
-  if (!span || best == &calibration.fits.front()) return "";
+  if (!span || best == &calibrate::best_fit(calibration)) return "";
   const std::string low = figures(span->low), high = figures(span->high);
-  const double ratio = span->low / calibration.fits.front().validation.mae_MPa;
+  const double ratio = span->low / calibrate::best_fit(calibration).validation.mae_MPa;
   std::string text =
       low == high
           ? fmt::format("The fixed constant of the literature ({}) is off by {} MPa",
                         svg::escape(best->model.law->name), low)
           : fmt::format("The fixed constants of the literature are off by {} to {} MPa", low, high);
-  if (std::isfinite(ratio))
+  if (ratio < 1)
+    text += fmt::format(": {} by less than any candidate, which it is where models.use names it",
+                        svg::escape(best->model.law->name));
+  else if (std::isfinite(ratio))
     text += fmt::format(": even the best of them ({}) by {} times as much",
                         svg::escape(best->model.law->name), figures(ratio, 2));
   return text + ".";
@@ -121,8 +132,9 @@ void add_verdict(codegen::TemplateValues& page, const ReportInput& input) {
   page.flags["has_findings"] = !calibration.fits.empty();
   if (calibration.fits.empty()) return;
   page.text["verdict"] = best_sentence(calibration);
-  for (const std::string& text : {choice_sentences(calibration), comparison_sentences(calibration),
-                                  floor_sentence(calibration), literature_sentence(calibration)})
+  for (const std::string& text : {recommended_text(calibration), choice_sentences(calibration),
+                                  comparison_sentences(calibration), floor_sentence(calibration),
+                                  literature_sentence(calibration)})
     if (!text.empty()) findings.push_back({{{"text", text}}, {}, {}});
 }
 
@@ -139,12 +151,17 @@ void add_drift_summary(codegen::TemplateValues& page, const ReportInput& input) 
   } else {
     summary = group_sentence(tables, "table") + group_sentence(sources, "generated source");
     summary += fmt::format("Allowed: {} MPa anywhere in the range.",
-                           short_figures(input.verification.max_drift_MPa));
+                           verify::allowed_text(input.verification));
+    for (const std::string& chosen : verify::chosen_tolerances(input.verification))
+      summary += " " + svg::escape(chosen) + ".";
     if (failed > 0) summary += fmt::format(" {} of {} comparisons exceed it.", failed, ran);
   }
   if (ran == 0) {
     page.text["drift_badge"] = "Drift not checked";
     page.text["drift_class"] = "none";
+  } else if (failed == 0 && input.verification.any_over_law_error()) {
+    page.text["drift_badge"] = "Drifts more than the law errs";
+    page.text["drift_class"] = "fail";
   } else if (failed == 0 && not_run > 0) {
     page.text["drift_badge"] = fmt::format("Drift passed, {} untested", not_run);
     page.text["drift_class"] = "none";

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "calibrate/band.h"
+#include "calibrate/recommended.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -34,7 +35,8 @@ Fits fits_named(const calibrate::Calibration& calibration, const std::string& la
 // The fits of one entry of table.model.
 Fits fits_of_entry(const calibrate::Calibration& calibration, const std::string& name,
                    const Place& place) {
-  if (name == "best") return {&calibration.fits.front()};
+  if (name == "best") return {&calibrate::best_fit(calibration)};
+  if (name == "recommended") return {&calibrate::recommended_fit(calibration)};
   if (name == "all") {
     Fits fits;
     for (const ModelFit& fit : calibration.fits)
@@ -57,7 +59,7 @@ std::vector<const ModelFit*> fits_to_trace(const calibrate::Calibration& calibra
   Fits chosen;
   for (const std::string& name : options.models) {
     if (name == "best") {
-      add_once(chosen, calibration.fits.front());
+      add_once(chosen, calibrate::best_fit(calibration));
     } else if (name == "all") {
       for (const ModelFit& fit : calibration.fits)
         if (!is_constant(*fit.model.law)) add_once(chosen, fit);
@@ -73,7 +75,8 @@ const ModelFit& fit_named(const calibrate::Calibration& calibration, const std::
                           const table::TableOptions& options) {
   if (name.empty())
     return *fits_of_entry(calibration, options.model.front(), options.place).front();
-  if (name == "best") return calibration.fits.front();
+  if (name == "best") return calibrate::best_fit(calibration);
+  if (name == "recommended") return calibrate::recommended_fit(calibration);
   const Fits fits = fits_named(calibration, name);
   if (!fits.empty()) return *fits.front();
   std::vector<std::string> known;

@@ -10,12 +10,14 @@
 
 namespace frictab::run {
 
-// The fits of trace.models, each once: "best" is the first of the ranking, "all" every law that was
-// fitted to the data, so none of the constants. Names that were not calibrated are passed over.
+// The fits of trace.models, each once: "best" is the first candidate of the ranking, "all" every
+// law that was fitted to the data, so none of the constants. Names that were not calibrated are
+// passed over.
 std::vector<const calibrate::ModelFit*> fits_to_trace(const calibrate::Calibration& calibration,
                                                       const trace::TraceOptions& options);
 
-// The fit of this name ("best": the first of the ranking); where it is empty, of the first name in
+// The fit of this name ("best": the first candidate of the ranking; "recommended": see
+// calibrate/recommended.h); where it is empty, of the first name in
 // table.model. Throws InputError for a law that was not calibrated.
 const calibrate::ModelFit& fit_named(const calibrate::Calibration& calibration,
                                      const std::string& name, const table::TableOptions& options);

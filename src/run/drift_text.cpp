@@ -32,7 +32,7 @@ struct DriftLine {
   std::optional<double> proven_MPa;
   double routines = 0; // the furthest of them
   std::size_t count = 0, untested = 0;
-  bool passed = true, found_passed = true, over_by_proof = false;
+  bool passed = true, found_passed = true, over_by_proof = false, over_law_error = false;
   std::string notes; // what did not run, or is over the tolerance
 };
 
@@ -46,9 +46,14 @@ void add_to(DriftLine& line, const verify::Verification& verification,
   line.passed = line.passed && !verification.failed(r);
   line.found_passed = line.found_passed && r.passed;
   line.over_by_proof = line.over_by_proof || r.over_by_proof;
+  line.over_law_error = line.over_law_error || r.over_law_error;
   if (!r.passed)
     line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa\n", r.model, r.subject,
                               verify::largest_drift_MPa(r));
+  else if (r.over_law_error)
+    line.notes += fmt::format("  {} {} drifts by up to {:.3g} MPa, and the law errs by {:.3g} MPa: "
+                              "table.tolerance_MPa = \"auto\" is a twentieth of that\n",
+                              r.model, r.subject, verify::largest_drift_MPa(r), *r.law_error_MPa);
   if (const std::string left = verify::not_posed_text(r); !left.empty())
     line.notes += fmt::format("  {} {} {}\n", r.model, r.subject, left);
   if (r.held) return; // has a line of its own
@@ -72,8 +77,9 @@ void add_to(DriftLine& line, const verify::Verification& verification,
 }
 
 std::string result_of(const DriftLine& line) {
-  if (line.untested > 0 && line.passed) return fmt::format("ok, {} UNTESTED", line.untested);
   if (!line.found_passed) return "OVER TOLERANCE";
+  if (line.over_law_error) return "DRIFTS MORE THAN THE LAW ERRS";
+  if (line.untested > 0 && line.passed) return fmt::format("ok, {} UNTESTED", line.untested);
   if (line.over_by_proof)
     return line.passed ? "ok as found, over tolerance by proof" : "OVER TOLERANCE BY PROOF";
   return line.passed ? "ok" : "NOT PROVEN";
@@ -205,14 +211,16 @@ DriftLine line_of(const verify::Verification& verification, const std::string& m
 }
 
 void add_drift(std::string& out, const verify::Verification& verification, Detail detail) {
-  out += fmt::format("Largest drift from the law found over the whole range, MPa (allowed {:g}); "
+  out += fmt::format("Largest drift from the law found over the whole range, MPa (allowed {}); "
                      "proven: no state drifts the table further:\n"
                      "  {:<{}}{:>12}{:>10}{:>16}{:>12}{:>13}\n",
-                     verification.max_drift_MPa, "", name_width(verification), "table", "proven",
-                     "routines", "on rows", "outside");
+                     verify::allowed_text(verification), "", name_width(verification), "table",
+                     "proven", "routines", "on rows", "outside");
   const std::vector<std::string> models = models_of(verification);
   for (const std::string& model : models)
     out += text_of(line_of(verification, model), model, name_width(verification));
+  for (const std::string& chosen : verify::chosen_tolerances(verification))
+    out += "  allowed, " + chosen + "\n";
   add_outside(out, verification, models);
   if (detail == Detail::full) {
     add_below(out, verification, models);
@@ -244,10 +252,10 @@ std::string drift_in_short(const verify::Verification& verification) {
     if (const std::string result = result_of(line); result != "ok")
       not_ok.push_back(model + " " + result);
   }
-  std::string text = fmt::format("{:.3g} MPa off the law{}, {:g} allowed",
+  std::string text = fmt::format("{:.3g} MPa off the law{}, {} allowed",
                                  proven ? table::rounded_up(std::max(bound, all.table)) : all.table,
                                  proven ? " at most (proven)" : " as found (not proven)",
-                                 verification.max_drift_MPa);
+                                 verify::allowed_text(verification));
   if (all.count > 0)
     text += fmt::format("; {} compiled and run: {:.3g} MPa", report::count_of(all.count, "routine"),
                         all.routines);

@@ -11,6 +11,7 @@
 #include "calibrate/calibration_file.h"
 #include "calibrate/comparison.h"
 #include "calibrate/experiment_errors.h"
+#include "calibrate/recommended.h"
 #include "calibrate/row_errors.h"
 #include "codegen/recipe.h"
 #include "codegen/values_file.h"
@@ -19,6 +20,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "report/numbers.h"
 #include "report/report.h"
 #include "run/chosen.h"
 #include "run/results.h"
@@ -289,20 +291,22 @@ in_order_of(const std::vector<std::string>& names,
 }
 
 // Of few validation tests, which laws are ranked by, a traced law may come out behind the law that
-// its effects were added to; the left-out tests of the trace, by which they were, are more.
-void put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
+// its effects were added to; the left-out tests of the trace, by which they were, are more. True
+// where it was.
+bool put_before_its_law(std::vector<ModelFit>& fits, const trace::Trace& trace) {
   const auto with_name = [&](const std::string& name) {
     return std::find_if(fits.begin(), fits.end(),
                         [&](const ModelFit& fit) { return fit.model.name() == name; });
   };
   const auto traced = with_name(trace.extended_model), own = with_name(trace.model);
-  if (trace.unseen == "validation" || traced == fits.end() || traced < own) return;
+  if (trace.unseen == "validation" || traced == fits.end() || traced < own) return false;
   traced->remarks.push_back(fmt::format(
       "stands before {} by the {} left-out tests of its trace, {:.4g} MPa there against {:.4g}: "
       "the validation tests are {}",
       trace.model, trace.after.validation.n_experiments, trace.after.validation.mae_MPa,
       trace.before.validation.mae_MPa, traced->validation.n_experiments));
   std::rotate(own, traced, traced + 1);
+  return true;
 }
 
 } // namespace
@@ -324,15 +328,60 @@ void Pipeline::add_traced_laws() {
                      return a.validation.mae_MPa < b.validation.mae_MPa;
                    });
   calibrate::add_comparisons(*calibration_, data_->calibration_input(job_));
+  std::vector<std::string> overruled; // by more tests than rank the laws
   for (const trace::Trace& trace : traces_)
-    put_before_its_law(calibration_->fits, trace);
+    if (put_before_its_law(calibration_->fits, trace)) overruled.push_back(trace.model);
+  calibrate::add_recommended(*calibration_, data_->calibration_input(job_), overruled);
   write_calibration();
 }
 
 // ---- tabulate ----
 
-double Pipeline::drift_allowed() const {
-  return job_.verify.max_drift_MPa.value_or(job_.table.tolerance_MPa);
+const ModelFit& Pipeline::fit_of(const models::Model& model) const {
+  return *std::find_if(calibration_->fits.begin(), calibration_->fits.end(),
+                       [&](const ModelFit& fit) { return fit.model.law->name == model.law->name; });
+}
+
+double Pipeline::mean_stress() const {
+  double sum = 0;
+  const auto tau = data_->training.values("tau_R_MPa");
+  for (const double one : tau)
+    sum += std::abs(one);
+  return sum / static_cast<double>(tau.size());
+}
+
+double Pipeline::law_error(const models::Model& model) const {
+  return table::least_error(fit_of(model).delivered().validation.mae_MPa, mean_stress());
+}
+
+table::Tolerance Pipeline::tolerance_of(const models::Model& model) const {
+  if (job_.table.tolerance_MPa) return {*job_.table.tolerance_MPa, ""};
+  const bool judged = calibration_->judged_by != calibrate::JudgedBy::fit;
+  return table::auto_tolerance(fit_of(model).delivered().validation.mae_MPa, mean_stress(),
+                               judged ? "unseen tests" : "the test that it is fitted to");
+}
+
+table::Tolerance Pipeline::drift_allowed(const models::Model& model) const {
+  if (job_.verify.max_drift_MPa) return {*job_.verify.max_drift_MPa, ""};
+  return tolerance_of(model);
+}
+
+table::TableOptions Pipeline::table_options(const models::Model& model) const {
+  const table::Tolerance tolerance = tolerance_of(model);
+  table::TableOptions options = job_.table;
+  options.tolerance_MPa = tolerance.MPa;
+  options.tolerance_from = tolerance.from;
+  return options;
+}
+
+verify::VerifyInput Pipeline::verify_input(const models::AssembledLaw& law, const Table& table,
+                                           const std::string& name) const {
+  const table::Tolerance allowed = drift_allowed(law.model);
+  verify::VerifyInput input{law, table, name, &data_->judged(), allowed.MPa, job_.verify.samples};
+  input.proof_boxes = job_.verify.proof_boxes;
+  input.allowed_from = allowed.from;
+  input.law_error_MPa = law_error(law.model);
+  return input;
 }
 
 const models::AssembledLaw& Pipeline::assembled(const models::Model& model) {
@@ -370,13 +419,14 @@ fs::path Pipeline::table_file(const std::string& model) const {
 }
 
 Table Pipeline::sample_table(const models::AssembledLaw& law) {
-  const auto ranges = table::state_ranges(law, data_behind(law.model), job_.table);
-  if (!table::is_streamed(law, ranges, job_.table))
+  const table::TableOptions options = table_options(law.model);
+  const auto ranges = table::state_ranges(law, data_behind(law.model), options);
+  if (!table::is_streamed(law, ranges, options))
     return large_work("making the table of " + law.model.name(), 0,
                       "fewer nodes in [table.axes], or a larger table.tolerance_MPa",
-                      [&] { return table::build_table(law, ranges, job_.table); });
+                      [&] { return table::build_table(law, ranges, options); });
   const std::string name = law.model.name();
-  table::StreamedTable streamed = table::stream_table(law, ranges, job_.table, table_file(name));
+  table::StreamedTable streamed = table::stream_table(law, ranges, options, table_file(name));
   if (streamed.kept > 0)
     notes_.push_back(fmt::format("{}: {} of {} chunks kept from shards or an interrupted run", name,
                                  thousands(streamed.kept), thousands(streamed.chunks)));
@@ -385,21 +435,16 @@ Table Pipeline::sample_table(const models::AssembledLaw& law) {
 
 // The drift a user can rely on, measured before the file is written.
 void Pipeline::measure_drift(const models::AssembledLaw& law, Table& table) {
-  const verify::VerifyInput input{law,
-                                  table,
-                                  "the new table",
-                                  &data_->judged(),
-                                  drift_allowed(),
-                                  job_.verify.samples,
-                                  nullptr,
-                                  job_.verify.proof_boxes};
+  const verify::VerifyInput input = verify_input(law, table, "the new table");
   const verify::DriftRecord& drift = compared_[table.model] = verify::verify(input, {}).front();
   const bool to_tolerance = !job_.table.nodes && !job_.table.max_bytes;
   if (!drift.passed && to_tolerance)
-    missed_.push_back(fmt::format("the table of {} drifts by up to {:.3g} MPa, more than the {:g} "
-                                  "MPa allowed: more nodes in [table.axes], or a larger "
-                                  "table.tolerance_MPa",
-                                  table.model, verify::largest_drift_MPa(drift), drift_allowed()));
+    missed_.push_back(
+        fmt::format("the table of {} drifts by up to {:.3g} MPa, more than the {:.3g} MPa "
+                    "allowed{}: more nodes "
+                    "in [table.axes], or a larger table.tolerance_MPa",
+                    table.model, verify::largest_drift_MPa(drift), drift.allowed_MPa,
+                    drift.allowed_from.empty() ? "" : " (" + drift.allowed_from + ")"));
   verify::set_drift(table.record, drift);
 }
 
@@ -464,7 +509,7 @@ std::string Pipeline::tabulate_shard(const Shard& shard) {
                        "without --shard; shards are for tables larger than table.memory_limit_MiB, "
                        "with the nodes of every axis given");
     const table::SampledShard part =
-        table::sample_shard(law, ranges, job_.table, table_file(model.name()), shard);
+        table::sample_shard(law, ranges, table_options(model), table_file(model.name()), shard);
     done +=
         fmt::format("{}: shard {} sampled, {} in {}{}\n", model.name(), shard.text(),
                     report::count_of(part.nodes, "node"), report::count_of(part.chunks, "chunk"),
@@ -494,6 +539,7 @@ const models::AssembledLaw& Pipeline::law_of(const Table& table) {
 Table Pipeline::direct_for_sources(const Table& table) {
   Table direct = table::direct_form(law_of(table), table);
   direct.record.tolerance_MPa = table.record.tolerance_MPa;
+  direct.record.tolerance_from = table.record.tolerance_from;
   return direct;
 }
 
@@ -613,10 +659,11 @@ void Pipeline::verify() {
   load_data();
   load_calibration();
   load_tables();
-  const double allowed = drift_allowed();
   load_sources();
-  verification_ =
-      verify::Verification{allowed, {}, job_.verify.require_proof, job_.verify.require_run};
+  verification_ = verify::Verification{0, {}, job_.verify.require_proof, job_.verify.require_run};
+  for (const Table& table : tables_)
+    verification_->max_drift_MPa =
+        std::max(verification_->max_drift_MPa, drift_allowed(law_of(table).model).MPa);
   stages_.begin("verify", data_key());
   std::vector<verify::DriftRecord> kept; // of whole tables
   if (kept_ && kept_->has_file("verify", "verify.json", data_key()))
@@ -631,14 +678,9 @@ void Pipeline::verify() {
     }
     const Table direct = direct_for_sources(table);
     const auto known = compared_.find(table.model);
-    const verify::VerifyInput input{law_of(table),
-                                    table,
-                                    job_.directory + "/tables/" + table.model + ".h5",
-                                    &data_->judged(),
-                                    allowed,
-                                    job_.verify.samples,
-                                    known == compared_.end() ? nullptr : &known->second,
-                                    job_.verify.proof_boxes};
+    verify::VerifyInput input =
+        verify_input(law_of(table), table, job_.directory + "/tables/" + table.model + ".h5");
+    if (known != compared_.end()) input.known = &known->second;
     const auto records = verify::verify(input, sources_of(table, direct));
     verification_->records.insert(verification_->records.end(), records.begin(), records.end());
     output_.write("verify.json", verify::verification_json(*verification_));

@@ -102,7 +102,14 @@ private:
   std::vector<verify::GeneratedSource> sources_of(const table::Table& table,
                                                   const table::Table& direct);
 
-  double drift_allowed() const; // MPa
+  const calibrate::ModelFit& fit_of(const models::Model& model) const;
+  double mean_stress() const;                         // measured, MPa
+  double law_error(const models::Model& model) const; // on unseen tests, MPa
+  table::Tolerance tolerance_of(const models::Model& model) const;
+  table::Tolerance drift_allowed(const models::Model& model) const;
+  table::TableOptions table_options(const models::Model& model) const; // with that tolerance
+  verify::VerifyInput verify_input(const models::AssembledLaw& law, const table::Table& table,
+                                   const std::string& name) const;
   const data::Dataset& data_behind(const models::Model& model) const;
   const models::AssembledLaw& assembled(const models::Model& model);
   const models::AssembledLaw& law_of(const table::Table& table);

@@ -128,6 +128,8 @@ private:
     for (const std::string& name : job_.table.model) {
       if (name == "best")
         add("BEST_LAW");
+      else if (name == "recommended")
+        add("RECOMMENDED_LAW");
       else if (name != "all")
         add(name);
       else

@@ -11,6 +11,7 @@
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "calibrate/refit.h"
 #include "core/column_width.h"
 #include "core/text.h"
@@ -27,7 +28,7 @@ std::string parameters(const calibrate::ModelFit& fit) {
   for (std::size_t i = 0; i < fit.model.parameters.size(); ++i)
     text += fmt::format("{}{} {:.4g}", i ? ", " : "", fit.model.law->parameters[i].name,
                         fit.model.parameters[i]);
-  return text;
+  return text + (fit.reference ? std::string(" (") + calibrate::reference_words + ")" : "");
 }
 
 // "left out, no sigma_f_MPa: levanov, shaw": one line per reason.
@@ -50,14 +51,20 @@ std::size_t name_width(const calibrate::Calibration& calibration) {
     names.push_back(fit.model.law->name);
   return column_width(names);
 }
+// What columns of small stresses take beyond those of stresses of forming.
+int more_width(int decimals) {
+  return std::max(0, decimals - 4);
+}
 void add_floor(std::string& out, const calibrate::Calibration& calibration, int decimals) {
   if (!calibration.noise_floors.empty()) {
     const calibrate::NoiseFloor& f = calibration.noise_floors.front();
-    out += fmt::format(
-        "  {:<{}}{:>8}  {:<19}{:>8.{}f}{:>20}   {}{}\n", "noise floor", name_width(calibration),
-        (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
-        range_of(f.mae_interval, decimals), f.rmse_MPa, decimals, "",
-        calibrate::noise_floor_name(f), f.part == "training" ? ", training data" : "");
+    const int more = more_width(decimals);
+    out += fmt::format("  {:<{}}{:>{}}  {:<{}}{:>{}.{}f}{:>{}}   {}{}\n", "noise floor",
+                       name_width(calibration),
+                       (f.lower_bound ? "> " : "") + fmt::format("{:.{}f}", f.mae_MPa, decimals),
+                       8 + more, range_of(f.mae_interval, decimals), 19 + 2 * more, f.rmse_MPa,
+                       8 + more, decimals, "", 20 + 2 * more, calibrate::noise_floor_name(f),
+                       f.part == "training" ? ", training data" : "");
   }
   const std::string advice = calibrate::noise_floor_advice(calibration);
   if (!advice.empty()) out += fmt::format("  the noise floor is not known: {}\n", advice);
@@ -82,15 +89,18 @@ void add_conditional(std::string& out, const calibrate::Conditional& c, int deci
   for (std::size_t i = 0; i < std::min<std::size_t>(3, c.laws.size()); ++i)
     names.push_back(c.laws[i].law);
   const std::size_t width = column_width(names);
+  const int more = more_width(decimals);
   out +=
       fmt::format("\nConditional use, NOT ranked above: a gain per experiment from its own first "
-                  "{:g} mm\n(MAE of the rest, MPa):\n  {:<{}}{:>8}{:>14}   {}\n",
-                  c.condition_on_mm, "law", width, "MAE", "without gain", "gained, 95 % interval");
+                  "{:g} mm\n(MAE of the rest, MPa):\n  {:<{}}{:>{}}{:>{}}   {}\n",
+                  c.condition_on_mm, "law", width, "MAE", 8 + more, "without gain", 14 + more,
+                  "gained, 95 % interval");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const calibrate::ConditionalFit& fit = c.laws[i];
-    out += fmt::format("  {:<{}}{:>8.{}f}{:>14.{}f}   {:.{}f}, {}\n", fit.law, width,
-                       fit.conditional.mae_MPa, decimals, fit.unconditional.mae_MPa, decimals,
-                       fit.gain.value_MPa, decimals, range_of(fit.gain.interval, decimals));
+    out += fmt::format("  {:<{}}{:>{}.{}f}{:>{}.{}f}   {:.{}f}, {}\n", fit.law, width,
+                       fit.conditional.mae_MPa, 8 + more, decimals, fit.unconditional.mae_MPa,
+                       14 + more, decimals, fit.gain.value_MPa, decimals,
+                       range_of(fit.gain.interval, decimals));
   }
   if (c.n_without_start > 0)
     out += fmt::format("  {} of {} experiments have no row in the first {:g} mm: without a gain\n",
@@ -101,19 +111,24 @@ void add_ranking(std::string& out, const calibrate::Calibration& calibration) {
   const int decimals = report::error_decimals(calibration);
   out += fmt::format("{} (tau_R, MPa):\n", report::judged_words(calibration.judged_by).ranking);
   const std::size_t width = name_width(calibration);
-  out += fmt::format("  {:<{}}{:>8}  {:<19}{:>8}{:>9}{:>11}   {}\n", "law", width, "MAE",
-                     "95 % interval", "RMSE", "bias", "train MAE", "parameters");
+  const int more = more_width(decimals);
+  out += fmt::format("  {:<{}}{:>{}}  {:<{}}{:>{}}{:>{}}{:>{}}   {}\n", "law", width, "MAE",
+                     8 + more, "95 % interval", 19 + 2 * more, "RMSE", 8 + more, "bias", 9 + more,
+                     "train MAE", 11 + more, "parameters");
   for (const calibrate::ModelFit& fit : calibration.fits) {
     const calibrate::Metrics& v = fit.validation;
     const std::string interval = range_of(v.mae_interval, decimals);
-    out +=
-        fmt::format("  {:<{}}{:>8.{}f}  {:<19}{:>8.{}f}{:>9.{}f}{:>11.{}f}   {}\n",
-                    fit.model.law->name, width, v.mae_MPa, decimals, interval, v.rmse_MPa, decimals,
-                    v.bias_MPa, decimals, fit.training.mae_MPa, decimals, parameters(fit));
+    out += fmt::format("  {:<{}}{:>{}.{}f}  {:<{}}{:>{}.{}f}{:>{}.{}f}{:>{}.{}f}   {}\n",
+                       fit.model.law->name, width, v.mae_MPa, 8 + more, decimals, interval,
+                       19 + 2 * more, v.rmse_MPa, 8 + more, decimals, v.bias_MPa, 9 + more,
+                       decimals, fit.training.mae_MPa, 11 + more, decimals, parameters(fit));
   }
   add_floor(out, calibration, decimals);
   add_comparison(out, calibration.comparisons);
   add_choice(out, calibration.choice, decimals);
+  if (const std::string which = calibrate::recommended_sentence(calibration, decimals);
+      !which.empty())
+    out += fmt::format("  {}\n", which);
   const std::string delivery = calibrate::delivery_sentence(calibration, decimals);
   if (!delivery.empty()) out += fmt::format("  {}\n", delivery);
   for (const calibrate::ModelFit& fit : calibration.fits)
@@ -132,7 +147,7 @@ std::string ranking_text(const calibrate::Calibration& calibration) {
 
 std::string best_law_in_short(const calibrate::Calibration& calibration) {
   if (calibration.fits.empty()) return "";
-  const calibrate::ModelFit& best = calibration.fits.front();
+  const calibrate::ModelFit& best = calibrate::best_fit(calibration);
   const calibrate::Metrics& v = best.validation;
   const int decimals = report::error_decimals(calibration);
   const std::string tests = report::count_of(v.n_experiments, "test");
@@ -146,6 +161,9 @@ std::string best_law_in_short(const calibrate::Calibration& calibration) {
   std::vector<std::string> others = calibrate::possibly_best(calibration.comparisons);
   std::erase(others, best.model.law->name);
   if (!others.empty()) text += "; the best may as well be " + report::list_of(others);
+  const std::string& recommended = calibration.recommended.law;
+  if (!recommended.empty() && recommended != best.model.law->name)
+    text += "; recommended, as the simplest that is hardly worse: " + recommended;
   return text;
 }
 

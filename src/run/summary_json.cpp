@@ -3,6 +3,7 @@
 
 #include "calibrate/calibration_file.h"
 #include "calibrate/noise_floor.h"
+#include "calibrate/recommended.h"
 #include "io/json.h"
 #include "report/judged.h"
 #include "run/summary.h"
@@ -54,6 +55,12 @@ std::string summary_json(const Pipeline& p) {
   if (p.calibration())
     j["calibration"] =
         io::parse_json(calibrate::calibration_json(*p.calibration()), "calibration.json");
+  if (p.calibration() && !p.calibration()->fits.empty()) {
+    const std::string& recommended = p.calibration()->recommended.law;
+    j["best"] = calibrate::best_fit(*p.calibration()).model.law->name;
+    j["recommended"] =
+        recommended.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(recommended);
+  }
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
   for (const table::Table& table : p.tables())
     tables.push_back(table_json(table));

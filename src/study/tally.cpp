@@ -48,10 +48,14 @@ void Tally::add(std::size_t campaign, CampaignResult&& result) {
   if (result.traced) traced_campaigns.push_back(campaign);
   experiments += result.experiments;
   rows += result.rows;
-  compared += std::any_of(result.laws.begin(), result.laws.end(),
-                          [](const LawResult& law) { return !std::isnan(law.best_p_value); });
+  // Constants of the literature may stand before the best law, and do not compete.
+  const auto competes = [](const LawResult& law) { return !std::isnan(law.best_p_value); };
+  const auto best = std::find_if(result.laws.begin(), result.laws.end(), competes);
+  const bool any = best != result.laws.end();
+  compared += any;
+  const auto first = any ? static_cast<std::size_t>(best - result.laws.begin()) : 0;
   for (std::size_t i = 0; i < result.laws.size(); ++i)
-    add_law(campaign, result.laws[i], i == 0);
+    add_law(campaign, result.laws[i], i == first);
   add_effects(campaign, result);
   if (!result.missed.empty()) missed.emplace_back(campaign, result.missed.front());
   if (shown.size() < most_shown) shown.push_back({campaign, std::move(result)});

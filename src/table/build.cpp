@@ -17,6 +17,7 @@
 #include "table/grid.h"
 #include "table/outside.h"
 #include "table/sampling.h"
+#include "table/tolerance.h"
 
 namespace frictab::table {
 
@@ -81,8 +82,11 @@ void check_memory(const std::vector<TableAxis>& axes, const TableOptions& option
       fmt::format("the table needs {} ({} nodes: {}), more than half of this machine's "
                   "memory",
                   human_bytes(bytes), thousands(count_nodes(axes)), join(counts, ", ")),
-      "fewer nodes in [table.axes], a larger tolerance_MPa, or narrower ranges; a linear table of "
-      "which every axis has its nodes in the job is written in chunks");
+      fmt::format("fewer nodes in [table.axes], a larger table.tolerance_MPa than {:.3g}{}, or "
+                  "narrower ranges; a linear table of which every axis has its nodes in the job is "
+                  "written in chunks",
+                  options.tolerance_MPa.value_or(usual_tolerance_MPa),
+                  options.tolerance_from.empty() ? "" : " (" + options.tolerance_from + ")"));
 }
 
 // Values at all nodes.
@@ -115,7 +119,8 @@ public:
   Builder(const models::AssembledLaw& law, const std::vector<StateRange>& ranges,
           const TableOptions& options)
       : law_(law), ranges_(ranges), options_(options),
-        progress_("grids for " + law.model.name(), 0), limit_(0.96 * options.tolerance_MPa),
+        progress_("grids for " + law.model.name(), 0),
+        tolerance_(options.tolerance_MPa.value_or(usual_tolerance_MPa)), limit_(0.96 * tolerance_),
         pieces_(law, ranges), tau_R_(law, pieces_.names) {
     const models::Law& description = *law.model.law;
     for (std::size_t r = 0; r < ranges.size(); ++r)
@@ -152,7 +157,9 @@ private:
   static constexpr double most_linear_nodes = 20'000;       // where the job leaves the choice
 
   Table finished() {
-    best_.table.record.tolerance_MPa = options_.tolerance_MPa;
+    best_.table.record.tolerance_MPa = tolerance_;
+    if (!options_.tolerance_from.empty())
+      best_.table.record.tolerance_from = options_.tolerance_from;
     best_.table.record.refinement = trail_;
     return std::move(best_.table);
   }
@@ -167,7 +174,7 @@ private:
   double first_target(AxisErrors& errors) const {
     std::size_t active = 0;
     for (const AxisPlan& plan : plans_)
-      active += errors.largest(plan, plan.cells) > 1e-3 * options_.tolerance_MPa;
+      active += errors.largest(plan, plan.cells) > 1e-3 * tolerance_;
     return limit_ / static_cast<double>(std::max<std::size_t>(active, 1));
   }
 
@@ -380,7 +387,8 @@ private:
   const std::vector<StateRange>& ranges_;
   const TableOptions& options_;
   const Progress progress_; // of the grids tried, of which nobody knows how many it takes
-  const double limit_;      // below the tolerance: what is found is not quite the largest there is
+  const double tolerance_;
+  const double limit_; // below the tolerance: what is found is not quite the largest there is
   Pieces pieces_;
   LawFunction tau_R_;
   std::vector<AxisPlan> plans_;

@@ -80,7 +80,9 @@ void add_axes(std::string& out, const Table& table) {
 void add_drift(std::string& out, const Table& table) {
   const std::string state = worst_state(table);
   if (const auto tolerance = stated(table.record.tolerance_MPa))
-    out += fmt::format("Tolerance: {:g} MPa\n", *tolerance);
+    out += fmt::format("Tolerance: {:.4g} MPa{}{}\n", *tolerance,
+                       table.record.tolerance_from ? ", " : "",
+                       table.record.tolerance_from.value_or(""));
   const auto worst = stated(table.record.worst_case_MPa);
   if (worst)
     out += fmt::format("Drift, as the file says: {:.4g} MPa, the largest found{}\n", *worst,

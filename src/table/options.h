@@ -26,9 +26,10 @@ struct AxisOptions {
 };
 
 struct TableOptions {
-  std::vector<std::string> model{"best"}; // best | names | all
+  std::vector<std::string> model{"best"}; // best | recommended | names | all
   std::vector<double> quantile{0.5};      // of the experiments: one table each
-  double tolerance_MPa = 0.5;
+  std::optional<double> tolerance_MPa;    // none: auto (table/tolerance.h); 0.5 where nobody chose
+  std::string tolerance_from;             // in words, where it was chosen
   std::string range = "data"; // what axes reach: data | table1: Table 1 of the paper as well
   std::optional<Interpolation> interpolation; // absent: linear where that is small, else cubic
   std::string coordinates = "law";            // law: those in which it is straight | plain: none
@@ -40,10 +41,11 @@ struct TableOptions {
   io::Hdf5Storage hdf5;
   Place place;
 
-  // Whether `model` has names alone, not "best" or "all".
+  // Whether `model` has names alone, not "best", "recommended" or "all".
   bool names_laws() const {
-    return std::none_of(model.begin(), model.end(),
-                        [](const std::string& name) { return name == "best" || name == "all"; });
+    return std::none_of(model.begin(), model.end(), [](const std::string& name) {
+      return name == "best" || name == "recommended" || name == "all";
+    });
   }
 };
 

@@ -37,6 +37,7 @@ struct TableRecord {
   std::optional<std::string> formula;        // of the law, for people
   std::optional<std::string> shear_yield;    // "mises", "tresca", "flow_stress": k of sigma_f
   std::optional<std::string> refinement;     // how the nodes were chosen
+  std::optional<std::string> tolerance_from; // in words, where the job left it to frictab
   std::optional<double> quantile;            // of the experiments, 0 .. 1
   std::optional<double> gain;                // factor of that quantile on the law, 1
   std::optional<double> tolerance_MPa;       // drift that the nodes were made to

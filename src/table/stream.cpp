@@ -22,6 +22,7 @@
 #include "table/chunk_list.h"
 #include "table/sampling.h"
 #include "table/table_file.h"
+#include "table/tolerance.h"
 
 namespace frictab::table {
 
@@ -81,7 +82,8 @@ public:
     auto axes = fixed_axes(law, ranges, options).value();
     const bool log_value = law.model.law->log_value && is_positive(pieces_, ranges, axes);
     table = describe_table(law, ranges, std::move(axes), Interpolation::linear, log_value);
-    table.record.tolerance_MPa = options.tolerance_MPa;
+    table.record.tolerance_MPa = options.tolerance_MPa.value_or(usual_tolerance_MPa);
+    if (!options.tolerance_from.empty()) table.record.tolerance_from = options.tolerance_from;
     table.record.refinement = "every axis has the number of nodes that the job says";
   }
 

@@ -106,6 +106,7 @@ DriftRecord verify_law(const CombinedSource& source, const codegen::ExportReques
       .drive(tau.size(), asked.columns(), tau);
   compare(record, asked, tau);
   record.worst_case_MPa = record.max_vs_table_MPa + law.table.record.worst_case_MPa.value_or(0);
+  record.allowed_MPa = allowed;
   record.passed = record.worst_case_MPa <= allowed;
   return record;
 }

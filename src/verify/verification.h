@@ -55,11 +55,15 @@ struct DriftRecord {
   double max_vs_table_MPa = 0;          // sources: largest difference from the table itself
   std::optional<BelowRange> below = {}; // where the law takes sigma_n_MPa, unless it is refused
   bool passed = false;
-  std::optional<double> proven_MPa = {}; // tables: no state in the range drifts further
-  std::string not_proven = {};           // why there is no such bound
-  std::size_t proof_boxes = 0;           // that the proof looked at
-  bool out_of_boxes = false;             // over_by_proof, and more boxes might have mended that
-  bool over_by_proof = false;            // the bound is over the tolerance, whatever was found
+  std::optional<double> proven_MPa = {};    // tables: no state in the range drifts further
+  std::string not_proven = {};              // why there is no such bound
+  std::size_t proof_boxes = 0;              // that the proof looked at
+  bool out_of_boxes = false;                // over_by_proof, and more boxes might have mended that
+  double allowed_MPa = 0;                   // drift that passes; 0: the verification's own
+  std::string allowed_from = {};            // in words, where the job leaves it to frictab
+  std::optional<double> law_error_MPa = {}; // what the law errs by on unseen tests, where known
+  bool over_law_error = false; // drifts further than that: within the tolerance or not, never "ok"
+  bool over_by_proof = false;  // the bound is over the tolerance, whatever was found
   // What holds some states (canonical values), a solver's own table or a routine with constants of
   // the job: all figures above compare it with the law at the held states. What holding costs,
   // against the law at the rows' own states:
@@ -80,7 +84,7 @@ inline double largest_drift_MPa(const DriftRecord& r) {
 }
 
 struct Verification {
-  double max_drift_MPa = 0;
+  double max_drift_MPa = 0; // the largest that any record allows
   std::vector<DriftRecord> records;
   bool require_proof = false; // what is found is not enough for a table
   bool require_run = false;   // what could not be run has failed
@@ -95,6 +99,10 @@ struct Verification {
     return static_cast<std::size_t>(
         std::count_if(records.begin(), records.end(), [](const DriftRecord& r) { return !r.ran; }));
   }
+  bool any_over_law_error() const {
+    return std::any_of(records.begin(), records.end(),
+                       [](const DriftRecord& r) { return r.ran && r.over_law_error; });
+  }
   // Nothing failed; untested() says what that is worth.
   bool passed() const {
     for (const DriftRecord& record : records)
@@ -102,5 +110,10 @@ struct Verification {
     return true;
   }
 };
+
+// "0.5", or "0.418 to 0.5" where laws have tolerances of their own.
+std::string allowed_text(const Verification& verification);
+// "polynomial: 0.418 MPa, a twentieth of ..." of each law whose tolerance frictab chose.
+std::vector<std::string> chosen_tolerances(const Verification& verification);
 
 } // namespace frictab::verify

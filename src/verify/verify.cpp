@@ -219,6 +219,10 @@ DriftRecord compare(const VerifyInput& input, const Subjects& s, const std::stri
     set_worst_state(record, s, s.rows, furthest_row);
   }
   record.passed = largest_drift_MPa(record) <= input.max_drift_MPa && record.n_not_refused == 0;
+  record.allowed_MPa = input.max_drift_MPa;
+  record.allowed_from = input.allowed_from;
+  record.law_error_MPa = input.law_error_MPa;
+  record.over_law_error = input.law_error_MPa && largest_drift_MPa(record) > *input.law_error_MPa;
   return record;
 }
 
@@ -382,6 +386,7 @@ DriftRecord verify_variant(const VerifyInput& input, const Subjects& s,
     record.model = input.law.model.name();
     record.subject = subject;
     record.ran = false;
+    record.allowed_MPa = input.max_drift_MPa;
     record.why_not = "there is no " + variant.program() + " on this machine";
     return record;
   }
@@ -418,6 +423,28 @@ std::vector<DriftRecord> verify(const VerifyInput& input,
     progress.tick();
   }
   return records;
+}
+
+std::string allowed_text(const Verification& verification) {
+  const auto text = [](double MPa, bool chosen) {
+    return chosen ? fmt::format("{:.3g}", MPa) : fmt::format("{:g}", MPa);
+  };
+  const auto& records = verification.records;
+  const bool chosen = std::any_of(records.begin(), records.end(),
+                                  [](const DriftRecord& r) { return !r.allowed_from.empty(); });
+  double least = verification.max_drift_MPa;
+  for (const DriftRecord& r : records)
+    if (r.allowed_MPa > 0) least = std::min(least, r.allowed_MPa);
+  const std::string most = text(verification.max_drift_MPa, chosen), from = text(least, chosen);
+  return from == most ? most : from + " to " + most;
+}
+
+std::vector<std::string> chosen_tolerances(const Verification& verification) {
+  std::vector<std::string> lines;
+  for (const DriftRecord& r : verification.records)
+    if (r.subject == "table" && !r.allowed_from.empty())
+      lines.push_back(fmt::format("{}: {:.3g} MPa, {}", r.model, r.allowed_MPa, r.allowed_from));
+  return lines;
 }
 
 void set_drift(table::TableRecord& record, const DriftRecord& drift) {

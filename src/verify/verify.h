@@ -5,6 +5,7 @@
 
 #include "codegen/exporter.h"
 #include "table/build.h"
+#include "table/tolerance.h"
 #include "verify/verification.h"
 
 namespace frictab::verify {
@@ -15,10 +16,12 @@ struct VerifyInput {
   const table::Table& table;
   std::string table_name;              // for messages
   const data::Dataset* rows = nullptr; // validation rows; may be absent
-  double max_drift_MPa = 0.5;
+  double max_drift_MPa = table::usual_tolerance_MPa;
   std::size_t samples = 200000;       // points over the whole range
   const DriftRecord* known = nullptr; // the table's own, where it was compared just before
   std::size_t proof_boxes = table::usual_proof_boxes; // that the proof may look at
+  std::string allowed_from = {};                      // in words, where max_drift_MPa was chosen
+  std::optional<double> law_error_MPa = {};           // on unseen tests, where known
 };
 
 // Compares the table, then each variant of each bundle. A variant whose compiler is absent is

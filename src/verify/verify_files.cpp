@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* schema = "frictab/verify/1";
 
-std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
+std::string failure_text(const DriftRecord& record) {
   std::string state;
   for (const auto& [name, value] : record.worst_state)
     state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", name, value);
@@ -34,13 +34,13 @@ std::string failure_text(const DriftRecord& record, double max_drift_MPa) {
   const std::string on_rows =
       record.n_rows == 0 ? "" : fmt::format("; {:.6g} MPa on the rows", record.rows.max_abs);
   return fmt::format("worst case {:.6g} MPa over the range at {}{}{}; allowed {:.6g} MPa{}",
-                     record.worst_case_MPa, state, on_rows, below, max_drift_MPa, answered);
+                     record.worst_case_MPa, state, on_rows, below, record.allowed_MPa, answered);
 }
 
-std::string proof_text(const DriftRecord& record, double max_drift_MPa) {
+std::string proof_text(const DriftRecord& record) {
   return record.proven_MPa
              ? fmt::format("{:.6g} MPa found, but only {:.6g} MPa proven; allowed {:.6g} MPa",
-                           record.worst_case_MPa, *record.proven_MPa, max_drift_MPa)
+                           record.worst_case_MPa, *record.proven_MPa, record.allowed_MPa)
              : "not proven: " + record.not_proven;
 }
 
@@ -56,6 +56,10 @@ Json record_json(const DriftRecord& record) {
     return j;
   }
   j["passed"] = record.passed;
+  j["allowed_MPa"] = record.allowed_MPa;
+  if (!record.allowed_from.empty()) j["allowed_from"] = record.allowed_from;
+  if (record.law_error_MPa) j["law_error_MPa"] = *record.law_error_MPa;
+  if (record.over_law_error) j["over_law_error"] = true;
   j["max_abs_MPa"] = record.rows.max_abs;
   j["mean_abs_MPa"] = record.rows.mean_abs;
   j["rms_MPa"] = record.rows.rms;
@@ -153,6 +157,10 @@ Verification parse_verification(std::string_view text, const std::string& file) 
       r.ran = one.at("ran");
       if (r.ran) {
         r.passed = one.at("passed");
+        r.allowed_MPa = one.value("allowed_MPa", verification.max_drift_MPa); // none: of 0.1
+        r.allowed_from = one.value("allowed_from", "");
+        if (one.contains("law_error_MPa")) r.law_error_MPa = one.at("law_error_MPa");
+        r.over_law_error = one.value("over_law_error", false);
         r.rows = {one.at("max_abs_MPa"), one.at("mean_abs_MPa"), one.at("rms_MPa"),
                   one.at("p99_MPa")};
         r.n_rows = io::count_of(one.at("n_rows"));
@@ -185,8 +193,10 @@ Verification parse_verification(std::string_view text, const std::string& file) 
           r.cost_mean_abs_MPa = one.at("cost_mean_abs_MPa");
           r.cost_max_abs_MPa = one.at("cost_max_abs_MPa");
         }
-      } else
+      } else {
         r.why_not = one.at("why_not");
+        r.allowed_MPa = verification.max_drift_MPa;
+      }
       verification.records.push_back(std::move(r));
     }
     return verification;
@@ -198,9 +208,9 @@ Verification parse_verification(std::string_view text, const std::string& file) 
 
 namespace {
 
-std::string why_failed(const DriftRecord& record, double max_drift_MPa) {
+std::string why_failed(const DriftRecord& record) {
   if (!record.ran) return "not run: " + record.why_not;
-  return record.passed ? proof_text(record, max_drift_MPa) : failure_text(record, max_drift_MPa);
+  return record.passed ? proof_text(record) : failure_text(record);
 }
 
 } // namespace
@@ -245,8 +255,7 @@ std::string verification_junit(const Verification& verification) {
     test.append_attribute("name") = record.subject.c_str();
     if (record.ran) add_figures(test, record);
     if (verification.failed(record))
-      test.append_child("failure").append_attribute("message") =
-          why_failed(record, verification.max_drift_MPa).c_str();
+      test.append_child("failure").append_attribute("message") = why_failed(record).c_str();
     else if (!record.ran)
       test.append_child("skipped").append_attribute("message") = record.why_not.c_str();
   }

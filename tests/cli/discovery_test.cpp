@@ -111,9 +111,10 @@ TEST(ExplainCommand, ShowsAJobKeyWithItsDefault) {
   EXPECT_EQ(run_frictab({"explain", "table.tolerance_MPa"}).out,
             "table.tolerance_MPa (job key)\n"
             "  largest drift of the table from its law, anywhere in the range; the grid is\n"
-            "  made to fit it\n"
-            "  value:    a number > 0\n"
-            "  default:  0.5\n");
+            "  made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on\n"
+            "  unseen tests, the smaller\n"
+            "  value:    \"auto\" or a number > 0\n"
+            "  default:  \"auto\"\n");
   EXPECT_THAT(run_frictab({"explain", "table.axes.psi.nodes"}).out,
               StartsWith("table.axes.*.nodes (job key)"));
 }

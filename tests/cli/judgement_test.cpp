@@ -1,4 +1,5 @@
 // What a run says about its laws beside their ranking: comparison, noise floor, conditional use.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +66,74 @@ TEST_F(Judgement, SummaryHoldsTheFloorOfTheOracleAndWhoIsBest) {
   const auto pair = calibration().at("comparisons").at("pairs").at(0);
   EXPECT_EQ(pair.at("law"), "log_coulomb");
   EXPECT_EQ(pair.at("verdict"), "better");
+}
+
+// A fine constant of the literature stands first, and is no result of these tests.
+TEST_F(Judgement, ConstantsOfTheLiteratureCompeteOnlyWhereTheJobNamesThem) {
+  std::string rows = "experiment,sigma_n_MPa,tau_R_MPa\n";
+  for (int t = 0; t < 8; ++t)
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = 500 + 100 * t, tau = 0.08 * sigma * (1 + 0.02 * (t % 2 == 0 ? 1 : -1));
+      rows += fmt::format("t{},{},{}\n", t, sigma, tau * (1 + 0.01 * (i % 3 - 1)));
+    }
+  directory.write("d.csv", rows);
+  directory.write("job.toml", "[data]\ntraining = \"d.csv\"\n");
+  const auto names_of = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"calibrate", directory.path("job.toml")});
+    const auto result = run_frictab(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  const std::string out = names_of({});
+  EXPECT_THAT(
+      out, testing::ContainsRegex("\n  coulomb_0.08 .*mu 0.08 \\(reference, not a candidate\\)\n"));
+  auto written = test::parse_json(directory.read("out/calibration.json"));
+  ASSERT_EQ(written.at("models").at(0).at("name"), "coulomb_0.08") << "it has the least error";
+  EXPECT_EQ(written.at("models").at(0).at("candidate"), false);
+  EXPECT_THAT(written.at("best").get<std::string>(), testing::StartsWith("coulomb"));
+  EXPECT_NE(written.at("best"), "coulomb_0.08");
+  EXPECT_NE(written.at("recommended"), "coulomb_0.08");
+  EXPECT_NE(written.at("choice").at("law"), "coulomb_0.08");
+  for (const auto& law : written.at("comparisons").at("best_of_all"))
+    if (law.at("name") == "coulomb_0.08") {
+      EXPECT_EQ(law.at("may_be_best"), false);
+      EXPECT_TRUE(law.at("p_value").is_null());
+    }
+  EXPECT_THAT(directory.read("out/benchmark.md"), HasSubstr("coulomb_0.08 (reference, not a "));
+  names_of({"--set", "models.use=[\"coulomb\", \"coulomb_0.08\"]"});
+  written = test::parse_json(directory.read("out/calibration.json"));
+  EXPECT_EQ(written.at("best"), "coulomb_0.08") << "the job names it";
+  EXPECT_EQ(written.at("recommended"), "coulomb_0.08") << "nothing was fitted for it";
+}
+
+// Twelve tests do not tell a polynomial of many terms from a law of few parameters.
+TEST_F(Judgement, RecommendsTheSimplestLawThatIsNotWorseAndTabulatesIt) {
+  calibrate({}, {"models.use=[\"coulomb\", \"exp_coulomb\", \"log_coulomb\", \"polynomial\"]"});
+  ASSERT_EQ(exit_code, 0) << error;
+  const auto written = calibration();
+  const auto by_name = [&](const std::string& name) {
+    for (const auto& model : written.at("models"))
+      if (model.at("name") == name) return model;
+    return nlohmann::ordered_json();
+  };
+  const auto& said = written.at("recommendation");
+  const std::string name = said.at("law");
+  EXPECT_EQ(written.at("recommended"), name);
+  EXPECT_EQ(written.at("best"), said.at("best"));
+  EXPECT_NEAR(said.at("behind_MPa").get<double>(),
+              by_name(name).at("validation").at("mae_MPa").get<double>() -
+                  by_name(said.at("best")).at("validation").at("mae_MPa").get<double>(),
+              1e-9);
+  EXPECT_LE(said.at("behind_MPa").get<double>(), said.at("std_error_MPa").get<double>() + 1e-12);
+  EXPECT_THAT(directory.read("data/out/benchmark.md"), HasSubstr("Recommended: " + name));
+  const auto tabulated = run_frictab({"tabulate", directory.path("data/job.toml"), "--set",
+                                      "table.model=[\"recommended\", \"best\"]", "--set",
+                                      "models.use=[\"coulomb\", \"exp_coulomb\", "
+                                      "\"log_coulomb\", \"polynomial\"]"});
+  EXPECT_EQ(tabulated.exit_code, 0) << tabulated.err;
+  EXPECT_FALSE(directory.read("data/out/tables/" + name + ".h5").empty());
+  EXPECT_FALSE(
+      directory.read("data/out/tables/" + said.at("best").get<std::string>() + ".h5").empty());
 }
 
 TEST_F(Judgement, WithoutOracleAndRepeatsSaysWhatWouldGiveTheFloor) {

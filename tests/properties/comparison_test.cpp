@@ -9,6 +9,7 @@
 #include "calibrate/choice.h"
 #include "calibrate/comparison.h"
 #include "calibrate/metrics.h"
+#include "calibrate/recommended.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "support/sample_data.h"
@@ -218,6 +219,170 @@ TEST(SlowComparison, DeclaresABestAmongEqualLawsInAtMostFivePercent) {
   EXPECT_LE(first_excluded, 0.096 * campaigns);
   EXPECT_LE(one_left, 0.05 * campaigns);
   EXPECT_GT(naive, 0.2 * campaigns) << "why the family-wise answer is needed";
+}
+
+// Laws of every kind of scatter about what they have in common: alike, noisy, skewed, constant but
+// for a few tests; `spread` of their true errors.
+std::vector<LawErrors> mixed(std::size_t laws, std::size_t experiments, double spread,
+                             Random& random) {
+  std::vector<double> common;
+  for (std::size_t e = 0; e < experiments; ++e)
+    common.push_back(10 + 8 * std::abs(random.normal()));
+  std::vector<LawErrors> errors;
+  for (std::size_t l = 0; l < laws; ++l) {
+    const double own = std::pow(10, random.uniform(-2, 0.3));
+    const double true_error = spread * static_cast<double>(l);
+    const bool skewed = l % 3 == 1, constant = l % 3 == 2;
+    std::vector<double> mae;
+    for (const double base : common) {
+      double x = random.normal();
+      if (skewed) x = -std::log(random.uniform(1e-9, 1)) - 1;
+      if (constant) x = random.uniform(0, 1) < 0.1 ? -0.9 : 0.1;
+      mae.push_back(base + true_error + own * x);
+    }
+    errors.push_back(law("law" + std::to_string(l), mae));
+  }
+  return errors;
+}
+
+double mae_of(const LawErrors& one) {
+  return metrics(one.sums, 0, 0).mae_MPa;
+}
+
+void rank(std::vector<LawErrors>& laws) {
+  std::stable_sort(laws.begin(), laws.end(),
+                   [](const LawErrors& a, const LawErrors& b) { return mae_of(a) < mae_of(b); });
+}
+
+bool loses_a_pair(const Comparisons& c, const std::string& name) {
+  return std::any_of(c.pairs.begin(), c.pairs.end(), [&](const calibrate::Comparison& pair) {
+    return pair.other == name && pair.mae.value_MPa > 0 && pair.mae.p_value < 0.05;
+  });
+}
+
+// Two constants below all that was measured are apart by the same in every test but a few: no
+// scatter, and resamples without these few are infinitely sure of anything.
+TEST(SlowComparison, ALawThatAllOthersBeatIsOutHoweverAlikeItIsToAThird) {
+  Random random(31);
+  std::vector<double> traced, mean, low, lower;
+  for (int e = 0; e < 108; ++e) {
+    const double mu = e % 3 == 0 ? 0.11 + 0.02 * random.normal() : 0.4 + 0.1 * random.normal();
+    traced.push_back(0.03 + 0.01 * std::abs(random.normal()));
+    mean.push_back(std::abs(mu - 0.3) + 0.02);
+    low.push_back(std::abs(mu - 0.08));
+    lower.push_back(std::abs(mu - 0.04));
+  }
+  const std::vector<LawErrors> laws{law("traced", traced), law("mean", mean), law("low", low),
+                                    law("lower", lower)};
+  const Comparisons c = compare(laws, 1000, 1);
+  for (const calibrate::Comparison& pair : c.pairs)
+    EXPECT_LT(pair.mae.p_value, 0.005) << pair.law << " " << pair.other;
+  EXPECT_THAT(calibrate::possibly_best(c), ElementsAre("traced"));
+}
+
+// No law with a larger error and a certain loss is in while a better one is out.
+TEST(SlowComparison, WhatMayBeTheBestFallsWithTheErrorWhereALossIsCertain) {
+  Random random(32);
+  int in = 0, lost = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    auto laws = mixed(2 + i % 9, 4 + i % 40, 0.2 * static_cast<double>(i % 5), random);
+    rank(laws);
+    const Comparisons c = compare(laws, 100 + i % 300, i);
+    const auto best = calibrate::possibly_best(c);
+    EXPECT_EQ(best.front(), c.laws.front());
+    for (std::size_t l = 0; l < laws.size(); ++l) {
+      if (c.best_p_values[l] < 0.05 || !loses_a_pair(c, c.laws[l])) continue;
+      ++in;
+      for (std::size_t better = 0; better < l; ++better)
+        EXPECT_GE(c.best_p_values[better], 0.05) << "campaign " << i;
+    }
+    for (const std::string& name : c.laws) // nor is one left out that nobody beats
+      if (std::find(best.begin(), best.end(), name) == best.end()) {
+        EXPECT_TRUE(loses_a_pair(c, name));
+        ++lost;
+      }
+  }
+  EXPECT_GT(in, 20) << "laws that owe their place to their number";
+  EXPECT_GT(lost, 200);
+}
+
+// Laws of any scatter, all equally good.
+TEST(SlowComparison, KeepsTheTrueBestInWithAtLeast95Percent) {
+  constexpr int campaigns = 150;
+  for (const std::size_t experiments : {8, 30}) {
+    Random random(33);
+    std::size_t out = 0, all = 0;
+    for (int i = 0; i < campaigns; ++i) {
+      const auto laws = mixed(8, experiments, 0, random);
+      const Comparisons c = compare(laws, 400, static_cast<std::uint64_t>(i));
+      for (const double p : c.best_p_values)
+        out += p < 0.05;
+      all += laws.size();
+    }
+    const double share = static_cast<double>(out) / static_cast<double>(all);
+    RecordProperty("false_exclusions_of_" + std::to_string(experiments), std::to_string(share));
+    EXPECT_LE(share, 0.05) << experiments;
+  }
+}
+
+TEST(SlowComparison, ALawThatIsNoCandidateIsComparedAndCannotBeTheBest) {
+  Random random(34);
+  auto laws = exchangeable(4, 20, random);
+  rank(laws);
+  const Comparisons with = compare(laws, 300, 1);
+  laws.front().candidate = false;
+  const Comparisons c = compare(laws, 300, 1);
+  EXPECT_EQ(c.pairs.size(), 6u);
+  EXPECT_TRUE(std::isnan(c.best_p_values.front()));
+  EXPECT_EQ(c.best_p_values[1], 1) << "the best of those that compete";
+  EXPECT_EQ(calibrate::possibly_best(c).front(), c.laws[1]);
+  EXPECT_THAT(family_sentence(c), testing::HasSubstr("for all 3 laws together"));
+  EXPECT_EQ(pairwise_sentence(c).find(c.laws[1]), 0u);
+  EXPECT_EQ(pairwise_sentence(c).find(c.laws.front()), std::string::npos);
+  EXPECT_EQ(c.pairs.front().mae.p_value, with.pairs.front().mae.p_value);
+}
+
+TEST(Recommended, IsTheSimplestLawWithinOneStandardErrorOfTheBest) {
+  const std::vector<double> best{3, 8, 1, 12, 5, 6, 2};
+  std::vector<double> near = best, far = best;
+  for (std::size_t e = 0; e < best.size(); ++e) {
+    near[e] += e % 2 == 0 ? 1.0 : -0.9; // 0.19 behind, standard error 0.39
+    far[e] += e % 2 == 0 ? 1.0 : 0.2;   // 0.66 behind, 0.16
+  }
+  const std::vector<LawErrors> laws{law("net", best), law("near", near), law("far", far)};
+  const std::vector<std::size_t> numbers{1140, 3, 1};
+  const calibrate::Recommended r = calibrate::recommend(laws, numbers);
+  EXPECT_EQ(r.law, "near");
+  EXPECT_EQ(r.best, "net");
+  EXPECT_EQ(r.numbers, 3u);
+  EXPECT_EQ(r.numbers_of_best, 1140u);
+  double mean = 0, square = 0;
+  for (std::size_t e = 0; e < best.size(); ++e)
+    mean += (near[e] - best[e]) / 7;
+  for (std::size_t e = 0; e < best.size(); ++e)
+    square += std::pow(near[e] - best[e] - mean, 2);
+  EXPECT_NEAR(r.behind_MPa, mean, 1e-12);
+  EXPECT_NEAR(r.std_error_MPa, std::sqrt(square / 6 / 7), 1e-12) << "of the mean of 7 differences";
+}
+
+TEST(Recommended, OfEquallySimpleLawsIsTheOneWithTheSmallerErrorAndTheBestWhereNoneIsSimpler) {
+  const std::vector<double> best{3, 8, 1, 12}, near{4, 7.2, 1, 12.1}, nearer{3.8, 7.3, 1, 12.1};
+  const std::vector<LawErrors> laws{law("a", best), law("b", near), law("c", nearer)};
+  EXPECT_EQ(calibrate::recommend(laws, std::vector<std::size_t>{5, 2, 2}).law, "c");
+  EXPECT_EQ(calibrate::recommend(laws, std::vector<std::size_t>{2, 2, 2}).law, "a");
+  EXPECT_EQ(calibrate::recommend(laws, std::vector<std::size_t>{1, 2, 3}).law, "a");
+  const std::vector<LawErrors> of_one_test{law("a", {3}), law("b", {3})};
+  EXPECT_EQ(calibrate::recommend(of_one_test, std::vector<std::size_t>{5, 1}).law, "a");
+}
+
+// What a fit's tolerance leaves apart is no loss, however surely.
+TEST(Recommended, TakesTheSimplerOfTwoWaysToWriteALaw) {
+  const std::vector<double> mae{13, 18, 11, 12, 15, 16, 12};
+  std::vector<double> again = mae;
+  for (double& one : again)
+    one *= 1 + 2e-5;
+  const std::vector<LawErrors> laws{law("long", mae), law("short", again)};
+  EXPECT_EQ(calibrate::recommend(laws, std::vector<std::size_t>{3, 2}).law, "short");
 }
 
 TEST(SlowComparison, IsTheSameForAnyNumberOfThreads) {

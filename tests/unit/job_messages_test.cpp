@@ -100,7 +100,8 @@ TEST(JobMessages, SayWhatTypeIsWanted) {
             "  hint: write true or false");
   EXPECT_EQ(with("[table]\n"
                  "tolerance_MPa = \"0,5\""),
-            "job.toml:4:17: error: table.tolerance_MPa must be a number > 0, not the text \"0,5\"\n"
+            "job.toml:4:17: error: table.tolerance_MPa must be \"auto\" or a number > 0, not the "
+            "text \"0,5\"\n"
             "  hint: write the number without quotes, with a decimal point");
   EXPECT_EQ(with("[output]\n"
                  "directory = 3"),
@@ -120,10 +121,12 @@ TEST(JobMessages, SayWhatTypeIsWanted) {
             "job.toml:4:9: error: table.axes.psi.range must be two numbers [from, to] with from < "
             "to, not a list of 1\n"
             "  hint: ends of the axis in the canonical unit");
-  EXPECT_EQ(with("[table.tolerance_MPa]"),
-            "job.toml:3:1: error: table.tolerance_MPa must be a number > 0, not a table\n"
-            "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
-            "made to fit it; default 0.5");
+  EXPECT_EQ(
+      with("[table.tolerance_MPa]"),
+      "job.toml:3:1: error: table.tolerance_MPa must be \"auto\" or a number > 0, not a table\n"
+      "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
+      "made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen "
+      "tests, the smaller; default \"auto\"");
   EXPECT_EQ(with("[[table]]\n"
                  "model = \"best\""),
             "job.toml:3:1: error: table must be a table, not a list of 1\n"
@@ -141,14 +144,16 @@ TEST(JobMessages, SayTheBounds) {
             "  hint: share of the EXPERIMENTS that is held out where data.validation is absent");
   EXPECT_EQ(with("[table]\n"
                  "tolerance_MPa = 0"),
-            "job.toml:4:17: error: table.tolerance_MPa must be a number > 0, not 0\n"
+            "job.toml:4:17: error: table.tolerance_MPa must be \"auto\" or a number > 0, not 0\n"
             "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
-            "made to fit it; default 0.5");
+            "made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen "
+            "tests, the smaller; default \"auto\"");
   EXPECT_EQ(with("[table]\n"
                  "tolerance_MPa = nan"),
-            "job.toml:4:17: error: table.tolerance_MPa must be a number > 0, not nan\n"
+            "job.toml:4:17: error: table.tolerance_MPa must be \"auto\" or a number > 0, not nan\n"
             "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
-            "made to fit it; default 0.5");
+            "made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen "
+            "tests, the smaller; default \"auto\"");
   EXPECT_EQ(with("[table.axes.psi]\n"
                  "nodes = 1"),
             "job.toml:4:9: error: table.axes.psi.nodes must be a whole number >= 2 and <= 1000000, "
@@ -474,9 +479,10 @@ TEST(JobMessages, NameTheOverride) {
   EXPECT_EQ(set("table.tolerance_MPa="), "--set 1: error: \"table.tolerance_MPa=\" has no value\n"
                                          "  hint: an empty text is \"\"");
   EXPECT_EQ(set("table.tolerance_MPa=-1"),
-            "--set 1: error: table.tolerance_MPa must be a number > 0, not -1\n"
+            "--set 1: error: table.tolerance_MPa must be \"auto\" or a number > 0, not -1\n"
             "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
-            "made to fit it; default 0.5");
+            "made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen "
+            "tests, the smaller; default \"auto\"");
   EXPECT_EQ(set("tabel.x=1"), "--set 1: error: unknown key 'tabel' at the top of the file\n"
                               "  hint: did you mean 'table'?");
   EXPECT_EQ(
@@ -490,9 +496,11 @@ TEST(JobMessages, NameTheOverride) {
             "--set 1: error: data.columns.psi.unit must be a text, not 3\n"
             "  hint: a text stands in quotes");
   EXPECT_EQ(set("table.tolerance_MPa=0.1 0.2"),
-            "--set 1: error: table.tolerance_MPa must be a number > 0, not the text \"0.1 0.2\"\n"
+            "--set 1: error: table.tolerance_MPa must be \"auto\" or a number > 0, not the text "
+            "\"0.1 0.2\"\n"
             "  hint: largest drift of the table from its law, anywhere in the range; the grid is "
-            "made to fit it; default 0.5");
+            "made to fit it. auto: 0.5 or a twentieth of the law's mean absolute error on unseen "
+            "tests, the smaller; default \"auto\"");
   EXPECT_EQ(set("a\n"
                 "b=1"),
             "--set 1: error: \"a\\nb=1\" is not key=value\n"

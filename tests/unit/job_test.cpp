@@ -116,6 +116,26 @@ TEST(Job, AcceptsEveryKeyOfTheContract) {
   EXPECT_THAT(job.trace.ignore, ElementsAre("room_C"));
 }
 
+TEST(Job, LeavesTheToleranceToTheLawsErrorOrTakesANumber) {
+  EXPECT_FALSE(parse_job(minimal, "job.toml").table.tolerance_MPa);
+  const auto with = [](const std::string& value) {
+    return parse_job(minimal + "[table]\ntolerance_MPa = " + value + "\n", "job.toml");
+  };
+  EXPECT_FALSE(with("\"auto\"").table.tolerance_MPa);
+  EXPECT_EQ(with("0.02").table.tolerance_MPa, 0.02);
+  EXPECT_EQ(with("2").table.tolerance_MPa, 2);
+}
+
+TEST(Job, TabulatesWhatIsRecommendedAloneAndInAList) {
+  const auto model = [](const std::string& value) {
+    return parse_job(minimal + "[table]\nmodel = " + value + "\n", "job.toml").table;
+  };
+  EXPECT_THAT(model("\"recommended\"").model, ElementsAre("recommended"));
+  EXPECT_FALSE(model("\"recommended\"").names_laws()) << "which one is for the ranking to say";
+  EXPECT_THAT(model("[\"best\", \"recommended\", \"shaw\"]").model,
+              ElementsAre("best", "recommended", "shaw"));
+}
+
 TEST(Job, ReadsEveryFurtherKey) {
   const Job job = parse_job(R"([data]
 training = ["a.csv", "b.h5"]
